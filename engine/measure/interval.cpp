@@ -50,4 +50,16 @@ Interval median_difference_interval(std::span<const double> a, std::span<const d
     return median_interval_over_pairs(a, b, [](double x, double y) { return x - y; });
 }
 
+MedianWithInterval ratio_of_medians(const MedianWithInterval& a, const MedianWithInterval& b) {
+    MedianWithInterval ratio{a.median / b.median, {}};
+    if (!(a.ci95.low > 0 && b.ci95.low > 0) || !a.ci95.is_known() || !b.ci95.is_known())
+        return ratio;
+    const double fall = std::hypot(std::log(a.median / a.ci95.low),
+                                   std::log(b.ci95.high / b.median)),
+                 rise = std::hypot(std::log(a.ci95.high / a.median),
+                                   std::log(b.median / b.ci95.low));
+    ratio.ci95 = {ratio.median * std::exp(-fall), ratio.median * std::exp(rise)};
+    return ratio;
+}
+
 } // namespace catoptric::measure

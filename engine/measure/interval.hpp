@@ -23,4 +23,16 @@ Interval median_confidence_interval(std::span<const double> values);
 Interval median_ratio_interval(std::span<const double> a, std::span<const double> b);
 Interval median_difference_interval(std::span<const double> a, std::span<const double> b);
 
+/// A median, or a ratio of medians, and its 95 % confidence interval.
+struct MedianWithInterval {
+    double median;
+    Interval ci95;
+};
+
+/// Returns the ratio a/b of two independent medians. Its interval combines both intervals by the
+/// method of variance estimates recovery, in logarithms (Zou and Donner, Construction of confidence
+/// limits about effect measures, 2008): its distances to the ratio are the roots of the sums of
+/// squares. The interval is unknown unless both intervals are known and positive.
+MedianWithInterval ratio_of_medians(const MedianWithInterval& a, const MedianWithInterval& b);
+
 } // namespace catoptric::measure

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "measure/interval.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/text.hpp"
@@ -27,11 +28,13 @@ double read_json_number_member(const Json& object, const char* name) {
     return value.is_number() ? value.get<double>() : NAN;
 }
 
-measure::Interval read_interval_of_time_summary(const Json& summary) {
+/// Reads the median of a time and its interval; NaN where they are not stated.
+measure::MedianWithInterval read_median_of_time_summary(const Json& summary) {
+    measure::MedianWithInterval time{read_json_number_member(summary, "median"), {}};
     const Json ci95 = find_json_member(summary, "ci95");
-    if (!ci95.is_array() || ci95.size() != 2 || !ci95[0].is_number() || !ci95[1].is_number())
-        return {};
-    return {ci95[0].get<double>(), ci95[1].get<double>()};
+    if (ci95.is_array() && ci95.size() == 2 && ci95[0].is_number() && ci95[1].is_number())
+        time.ci95 = {ci95[0].get<double>(), ci95[1].get<double>()};
+    return time;
 }
 
 /// Returns the document of the comparison's scene in a report of one or several scenes.
@@ -89,13 +92,6 @@ const Json* find_baseline_row_with_same_settings(const Json& rows, const Json& r
     return nullptr;
 }
 
-/// Returns the smallest and the largest possible ratio of two quantities, given their intervals.
-measure::Interval ratio_interval_of_two_intervals(const measure::Interval& now,
-                                                  const measure::Interval& before) {
-    if (!now.is_known() || !before.is_known() || !(before.low > 0)) return {};
-    return {now.low / before.high, now.high / before.low};
-}
-
 // A pass is judged only if it takes at least this share of its row's time. Times of shorter passes
 // differ from run to run by more than their intervals.
 constexpr double kMinJudgedPassShare = .05;
@@ -111,10 +107,10 @@ public:
         : limits_(limits), same_device_(is_same_device(find_json_member(before, "device"),
                                                        find_json_member(now, "device"))),
           floor_(find_noise_floor(now)) {
-        const measure::Interval control = ratio_interval_of_two_intervals(
-            read_interval_of_time_summary(find_json_member(now, "clear_ms")),
-            read_interval_of_time_summary(find_json_member(before, "clear_ms")));
-        if (control.low > 1) machine_ratio_ = control;
+        const measure::MedianWithInterval control = measure::ratio_of_medians(
+            read_median_of_time_summary(find_json_member(now, "clear_ms")),
+            read_median_of_time_summary(find_json_member(before, "clear_ms")));
+        if (control.ci95.low > 1) machine_ratio_ = control;
     }
 
     std::vector<BaselineFinding> judge_row_against_baseline(const Json& before,
@@ -199,9 +195,11 @@ private:
         const Json a = find_json_member(before, "gpu_ms"), b = find_json_member(now, "gpu_ms");
         finding.before = read_json_number_member(a, "median"),
         finding.now = read_json_number_member(b, "median");
-        measure::Interval ratio = ratio_interval_of_two_intervals(read_interval_of_time_summary(b),
-                                                                  read_interval_of_time_summary(a));
-        ratio = {ratio.low / machine_ratio_.high, ratio.high / machine_ratio_.low};
+        const measure::Interval ratio =
+            measure::ratio_of_medians(measure::ratio_of_medians(read_median_of_time_summary(b),
+                                                                read_median_of_time_summary(a)),
+                                      machine_ratio_)
+                .ci95;
         const std::string times = fmt::format("{} ms, before {} ms", format_ms(finding.now),
                                               format_ms(finding.before));
         const std::string limit = fmt::format("at most {:g} times is allowed",
@@ -215,7 +213,7 @@ private:
                                 : noisy       ? "other programs used the processors"
                                 : !ratio.is_known()
                                     ? "there are too few rounds"
-                                    : fmt::format("{:.2f} to {:.2f} times by both 95 % intervals",
+                                    : fmt::format("{:.2f} to {:.2f} times with 95 % confidence",
                                                   ratio.low, ratio.high);
         finding.says = times + ": " + why + "; " + limit;
         return finding;
@@ -224,7 +222,7 @@ private:
     BaselineLimits limits_;
     bool same_device_;
     double floor_;
-    measure::Interval machine_ratio_{1, 1}; ///< how much slower the machine itself is now
+    measure::MedianWithInterval machine_ratio_{1, {1, 1}}; ///< how much slower the machine is now
 };
 
 std::vector<const BaselineFinding*>

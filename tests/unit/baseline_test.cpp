@@ -70,14 +70,14 @@ TEST(Baseline, SlowerPassIsNamedWithItsRow) {
     now.rows[1].passes[1].gpu_ms = make_six_timed_rounds(15 * 1.2);
     now.rows[1].gpu_ms = make_six_timed_rounds(20 * 1.15);
     const std::string row = before.rows[1].label;
-    // The least ratios of the intervals are 1.2 * .98 / 1.02 = 1.153 and 1.15 * .98 / 1.02 = 1.105.
-    // Both are above the limit 1.1.
+    // Both intervals are 2 % wide to each side, so the least ratios are 1.2 / 1.0284 = 1.167 and
+    // 1.15 / 1.0284 = 1.118. Both are above the limit 1.1.
     EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
               (Names{row + ": ms", row + ": ms of search"}));
     EXPECT_THAT(format_baseline_findings(judge(now, before)),
                 HasSubstr("worse: " + row +
-                          ", ms of search: 18.0 ms, before 15.0 ms: 1.15 to 1.25 "
-                          "times by both 95 % intervals; at most 1.1 times"));
+                          ", ms of search: 18.0 ms, before 15.0 ms: 1.17 to 1.23 "
+                          "times with 95 % confidence; at most 1.1 times"));
     // With a limit of 1.3 all times are kept. With a limit of 1.2, the intervals contain the limit,
     // so the verdict is unknown.
     EXPECT_TRUE(list_quantities_with_verdict(judge(now, before, {.max_time_ratio = 1.3}),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -84,6 +85,48 @@ TEST(Summary, SummaryOfRoundsUsesTheMedianOfEachRound) {
     EXPECT_EQ(summary.samples, (std::vector<double>{1, 2, 90, 3, 5, 4, 7, 6, 8, 9, 10}));
     EXPECT_FALSE(summarise_samples(std::vector<double>{1, 2, 3, 4, 5, 6}).ci95.is_known())
         << "in one go: what disturbed one disturbed its neighbours";
+}
+
+MedianWithInterval measure_median(std::vector<double> values) {
+    const double middle = summarise_samples(values).median;
+    return {middle, median_confidence_interval(values)};
+}
+
+/// The interval of a ratio is exact for two equal intervals of 2 %, and unknown without intervals.
+TEST(RatioOfMedians, DistancesAreRootsOfSumsOfSquares) {
+    const MedianWithInterval a{20, {20 / 1.02, 20 * 1.02}}, b{10, {10 / 1.02, 10 * 1.02}};
+    const MedianWithInterval ratio = ratio_of_medians(a, b);
+    const double factor = std::exp(std::sqrt(2.0) * std::log(1.02));
+    EXPECT_NEAR(ratio.median, 2, 1e-12);
+    EXPECT_NEAR(ratio.ci95.low, 2 / factor, 1e-12);
+    EXPECT_NEAR(ratio.ci95.high, 2 * factor, 1e-12);
+    // The lower end follows from the low end of `a` and the high end of `b`.
+    const MedianWithInterval skewed = ratio_of_medians({20, {20, 25}}, {10, {8, 10}});
+    EXPECT_NEAR(skewed.ci95.low, 2, 1e-12);
+    EXPECT_NEAR(skewed.ci95.high, 2 * std::exp(std::hypot(std::log(1.25), std::log(1.25))), 1e-12);
+    EXPECT_FALSE(ratio_of_medians(a, {10, {}}).ci95.is_known());
+    EXPECT_FALSE(ratio_of_medians({20, {}}, b).ci95.is_known());
+    EXPECT_FALSE(ratio_of_medians(a, {10, {0, 11}}).ci95.is_known());
+}
+
+TEST(RatioOfMedians, IntervalContainsTheTrueRatioIn95PercentOfCases) {
+    std::mt19937 random(7);
+    for (const double spread : {.02, .3}) {
+        std::lognormal_distribution<double> now(std::log(1.15), spread), before(0, 3 * spread);
+        for (const std::size_t n : {6U, 9U, 20U}) {
+            int held = 0;
+            for (int k = 0; k < 4000; ++k) {
+                std::vector<double> a(n), b(n);
+                for (double& v : a) v = now(random);
+                for (double& v : b) v = before(random);
+                held += does_interval_hold(
+                    ratio_of_medians(measure_median(a), measure_median(b)).ci95, 1.15);
+            }
+            EXPECT_GE(held, 3770) << n << ' ' << spread; // 3800 minus two standard deviations
+            EXPECT_LT(held, 3960) << n << ' ' << spread
+                                  << ": as wide as that it tells nobody apart";
+        }
+    }
 }
 
 } // namespace
