@@ -64,6 +64,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS mesa-vulkan-drivers)
-# ffmpeg: films. libglm-dev: headers of the library. vulkan-validationlayers: --validate.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, libglm-dev, vulkan-validationlayers")
+# ffmpeg: films. libglm-dev: headers of the library. librsvg2-bin: figures as PDF. vulkan-validationlayers: --validate.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, libglm-dev, librsvg2-bin, vulkan-validationlayers")
 include(CPack)

@@ -118,10 +118,12 @@ StackedBars make_cause_bars(const Comparison& comparison) {
 }
 
 /// Writes the drawing and returns its LaTeX figure, or does nothing if there is no drawing.
-std::string write_svg_figure(const std::string& svg, const fs::path& folder,
-                             const std::string& name, const std::string& caption) {
+std::string write_drawing_figure(const std::string& svg, const fs::path& folder,
+                                 const std::string& name, const std::string& caption,
+                                 const DrawingConverter& make_pdf) {
     if (svg.empty()) return "";
     write_file(folder / (name + ".svg"), make_standalone_svg(svg));
+    if (make_pdf) make_pdf(folder / (name + ".svg"), folder / (name + ".pdf"));
     return make_latex_figure(name, make_latex_picture(name + ".pdf", 1), caption);
 }
 
@@ -215,8 +217,9 @@ void check_crop(const PixelRectangle& crop, ivec2 size) {
 }
 
 std::vector<fs::path> list_figure_files(const std::vector<std::string>& images) {
-    std::vector<fs::path> files{"figures.tex", "plot.svg",      "passes.svg",
-                                "causes.svg",  "reference.png", "crop-reference.png"};
+    std::vector<fs::path> files{"figures.tex", "reference.png", "crop-reference.png"};
+    for (const char* drawing : {"plot", "passes", "causes"})
+        for (const char* kind : {".svg", ".pdf"}) files.emplace_back(std::string(drawing) + kind);
     for (const std::string& image : images) files.emplace_back("crop-" + image + ".png");
     return files;
 }
@@ -231,26 +234,30 @@ measure::Picture enlarge_pixels(const measure::Picture& picture, const PixelRect
 }
 
 void write_figures(const Comparison& comparison, const fs::path& folder,
-                   std::optional<PixelRectangle> crop) {
+                   std::optional<PixelRectangle> crop, const DrawingConverter& make_pdf) {
     if (crop)
         check_crop(*crop, {comparison.width, comparison.height});
     else
         crop = find_pixels_where_rows_differ(comparison);
     const std::string shown = describe_compared_pictures(comparison);
-    std::string tex =
-        "% Figures of catoptric compare. Needs the packages graphicx and booktabs.\n"
-        "% Drawings as PDF: for f in *.svg; do rsvg-convert -f pdf -o \"${f%.svg}.pdf\" \"$f\"; "
-        "done\n\n";
-    tex += write_svg_figure(
+    std::string tex = "% Figures of catoptric compare. Needs the packages graphicx and booktabs.\n";
+    if (!make_pdf)
+        tex += "% Drawings as PDF: for f in *.svg; do rsvg-convert -f pdf -o \"${f%.svg}.pdf\" "
+               "\"$f\"; done\n";
+    tex += "\n";
+    tex += write_drawing_figure(
         make_comparison_plot(comparison), folder, "plot",
         "Median time of a frame against FLIP over the mirrors; " + shown +
-            ". Dashed: the Pareto front. Horizontal lines: 95\\,\\% intervals.");
-    tex += write_svg_figure(draw_stacked_bars(make_pass_time_bars(comparison)), folder, "passes",
-                            "Median time of the passes of a frame; " + shown + ".");
-    tex += write_svg_figure(draw_stacked_bars(make_cause_bars(comparison)), folder, "causes",
-                            "Squared error over the mirrors by cause. Negative shares are left "
-                            "out; " +
-                                shown + ".");
+            ". Dashed: the Pareto front. Horizontal lines: 95\\,\\% intervals.",
+        make_pdf);
+    tex += write_drawing_figure(draw_stacked_bars(make_pass_time_bars(comparison)), folder,
+                                "passes", "Median time of the passes of a frame; " + shown + ".",
+                                make_pdf);
+    tex += write_drawing_figure(draw_stacked_bars(make_cause_bars(comparison)), folder, "causes",
+                                "Squared error over the mirrors by cause. Negative shares are left "
+                                "out; " +
+                                    shown + ".",
+                                make_pdf);
     if (crop && !comparison.reference_display.pixels.empty())
         tex += write_crops(comparison, folder, *crop);
     // Written last, so that all files it names exist when a reader sees it.

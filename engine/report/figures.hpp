@@ -3,6 +3,7 @@
 #include "report/comparison.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,11 +32,16 @@ void check_crop(const PixelRectangle& crop, ivec2 size);
 /// rows' pictures.
 std::vector<std::filesystem::path> list_figure_files(const std::vector<std::string>& images);
 
+/// Reads the drawing of the first file, an SVG, and writes it to the second file, a PDF.
+using DrawingConverter =
+    std::function<void(const std::filesystem::path& svg, const std::filesystem::path& pdf)>;
+
 /// Writes figures.tex, plot.svg, passes.svg, causes.svg, reference.png and crop-ROW.png into an
-/// existing folder. Figures without data are left out. figures.tex holds a LaTeX figure with a
-/// caption for each, and a table of the rows. `crop`: pixels of the crops; empty: where rows differ
-/// most. Throws as check_crop, and `io` if a file cannot be written.
+/// existing folder, and a PDF of each SVG if there is a converter. Figures without data are left
+/// out. figures.tex holds a LaTeX figure with a caption for each, and a table of the rows. `crop`:
+/// pixels of the crops; empty: where rows differ most. Throws as check_crop and as the converter
+/// do, and `io` if a file cannot be written.
 void write_figures(const Comparison& comparison, const std::filesystem::path& folder,
-                   std::optional<PixelRectangle> crop);
+                   std::optional<PixelRectangle> crop, const DrawingConverter& make_pdf = {});
 
 } // namespace catoptric::report

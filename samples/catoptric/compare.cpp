@@ -49,7 +49,8 @@ constexpr const char* kCompareExamples = R"(Examples:
 
 SCENE comes before --techniques; several scenes make one report with a section and a front for each. The folder DIR
 gets report.html, report.md, report.json, rows.csv and images/. --figures writes plot.svg (time against FLIP),
-passes.svg (time by pass), causes.svg (with --causes), crop-*.png, and figures.tex, which says how to make PDF.)";
+passes.svg (time by pass), causes.svg (with --causes), the same as PDF if rsvg-convert is installed, crop-*.png, and
+figures.tex.)";
 
 struct CompareOptions {
     CommonOptions common; ///< options for all scenes
@@ -305,9 +306,15 @@ int run_compare(const CompareOptions& options) {
     report::create_folder(options.folder);
     for (const app::CompareRequest& request : requests)
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
-    if (!options.figures.folder.empty())
+    const report::DrawingConverter make_pdf = find_pdf_converter();
+    if (!options.figures.folder.empty()) {
         for (const app::CompareRequest& request : requests)
             report::create_folder(options.figures.scene_folder(request.images));
+        if (!make_pdf)
+            print_note_unless_quiet(manners,
+                                    "--figures: SVG without PDF: wanted the program rsvg-convert "
+                                    "in PATH (apt install librsvg2-bin), found none");
+    }
 
     ProgressPrinter progress(manners, ProgressPrinter::ProgressOffTerminal::tenths);
     CompareReportOutput output(options, requests.size());
@@ -322,7 +329,7 @@ int run_compare(const CompareOptions& options) {
         check_not_stopped(options, comparison);
         if (!options.figures.folder.empty())
             report::write_figures(comparison, options.figures.scene_folder(requests[i].images),
-                                  options.figures.crop);
+                                  options.figures.crop, make_pdf);
         gate.judge_scene_against_baseline(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||

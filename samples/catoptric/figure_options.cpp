@@ -1,9 +1,11 @@
 #include "figure_options.hpp"
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/text.hpp"
 #include "output.hpp"
 #include "parse.hpp"
+#include "programs.hpp"
 
 #include <array>
 #include <sstream>
@@ -32,13 +34,26 @@ report::PixelRectangle parse_crop(const std::string& text) {
 void add_figure_options(CommandVerb& verb, FigureOptions& options) {
     verb.option(
         "--figures", "DIR",
-        "folder for figures of a paper: plots as SVG, enlarged crops, and a LaTeX file with "
+        "folder for figures of a paper: plots as SVG and PDF, enlarged crops, and a LaTeX file with "
         "captions and a table",
         options.folder);
     verb.option("--crop", "X,Y,W,H",
                 "pixels that --figures enlarges; X,Y is their corner at the top left (where rows "
                 "differ most)",
                 [&options](const std::string& text) { options.crop = parse_crop(text); });
+}
+
+report::DrawingConverter find_pdf_converter() {
+    const std::string program = find_program_in_path("rsvg-convert");
+    if (program.empty()) return {};
+    return [program](const std::filesystem::path& svg, const std::filesystem::path& pdf) {
+        PartialFile partial(pdf);
+        run_program({program, "-f", "pdf", "-o",
+                     std::filesystem::absolute(partial.temporary_path()).string(),
+                     std::filesystem::absolute(svg).string()},
+                    pdf.string());
+        partial.replace_target();
+    };
 }
 
 void check_figure_options(const FigureOptions& options, uvec2 size) {

@@ -23,6 +23,9 @@ struct FigureOptions {
 /// Adds --figures and --crop. `options` must outlive the parsing.
 void add_figure_options(CommandVerb& verb, FigureOptions& options);
 
+/// Returns a converter that runs the program rsvg-convert; empty if PATH does not hold it.
+report::DrawingConverter find_pdf_converter();
+
 /// Throws `usage` for a crop without figures or outside a picture of this size, and
 /// `cannot_create` if the folder cannot be made.
 void check_figure_options(const FigureOptions& options, uvec2 size);

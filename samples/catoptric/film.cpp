@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/picture_file.hpp"
+#include "programs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,22 +26,6 @@ namespace {
 constexpr int kFilmStopCheckMilliseconds = 100; // milliseconds between two checks for a stop
 
 std::string describe_film_errno(int error) { return std::generic_category().message(error); }
-
-/// Returns the path of a program that PATH holds; empty: none.
-std::string find_program_in_path(const std::string& name) {
-    const char* const path = std::getenv("PATH");
-    std::string_view rest = path ? path : "";
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find(':'), rest.size());
-        const std::filesystem::path file = std::filesystem::path(rest.substr(0, end)) / name;
-        std::error_code error;
-        if (end > 0 && std::filesystem::is_regular_file(file, error) &&
-            ::access(file.c_str(), X_OK) == 0)
-            return file.string();
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return {};
-}
 
 } // namespace
 

@@ -26,6 +26,77 @@ TEST_F(CommandLineTest, FiguresOfEachSceneLieInAFolderOfTheirOwn) {
     }
 }
 
+class PdfFigures : public CommandLineTest {
+protected:
+    test::ProcessResult write_figures_with_path(const std::string& path) const {
+        test::ProcessStartOptions start = make_process_start(
+            add_small_frame_options({"compare", "-o", "out", "--figures", "paper", "--techniques",
+                                     "reuse:face=16", "raytrace:depth=3"}));
+        start.environment["PATH"] = path;
+        return test::run_process(start);
+    }
+    /// Writes a script in place of rsvg-convert and returns the PATH in which it is found.
+    std::string write_stand_in_for_converter(const std::string& then) const {
+        fs::create_directory(folder / "bin");
+        const fs::path script = folder / "bin/rsvg-convert";
+        std::ofstream(script) << "#!/bin/sh\n" << then << "\n";
+        fs::permissions(script, fs::perms::owner_all);
+        return (folder / "bin").string() + ":/usr/bin:/bin";
+    }
+};
+
+TEST_F(PdfFigures, ConverterMakesAPdfOfEachDrawing) {
+    const test::ProcessResult ended = write_figures_with_path(
+        write_stand_in_for_converter("[ \"$1 $2 $3\" = \"-f pdf -o\" ] && cp \"$5\" \"$4\""));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    for (const std::string drawing : {"plot", "passes"})
+        EXPECT_EQ(read_output_file("paper/" + drawing + ".pdf"),
+                  read_output_file("paper/" + drawing + ".svg"));
+    EXPECT_FALSE(fs::exists(folder / "paper/causes.pdf")) << "no row has causes";
+    EXPECT_THAT(read_output_file("paper/figures.tex"), Not(testing::HasSubstr("rsvg-convert")));
+}
+
+TEST_F(PdfFigures, ANoteSaysThatThereIsNoConverter) {
+    const test::ProcessResult ended = write_figures_with_path((folder / "none").string());
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("--figures: SVG without PDF: wanted the program "
+                                              "rsvg-convert in PATH (apt install librsvg2-bin), "
+                                              "found none"));
+    EXPECT_TRUE(fs::exists(folder / "paper/plot.svg"));
+    EXPECT_FALSE(fs::exists(folder / "paper/plot.pdf"));
+    EXPECT_THAT(read_output_file("paper/figures.tex"),
+                testing::HasSubstr("% Drawings as PDF: for f in *.svg; do rsvg-convert -f pdf"));
+}
+
+TEST_F(PdfFigures, FailureOfTheConverterNamesTheFileAndKeepsTheOldOne) {
+    fs::create_directory(folder / "paper");
+    write_input_file("paper/plot.pdf", "old");
+    const test::ProcessResult ended = write_figures_with_path(
+        write_stand_in_for_converter("echo no fonts >&2; echo half > \"$4\"; exit 3"));
+    EXPECT_EQ(ended.exit_code, 74) << ended.err;
+    for (const char* part : {"paper/plot.pdf: cannot be written: ",
+                             "rsvg-convert, wanted exit "
+                             "code 0, found 3",
+                             "no fonts"})
+        EXPECT_THAT(ended.err, testing::HasSubstr(part));
+    EXPECT_EQ(read_output_file("paper/plot.pdf"), "old");
+    EXPECT_FALSE(fs::exists(folder / "paper/figures.tex"));
+}
+
+/// rsvg-convert itself writes a page with the drawing's own text.
+TEST_F(PdfFigures, RsvgConvertWritesPdf) {
+    if (!fs::exists("/usr/bin/rsvg-convert"))
+        GTEST_SKIP() << "no /usr/bin/rsvg-convert: install the Debian package librsvg2-bin";
+    const test::ProcessResult ended = write_figures_with_path("/usr/bin:/bin");
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    for (const std::string drawing : {"plot", "passes"}) {
+        const std::string pdf = read_output_file("paper/" + drawing + ".pdf");
+        EXPECT_THAT(pdf, testing::StartsWith("%PDF-"));
+        EXPECT_THAT(pdf, testing::HasSubstr("%%EOF"));
+        EXPECT_THAT(pdf, testing::HasSubstr("/Font")) << "text stays text";
+    }
+}
+
 TEST_F(CommandLineTest, CropThatIsNoPartOfThePictureIsRefused) {
     const auto expect_refused = [&](const Words& more, const Words& parts) {
         Words words{"compare", "-o", "out", "--size", "32x24"};
