@@ -65,6 +65,9 @@ struct LagResults {
     double path = 0;      ///< seconds that the instants span, including the way back to the first
     double jump_from = 0; ///< seconds: half the path after the first instant
     int frame_cap = 0;    ///< most frames rendered until a still picture stops changing
+    /// FLIP over the mirrors between two reference pictures of the first instant with different
+    /// random rays. NaN if the reference has no noise or sees no mirror.
+    double reference_flip_floor = std::numeric_limits<double>::quiet_NaN();
     std::vector<LagRow> rows;
     /// Labels of requested rows without history: their frames read nothing of the last frame.
     std::vector<std::string> without_history;

@@ -97,6 +97,11 @@ std::string describe_lag_limits(const LagResults& lag) {
         "same row and instant (the scene stands until nothing changes any more), mean of {} "
         "instants; s: when FLIP is largest. Right: FLIP against the reference, moving and still.",
         lag.path, lag.seconds.size());
+    if (!std::isnan(lag.reference_flip_floor))
+        note += fmt::format(" The reference has noise: two such pictures of the first instant "
+                            "differ by a FLIP of {}. Smaller differences between distances to the "
+                            "reference tie.",
+                            format_picture_error(lag.reference_flip_floor));
     for (const LagRow& row : lag.rows)
         if (row.restless_stills > 0)
             note += fmt::format(" {}: {} stills still changed after {} frames.", row.label,
@@ -217,6 +222,7 @@ Json make_lag_json(const Comparison& comparison) {
             {"path_seconds", make_number_json(lag.path)},
             {"jump_from", make_number_json(lag.jump_from)},
             {"frame_cap", lag.frame_cap},
+            {"reference_flip_floor", make_number_json(lag.reference_flip_floor)},
             {"seconds", make_number_list_json(lag.seconds)},
             {"without_history", lag.without_history},
             {"rows", make_list_json(lag.rows,

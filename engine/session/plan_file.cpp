@@ -22,6 +22,11 @@ std::string format_json_value(const PlanJson& value) {
 }
 
 const PlanJson& find_plan_rules(const PlanJson& document, const std::string& file) {
+    if (document.is_object() && document.contains("schema"))
+        check(document["schema"].is_string() &&
+                  document["schema"].get_ref<const std::string&>().starts_with("catoptric/"),
+              Failure::bad_data, file, ".schema: wanted a schema of catoptric, found ",
+              format_json_value(document["schema"]));
     const PlanJson& list = document.is_object() && document.contains("plan") ? document["plan"]
                                                                              : document;
     check(list.is_array() && !list.empty(), Failure::bad_data, file,

@@ -131,6 +131,7 @@ public:
         begin_row_progress("reference " + lag_request_.reference, 0, path_.count * kMaxLagFrames);
         for (int i = 0; i < path_.count; ++i)
             add_reference_instant(path_.scene_seconds_of_lag_instant(i));
+        if (draws_rays_from_lobes(lag_request_.reference)) measure_reference_noise();
         for (std::size_t i = 0; i < lag_request_.base.techniques.size(); ++i) {
             measure_lag_of_technique(i);
             if (lag_request_.on_finished_row) lag_request_.on_finished_row();
@@ -198,6 +199,19 @@ private:
                                     : render_still_picture("raytrace:depth=1", seconds).part.hits;
         const measure::Mask mirrors = measure::mask_mirror_pixels(hits);
         instants_.push_back({seconds, std::move(hits), mirrors, reference.hdr});
+    }
+
+    /// Draws the first instant once more with other random rays than the reference and the rows.
+    void measure_reference_noise() {
+        std::vector<std::string> others = lag_request_.base.techniques;
+        others.push_back(lag_request_.reference);
+        const std::string second = set_lobe_seed(lag_request_.reference,
+                                                 ReferenceSeeds(others).next());
+        const ReferenceAtInstant& first = instants_.front();
+        lag_.reference_flip_floor = compute_masked_difference(
+                                        render_still_picture(second, first.seconds).part.hdr,
+                                        first.reference, first)
+                                        .flip;
     }
 
     void measure_lag_of_technique(std::size_t index) {

@@ -77,6 +77,26 @@ TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
     EXPECT_GT(lag.rows[0].after_black.max_settled, 1) << "three mirrors see each other";
 }
 
+/// The lag is the difference of pictures with the same random rays, so it is exactly 0 in a still
+/// scene, also with a noisy reference. The noise floor falls by about 2 if the rays quadruple.
+TEST(Lag, NoisyReferenceStatesItsFloorAndAddsNoLag) {
+    const auto measure_floor = [](const std::string& reference) {
+        scene::Scene room = test::make_lit_room(2, 1);
+        test::make_mirrors_rough(room, .3F);
+        app::LagRequest request = make_lag_request(room, {"secant:face=32,rough=rays,rays=2"},
+                                                   {1, 8});
+        request.reference = reference;
+        const report::LagResults lag = measure_lag_results(request);
+        expect_no_lag(lag, 1, 2);
+        return lag.reference_flip_floor;
+    };
+    const double few = measure_floor("raytrace:depth=4,rays=4"),
+                 many = measure_floor("raytrace:depth=4,rays=64");
+    EXPECT_GT(few, 0);
+    EXPECT_LT(many, few / 2) << "16 times the rays have a quarter of the noise";
+    EXPECT_TRUE(std::isnan(measure_floor("raytrace:depth=4")));
+}
+
 /// A capture shows the surroundings of the present frame. Only other mirrors in the capture come
 /// from the frame before, and this scene has no other mirror.
 TEST(Lag, SingleMovingMirrorHasNoLag) {

@@ -84,6 +84,19 @@ TEST(LagReport, ReportSaysWhereTheFrameCapWasNotEnough) {
                 HasSubstr("parallax: 2 stills still changed after 3 frames."));
 }
 
+TEST(LagReport, NoiseOfTheReferenceIsStated) {
+    Comparison made = make_comparison_with_lag();
+    const auto floor_in_json = [&] {
+        return json::parse(catoptric::report::to_json(made))["lag"]["reference_flip_floor"];
+    };
+    EXPECT_THAT(report_text_of_comparison(made), Not(HasSubstr("reference has noise")));
+    EXPECT_TRUE(floor_in_json().is_null());
+    made.lag->reference_flip_floor = .0234;
+    EXPECT_THAT(report_text_of_comparison(made),
+                HasSubstr("two such pictures of the first instant differ by a FLIP of 0.0234."));
+    EXPECT_EQ(floor_in_json(), .0234);
+}
+
 TEST(LagReport, ReportDescribesLagInSentences) {
     Comparison made = make_comparison_with_lag();
     EXPECT_THAT(
