@@ -110,9 +110,10 @@ inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostb
                                                                  "cone", "exact"};
 inline constexpr TechniqueKnob kRoughMirrorMethodKnob{
     .name = "rough",
-    .help = "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
-            "prefilter (level filtered by the GGX lobe), fast (the same with fewer samples in fine "
-            "levels), rays (searches in directions of the lobe)",
+    .help =
+        "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
+        "prefilter (level filtered by the GGX lobe), fast (the same with few fitted samples in fine "
+        "levels), rays (searches in directions of the lobe)",
     .high = 4,
     .value = 2,
     .choices = kRoughMirrorMethodChoices};

@@ -1,8 +1,9 @@
 // Filtered levels of captures. `mips` takes the mean of each square of texels: level m has faces of
 // edge / 2^m texels. `prefilter` filters the capture by the GGX lobe of each level's width
 // (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain. A lobe reaches over
-// many texels, so a level m with faces of edge / 2^(m + 1) texels shows it. `fast` takes fewer
-// samples in the fine levels, which have most of the texels.
+// many texels, so a level m with faces of edge / 2^(m + 1) texels shows it. `fast` takes few
+// samples, with fitted places and weights, in the levels of narrow lobes, which have most of the
+// texels.
 #include "reflect/rough.hpp"
 
 #include "core/content_hash.hpp"
@@ -11,6 +12,8 @@
 #include "render/box_filter.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace catoptric::reflect {
 
@@ -65,13 +68,55 @@ struct PrefilterParameters {
     std::uint32_t rings; ///< number of rings of four samples each
 };
 
-/// Returns the number of samples for a texel of a level. With `rough=fast`, each level has twice as
-/// many samples as the level below it.
-std::uint32_t count_samples_per_texel(RoughMirrorLookup rough, std::uint32_t taps,
-                                      std::uint32_t level) {
-    constexpr std::uint32_t kSamplesOfFirstLevel = 4;
-    if (rough != RoughMirrorLookup::fast || level > 16) return taps;
-    return std::min(taps, kSamplesOfFirstLevel << (level - 1));
+/// Samples of rough/fast.comp, for a lobe of width alpha 1. Angles are in alphas, and levels are
+/// relative to the level of the box-filtered chain whose texels are as wide as alpha. The four
+/// samples of a ring share its weight.
+struct FittedLobeRing {
+    float angle, level, weight;
+};
+struct FittedLobe {
+    float middle_level, middle_weight;
+    std::array<FittedLobeRing, 2> rings;
+    std::uint32_t ring_count;
+};
+/// Least squares over six pictures of edges, squares and bright lamps, filtered by lobes of 4 and 8
+/// texels. The rms error of levels, clamped to [0, 1], is .0195 and .0139. Samples of
+/// rough/prefilter.comp at equal lobes have .0324 (4 samples), .0241 (8), .0151 (16), .0124 (32).
+constexpr FittedLobe kFittedLobeOfFiveSamples{1, .561F, {{{2.777F, 2, .439F}, {}}}, 1},
+    kFittedLobeOfNineSamples{0, .101F, {{{1.314F, 1, .622F}, {3.929F, 2, .277F}}}, 2};
+constexpr float kLargestFittedAlpha = .15F; ///< wider lobes are not round in the tangent plane
+
+/// Push constants of rough/fast.comp.
+struct FastFilterParameters {
+    struct Ring {
+        float sine, cosine, from, weight;
+    };
+    std::array<Ring, 2> rings;
+    float middle_from, middle_weight;
+    std::uint32_t ring_count;
+};
+
+/// Returns the samples of a level, from 1, of a lobe of width `alpha`. Each sample is also weighted
+/// by its cosine to the lobe's axis, as in rough/prefilter.comp.
+FastFilterParameters make_fast_filter_parameters(float alpha, std::uint32_t level) {
+    const FittedLobe& lobe = level == 1 ? kFittedLobeOfFiveSamples : kFittedLobeOfNineSamples;
+    // The texels of box-filtered level m + 1 are as wide as the lobe of level m. Level 1 is mip 0.
+    const auto mip_of_wide_texels = static_cast<float>(level);
+    FastFilterParameters samples{.rings = {},
+                                 .middle_from = mip_of_wide_texels + lobe.middle_level,
+                                 .middle_weight = lobe.middle_weight,
+                                 .ring_count = lobe.ring_count};
+    float sum = lobe.middle_weight;
+    for (std::size_t i = 0; i < lobe.ring_count; ++i) {
+        const FittedLobeRing& ring = lobe.rings[i];
+        const float angle = 2 * std::atan(alpha * ring.angle / 2), cosine = std::cos(angle);
+        samples.rings[i] = {std::sin(angle), cosine, mip_of_wide_texels + ring.level,
+                            ring.weight * cosine / 4};
+        sum += ring.weight * cosine;
+    }
+    samples.middle_weight /= sum;
+    for (FastFilterParameters::Ring& ring : samples.rings) ring.weight /= sum;
+    return samples;
 }
 
 void add_prefilter_pass(graph::Graph& graph, const std::string& name,
@@ -79,20 +124,24 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
                         std::uint32_t taps) {
     graph::PassBuilder pass = graph.add_pass(name);
     for (const CaptureLevelRange& run : runs) {
-        pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
+        pass.reads(run.boxes, ResourceUse::sampled);
         render::declare_writes_of_all_mips(pass, run.levels);
     }
     pass.record([runs, rough, taps](graph::PassCommands& commands) {
-        commands.bind_pipeline(gpu::ComputePipelineState{"rough/prefilter.comp", {}});
         for (const CaptureLevelRange& run : runs) {
-            commands.bind_resource("captured", run.captured, graph::TextureFilter::linear);
-            commands.bind_resource("boxes", run.boxes, graph::TextureFilter::mipmapped);
             for (std::uint32_t level = 1; level <= run.levels.mip_count; ++level) {
+                const float alpha = f32::alpha_of_capture_level(static_cast<float>(level),
+                                                                static_cast<float>(run.face));
+                const bool is_fast = rough == RoughMirrorLookup::fast &&
+                                     alpha <= kLargestFittedAlpha;
+                commands.bind_pipeline(gpu::ComputePipelineState{
+                    is_fast ? "rough/fast.comp" : "rough/prefilter.comp", {}});
+                commands.bind_resource("boxes", run.boxes, graph::TextureFilter::mipmapped);
                 commands.bind_resource("level", run.levels.select_image_mip(level - 1));
-                commands.push_constants(
-                    PrefilterParameters{f32::alpha_of_capture_level(static_cast<float>(level),
-                                                                    static_cast<float>(run.face)),
-                                        (count_samples_per_texel(rough, taps, level) + 3) / 4});
+                if (is_fast)
+                    commands.push_constants(make_fast_filter_parameters(alpha, level));
+                else
+                    commands.push_constants(PrefilterParameters{alpha, (taps + 3) / 4});
                 const std::uint32_t groups = count_work_groups_along_edge(
                     face_edge_of_level(rough, run.face, level));
                 commands.dispatch(groups, groups, run.levels.layer_count);

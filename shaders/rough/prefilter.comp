@@ -8,9 +8,8 @@
 #include "lib/constants.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// Captured colours of one array of captures, filtered linearly.
-layout(set = 0, binding = 20) uniform samplerCubeArray captured;
-// Box-filtered levels, from 1, of the same captures, with mipmaps.
+// Box-filtered levels, from 1, of one array of captures, with mipmaps. Samples that stand for less than a texel of level 1
+// read level 1, too: on the software driver, a choice between two images costs the time of both.
 layout(set = 0, binding = 21) uniform samplerCubeArray boxes;
 layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
 layout(push_constant, scalar) uniform Push {
@@ -28,7 +27,7 @@ void main() {
     vec2 place = (2.0 * vec2(texel) + 1.0) / float(edge) - 1.0;
     vec3 normal = normalize(cube_direction(layer % 6, vec3(place, 1))), tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
-    float captured_edge = float(textureSize(captured, 0).x), texel_area = 4.0 * kPi / (6.0 * captured_edge * captured_edge);
+    float captured_edge = 2.0 * float(textureSize(boxes, 0).x), texel_area = 4.0 * kPi / (6.0 * captured_edge * captured_edge);
     vec3 sum = vec3(0);
     float weights = 0.0;
     // Samples lie on rings of four. The mean direction of a ring is the lobe's axis, so filtering does not shift the
@@ -43,7 +42,7 @@ void main() {
         float from = round(0.5 * log2(kOverlap / (float(4u * rings) * density * texel_area)));
         for (int turn = 0; turn < 4; ++turn) {
             vec4 place = vec4(drawn.x * tangent + drawn.y * bitangent + drawn.z * normal, layer / 6);
-            vec3 colour = from < 1.0 ? textureLod(captured, place, 0).rgb : textureLod(boxes, place, from - 1.0).rgb;
+            vec3 colour = textureLod(boxes, place, from - 1.0).rgb;
             count_work_once(kWorkColourLookups);
             sum += drawn.z * colour;
             weights += drawn.z;

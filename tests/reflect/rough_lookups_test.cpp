@@ -126,18 +126,17 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
     }
 }
 
-/// Tests the filtered levels of a capture. The test fails for a wrong level, for roughness in place
-/// of alpha, and for seams between faces.
-TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
+/// Compares the first levels of a capture with integrals. Prints the largest relative difference of
+/// each level, and expects it below that level's tolerance.
+void expect_levels_show_filtered_surroundings(const std::string& technique,
+                                              const std::vector<double>& tolerances) {
     constexpr double kCaptureFaceTexels = 128;
-    // Levels with faces of 4 texels are not compared, because they are too coarse to interpolate.
-    for (const auto& [level, tolerance] :
-         {std::pair(1, .06), std::pair(2, .06), std::pair(3, .07), std::pair(4, .12)}) {
+    for (std::size_t level = 1; level <= tolerances.size(); ++level) {
         const double alpha = f64::alpha_of_capture_level(double(level), kCaptureFaceTexels),
                      roughness = std::sqrt(alpha);
         const scene::Scene scene = make_ball_below_sky(float(roughness));
         const measure::Picture picture =
-            test::render_technique(scene, "reuse:face=128,taps=256", kBallPictureSize, 3).hdr;
+            test::render_technique(scene, technique, kBallPictureSize, 3).hdr;
         double largest = 0;
         test::RandomNumbers numbers(7);
         const std::vector<BallPixel> pixels = list_ball_pixels(scene, .3);
@@ -153,10 +152,19 @@ TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
                 largest = std::max(largest, std::abs(found[channel] - wanted[channel]) /
                                                 std::max(wanted[channel], .1));
         }
-        std::cout << "[ MEASURED ] level " << level << ", roughness " << roughness
-                  << ": largest relative difference " << largest << '\n';
-        EXPECT_LT(largest, tolerance) << level;
+        std::cout << "[ MEASURED ] " << technique << ", level " << level << ", roughness "
+                  << roughness << ": largest relative difference " << largest << '\n';
+        EXPECT_LT(largest, tolerances[level - 1]) << technique << ", " << level;
     }
+}
+
+/// Tests the filtered levels of a capture. The test fails for a wrong level, for roughness in place
+/// of alpha, and for seams between faces. Levels with faces of 4 texels are not compared, because
+/// they are too coarse to interpolate.
+TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
+    expect_levels_show_filtered_surroundings("reuse:face=128,taps=256", {.06, .06, .07, .12});
+    // With taps=32, .057, .112, .096 and .117 were measured.
+    expect_levels_show_filtered_surroundings("reuse:face=128,rough=fast", {.13, .08, .11, .13});
 }
 
 /// Where the capture shows all reflected surfaces, searches in many directions of the lobe must
@@ -195,7 +203,7 @@ TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
     std::cout << "[ MEASURED ] rmse: sharp " << sharp << ", boxes " << boxes << ", prefiltered "
               << filtered << ", fast " << fast << ", 64 searches " << drawn << '\n';
     EXPECT_LT(filtered, .6 * sharp);
-    EXPECT_LT(fast, boxes);
+    EXPECT_LT(fast, 1.03 * filtered);
     EXPECT_LT(drawn, .6 * sharp);
     EXPECT_LT(boxes, sharp);
 }
