@@ -76,14 +76,15 @@ struct FittedLobeRing {
 };
 struct FittedLobe {
     float middle_level, middle_weight;
-    std::array<FittedLobeRing, 2> rings;
+    std::array<FittedLobeRing, 3> rings;
     std::uint32_t ring_count;
 };
 /// Least squares over six pictures of edges, squares and bright lamps, filtered by lobes of 4 and 8
-/// texels. The rms error of levels, clamped to [0, 1], is .0195 and .0139. Samples of
-/// rough/prefilter.comp at equal lobes have .0324 (4 samples), .0241 (8), .0151 (16), .0124 (32).
-constexpr FittedLobe kFittedLobeOfFiveSamples{1, .561F, {{{2.777F, 2, .439F}, {}}}, 1},
-    kFittedLobeOfNineSamples{0, .101F, {{{1.314F, 1, .622F}, {3.929F, 2, .277F}}}, 2};
+/// texels. The rms of the error, relative to the value plus .2, is .033 and .019. Samples of
+/// rough/prefilter.comp have .041 (8 samples), .027 (16), .021 (32).
+constexpr FittedLobe kFittedLobeOfFiveSamples{1, .572F, {{{2.745F, 2, .428F}, {}, {}}}, 1},
+    kFittedLobeOfThirteenSamples{
+        0, .109F, {{{1.358F, 1, .61F}, {3.55F, 2, .198F}, {8.139F, 3, .083F}}}, 3};
 constexpr float kLargestFittedAlpha = .15F; ///< wider lobes are not round in the tangent plane
 
 /// Push constants of rough/fast.comp.
@@ -91,7 +92,7 @@ struct FastFilterParameters {
     struct Ring {
         float sine, cosine, from, weight;
     };
-    std::array<Ring, 2> rings;
+    std::array<Ring, 3> rings;
     float middle_from, middle_weight;
     std::uint32_t ring_count;
 };
@@ -99,7 +100,7 @@ struct FastFilterParameters {
 /// Returns the samples of a level, from 1, of a lobe of width `alpha`. Each sample is also weighted
 /// by its cosine to the lobe's axis, as in rough/prefilter.comp.
 FastFilterParameters make_fast_filter_parameters(float alpha, std::uint32_t level) {
-    const FittedLobe& lobe = level == 1 ? kFittedLobeOfFiveSamples : kFittedLobeOfNineSamples;
+    const FittedLobe& lobe = level == 1 ? kFittedLobeOfFiveSamples : kFittedLobeOfThirteenSamples;
     // The texels of box-filtered level m + 1 are as wide as the lobe of level m. Level 1 is mip 0.
     const auto mip_of_wide_texels = static_cast<float>(level);
     FastFilterParameters samples{.rings = {},

@@ -1,4 +1,4 @@
-// Computes one narrow level of captures for rough reflections with few samples: one in the middle, and one or two rings of
+// Computes one narrow level of captures for rough reflections with few samples: one in the middle, and up to three rings of
 // four. Radii, weights and box-filtered levels of the samples are fitted to a GGX lobe that is seen along its normal
 // (engine/reflect/rough.cpp), as in Manson and Sloan, "Fast Filtering of Reflection Probes", 2016.
 #version 460
@@ -17,9 +17,9 @@ struct LobeRing {
     float weight;       // of each of the four samples
 };
 layout(push_constant, scalar) uniform Push {
-    LobeRing rings[2]; // the first ring lies on the diagonals of the tangents, the second on the tangents
+    LobeRing rings[3]; // the first and the third ring lie on the diagonals of the tangents, the second on the tangents
     float middle_from, middle_weight;
-    uint ring_count; // 1 or 2
+    uint ring_count; // from 1
 };
 
 vec3 read_boxes(vec3 direction, float from) {
@@ -42,8 +42,9 @@ void main() {
         vec3 axis = ring.cosine * normal;
         sum += ring.weight * (read_boxes(axis + ring.sine * across, ring.from) + read_boxes(axis - ring.sine * across, ring.from) +
                               read_boxes(axis + ring.sine * along, ring.from) + read_boxes(axis - ring.sine * along, ring.from));
-        across = tangent;
-        along = bitangent;
+        vec3 turned = sqrt(0.5) * (across + along); // the next ring is turned by an eighth
+        along = sqrt(0.5) * (across - along);
+        across = turned;
     } while (++i < ring_count);
     imageStore(level, ivec3(texel, layer), vec4(min(sum, vec3(kLargestHalf)), 1));
 }
