@@ -217,6 +217,9 @@ struct Frame {
 struct DrawParameters {
     uint first_view; // index of the view that layer 0 shows
     uint ablated;     // causes of error to remove, kAblate...; used by variants with ABLATE (lib/ablate.glsl)
+    // Drawn part of the mirrored view that the mirror shows: the lowest and the highest place, from 0 to 1 across and down
+    // the picture; used by reflect/planar.frag.
+    vec4 shown;
 };
 // gl_InstanceIndex of a draw of an object is (index of the object) << kInstanceLayerBits | layer.
 const uint kInstanceLayerBits = 3u;
@@ -316,7 +319,7 @@ static_assert(sizeof(CaptureLookupTable) == 8256); // fits into 16 KiB, the unif
 static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 192);
 static_assert(sizeof(Frame) == 20);
-static_assert(sizeof(DrawParameters) == 8);
+static_assert(sizeof(DrawParameters) == 24);
 static_assert(sizeof(Placement) == 60);
 static_assert(sizeof(TraceParameters) == 28);
 static_assert(sizeof(Counters) == 28);

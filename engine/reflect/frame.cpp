@@ -163,7 +163,7 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
 }
 
 bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
-    return choice.technique->mirrored_bounces != nullptr;
+    return choice.technique->mirrored_views != nullptr;
 }
 
 /// The captures into which mirrors of this frame look, with their filtered levels for rough

@@ -1,7 +1,9 @@
 #include "reflect/mirrored.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 
 namespace catoptric::reflect {
 
@@ -14,6 +16,12 @@ struct FlatMirrorFace {
     std::uint32_t mirror = 0;
     std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
     std::vector<scene::TriangleIndexRun> triangles;
+    /// How the mirror shows its view; MirroredViewOptions::rough is none for a sharp mirror.
+    MirroredViewOptions options;
+
+    bool is_blurred() const {
+        return options.rough != KnobsSharedByTechniques::RoughMirrorLookup::none;
+    }
 };
 
 /// All mirrors that are drawn by mirrored views.
@@ -24,14 +32,31 @@ struct FlatMirrorFaceList {
     std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleIndexRun>>> bodies;
 };
 
+/// Returns the angle, radians, around the mirrored direction that holds most of the light of a
+/// rough mirror's lobe.
+double find_blur_angle(const render::GpuScene& scene, std::uint32_t mirror) {
+    const render::ObjectDrawRange& range =
+        scene.list_draw_ranges()[scene.object_index_of_mirror(mirror)];
+    // Nine tenths of the normals of a GGX lobe have a slope of up to three times its width (Walter
+    // et al. 2007, equation 35). A mirrored direction turns by twice the normal's angle.
+    constexpr double kSlopeOfMostNormals = 3;
+    return range.lobe_alpha > 0 ? 2 * std::atan(kSlopeOfMostNormals * double{range.lobe_alpha})
+                                : std::numbers::pi;
+}
+
 FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
                                                   const TechniqueOfEachMirror& assignment) {
     FlatMirrorFaceList all;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
-        if (!choice.technique->mirrored_bounces) continue;
+        if (!choice.technique->mirrored_views) continue;
         const scene::FlatFaces& flats = scene.list_flat_mirror_faces()[i];
-        const int bounces = choice.technique->mirrored_bounces(choice.settings);
+        MirroredViewOptions options = choice.technique->mirrored_views(choice.settings);
+        if (!scene.is_rough_mirror(i))
+            options.rough = KnobsSharedByTechniques::RoughMirrorLookup::none;
+        const double blur_angle = options.rough == KnobsSharedByTechniques::RoughMirrorLookup::none
+                                      ? 0
+                                      : find_blur_angle(scene, i);
         if (!flats.is_single_plane()) all.bodies.emplace_back(i, flats.bent);
         for (std::size_t k = 0; k < flats.faces.size(); ++k) {
             const scene::FlatFace& face = flats.faces[k];
@@ -39,8 +64,8 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
                 std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
                 continue;
             }
-            all.faces.push_back({i, flats.is_single_plane() ? 0 : k + 1, face.triangles});
-            all.planes.push_back(render::MirrorPlane{face, bounces});
+            all.faces.push_back({i, flats.is_single_plane() ? 0 : k + 1, face.triangles, options});
+            all.planes.push_back(render::MirrorPlane{face, options.bounces, blur_angle});
         }
     }
     return all;
@@ -57,13 +82,39 @@ std::string mirrored_view_name(const FlatMirrorFaceList& all,
            (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
 
+/// Returns the shader of a mirror that shows a view. `is_within`: the mirror is drawn into a
+/// mirrored view, which may store the distances of what the mirror shows.
+render::MirrorShader make_planar_shader(const FlatMirrorFace& face, const MirroredView& view,
+                                        const render::MirroredViewImages& made, uvec2 size,
+                                        bool is_within) {
+    render::MirrorShader look{.fragment = "reflect/planar.frag",
+                              .constants = {},
+                              .captures = {},
+                              .images = {{"mirrored", {made.colour}}},
+                              .buffers = {}};
+    if (made.distances) {
+        look.images.emplace_back("mirrored_distances", std::vector{*made.distances});
+        if (is_within) look.constants.emplace_back("passes_distances", 1u);
+    }
+    if (!face.is_blurred()) return look;
+    const dvec2 low(view.area.x, view.area.y), extent(view.area.width, view.area.height);
+    look.shown = vec4(low / dvec2(size), (low + extent) / dvec2(size));
+    look.images.emplace_back("mirrored_colours", std::vector{made.colour});
+    look.images.emplace_back("mirrored_levels", std::vector{*made.levels});
+    look.constants.emplace_back("rough", static_cast<std::uint32_t>(face.options.rough));
+    look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(face.options.law));
+    if (face.options.rough == KnobsSharedByTechniques::RoughMirrorLookup::prefilter)
+        look.constants.emplace_back("taps", face.options.taps);
+    return look;
+}
+
 /// Adds to `looks` how mirrors are drawn inside the view with index `within`, or in the picture if
 /// `within` is none. Faces with mirrored views show the images `made`. Faces without views, and
 /// triangles outside all flat faces, are black.
 render::ShaderOfEachMirror
 add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const FlatMirrorFaceList& all,
                                     const std::vector<MirroredView>& views,
-                                    const std::vector<graph::ImageHandle>& made,
+                                    const std::vector<render::MirroredViewImages>& made, uvec2 size,
                                     std::optional<std::size_t> within) {
     const auto black = static_cast<std::uint32_t>(looks.looks.size());
     looks.looks.emplace_back();
@@ -71,11 +122,8 @@ add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const Flat
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (views[i].within != within) continue;
         of_face[views[i].mirror] = static_cast<std::uint32_t>(looks.looks.size());
-        looks.looks.push_back({.fragment = "reflect/planar.frag",
-                               .constants = {},
-                               .captures = {},
-                               .images = {{"mirrored", {made[i]}}},
-                               .buffers = {}});
+        looks.looks.push_back(make_planar_shader(all.faces[views[i].mirror], views[i], made[i],
+                                                 size, within.has_value()));
     }
     for (const auto& [mirror, bent] : all.bodies) {
         looks.of_mirror[mirror] = render::ShaderOfEachMirror::kShaderChosenByPart;
@@ -105,7 +153,17 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
     int most = asked;
     const std::vector<MirroredView> views = render::find_mirrored_views(
         inputs.scene.eye(), all.planes, inputs.size, most);
-    std::vector<graph::ImageHandle> made(views.size());
+    std::vector<render::MirroredViewImageWishes> wanted;
+    for (const MirroredView& view : views) {
+        const FlatMirrorFace& face = all.faces[view.mirror];
+        // The distance of a mirror's surface is not that of what the mirror shows, so a view inside
+        // a view with distances has distances, too.
+        wanted.push_back({(face.is_blurred() &&
+                           face.options.law != KnobsSharedByTechniques::DistanceLaw::none) ||
+                              (view.within && wanted[*view.within].has_distances),
+                          face.is_blurred()});
+    }
+    std::vector<render::MirroredViewImages> made(views.size());
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.scene.add_view(views[i].view);
@@ -114,9 +172,11 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
                                                                     : std::nullopt;
         made[i] = render::add_mirrored_view(
             graph, inputs, mirrored_view_name(all, views, i), views[i], number, lighting,
-            add_mirror_shaders_of_mirrored_view(others, all, views, made, i), whole);
+            add_mirror_shaders_of_mirrored_view(others, all, views, made, inputs.size, i), whole,
+            wanted[i]);
     }
-    looks = add_mirror_shaders_of_mirrored_view(std::move(looks), all, views, made, {});
+    looks = add_mirror_shaders_of_mirrored_view(std::move(looks), all, views, made, inputs.size,
+                                                {});
     if (most == asked) return {};
     return {"flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
             std::to_string(asked) + ": a frame has at most " +

@@ -6,7 +6,7 @@
 namespace catoptric::reflect {
 
 /// Declares a mirrored view for each visible mirror whose technique has
-/// Technique::mirrored_bounces, and views within these views.
+/// Technique::mirrored_views, and views within these views.
 ///
 /// `looks` receives the mirror shading of these mirrors in the picture, with one entry per mirror.
 /// Mirrors without a view are black. `others` is the mirror shading of all other mirrors inside the

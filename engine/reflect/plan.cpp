@@ -210,7 +210,7 @@ replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         TechniqueChoice choice = assignment.choices[assignment.of_mirror[i]];
         const std::string lack = choice.technique->unfit
-                                     ? choice.technique->unfit(flats[i], tolerance)
+                                     ? choice.technique->unfit(flats[i], tolerance, choice.settings)
                                      : "";
         if (!lack.empty()) {
             const std::string asked(choice.technique->name);
@@ -218,7 +218,7 @@ replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
             assignment.reasons[i] = asked + " draws flat mirrors, and this is " + lack +
                                     ": rest=" + choice.label;
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
-        } else if (choice.technique->mirrored_bounces) {
+        } else if (choice.technique->mirrored_views) {
             const double bent = 1 - flats[i].flat_area_share(tolerance);
             if (bent >= kMinReportedNonFlatShare)
                 assignment.lacks[i] = format_share_as_percent(bent) +

@@ -1,7 +1,7 @@
 // A flat mirror shows a mirrored view: the scene from the eye mirrored in the mirror's plane,
 // clipped there (Diefenbach and Badler 1997). This is exact except at the edges of triangles. A
-// mirror seen in a mirror needs a view within a view. Of a body with flat faces, each face that the
-// eye is in front of has a view. R = 2 + views.
+// rough mirror shows its view blurred. A mirror seen in a mirror needs a view within a view. Of a
+// body with flat faces, each face that the eye is in front of has a view. R = 2 + views.
 #include "reflect/captures.hpp"
 
 #include <cstdio>
@@ -23,22 +23,58 @@ constexpr TechniqueKnob kNonPlanarMirrorTechniqueKnob{
     .help = "technique of mirrors that are not flat",
     .high = kNonPlanarMirrorTechniqueChoices.size() - 1,
     .choices = kNonPlanarMirrorTechniqueChoices};
-constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob,
-                                          kNonPlanarMirrorTechniqueKnob,
-                                          kIndirectLightKnob,
-                                          kLightProbesKnob,
-                                          kShadowKnob,
-                                          kShadowMapEdgeKnob,
-                                          kCaptureContentCacheKnob};
+constexpr std::array<std::string_view, 4> kPlanarRoughChoices{"none", "mips", "prefilter", "rest"};
+constexpr int kRoughByRest = 3; // index of "rest"
+constexpr TechniqueKnob kPlanarRoughKnob{
+    .name = "rough",
+    .help = "look-up of rough mirrors in their view: none (sharp), mips (one box-filtered level), "
+            "prefilter (directions of the GGX lobe, each in a box-filtered level), rest (the "
+            "technique of the knob rest draws rough mirrors)",
+    .high = kPlanarRoughChoices.size() - 1,
+    .value = 2,
+    .choices = kPlanarRoughChoices};
+constexpr std::array<std::string_view, 2> kPlanarLawChoices{"none", "cone"};
+constexpr TechniqueKnob kPlanarLawKnob{
+    .name = "law",
+    .help = "how the blur of a rough mirror depends on the distance of the reflected surface: none "
+            "(it does not), or cone",
+    .high = kPlanarLawChoices.size() - 1,
+    .value = 1,
+    .choices = kPlanarLawChoices};
+constexpr TechniqueKnob kPlanarTapsKnob{.name = "taps",
+                                        .help = "look-ups of each rough pixel for rough=prefilter",
+                                        .low = 1,
+                                        .high = 1024,
+                                        .value = 16};
+constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob, kNonPlanarMirrorTechniqueKnob,
+                                          kPlanarRoughKnob,   kPlanarLawKnob,
+                                          kPlanarTapsKnob,    kIndirectLightKnob,
+                                          kLightProbesKnob,   kShadowKnob,
+                                          kShadowMapEdgeKnob, kCaptureContentCacheKnob};
 
-std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance) {
+std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance,
+                                              const TechniqueKnobSettings& settings) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);
+    if (flats.is_rough && settings.knob_value_as_integer(kPlanarRoughKnob) == kRoughByRest)
+        return "rough";
     if (flats.flat_area_share(tolerance) >= scene::kMinFlatAreaShare) return {};
     char text[96] = "not flat";
     if (flats.flat_area_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatAreaShare)
         std::snprintf(text, sizeof text, "%.2g rad off a plane, where %.2g would do",
                       flats.faces.front().off, tolerance);
     return text;
+}
+
+MirroredViewOptions read_mirrored_view_options(const TechniqueKnobSettings& settings) {
+    MirroredViewOptions options;
+    options.bounces = settings.knob_value_as_integer(kPlanarBouncesKnob);
+    if (settings.knob_value_as_integer(kPlanarRoughKnob) != kRoughByRest)
+        options.rough = settings.knob_value_as_enum<KnobsSharedByTechniques::RoughMirrorLookup>(
+            kPlanarRoughKnob);
+    if (settings.knob_value_as_integer(kPlanarLawKnob) == 1)
+        options.law = KnobsSharedByTechniques::DistanceLaw::cone;
+    options.taps = static_cast<std::uint32_t>(settings.knob_value_as_integer(kPlanarTapsKnob));
+    return options;
 }
 
 constexpr std::string_view kPlanarDefaultRows[] = {"planar"};
@@ -55,10 +91,7 @@ constexpr Technique kPlanarTechnique{
         },
     .look = [](graph::Graph&, const render::FrameInputs&, const TechniqueKnobSettings&,
                const MirrorShadingInputs&) { return MirrorShadingSetup{}; },
-    .mirrored_bounces =
-        [](const TechniqueKnobSettings& settings) {
-            return settings.knob_value_as_integer(kPlanarBouncesKnob);
-        },
+    .mirrored_views = read_mirrored_view_options,
     .unfit = describe_why_mirror_is_not_planar,
     .rest = &kNonPlanarMirrorTechniqueKnob};
 const RegisteredTechnique kPlanarRegistration{kPlanarTechnique};

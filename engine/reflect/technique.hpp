@@ -98,6 +98,17 @@ struct KnobsSharedByTechniques {
     bool is_black_in_others = false; ///< capture=none
 };
 
+/// How a technique with mirrored views draws flat mirrors (reflect/mirrored.hpp).
+struct MirroredViewOptions {
+    int bounces = 0; ///< number of flat mirrors one behind the other that a mirrored view shows
+    /// How rough mirrors show their view: RoughMirrorLookup::none, mips or prefilter.
+    KnobsSharedByTechniques::RoughMirrorLookup rough =
+        KnobsSharedByTechniques::RoughMirrorLookup::none;
+    /// How the blur depends on the distance of what the view shows: DistanceLaw::none or cone.
+    KnobsSharedByTechniques::DistanceLaw law = KnobsSharedByTechniques::DistanceLaw::none;
+    std::uint32_t taps = 1; ///< look-ups of a pixel with RoughMirrorLookup::prefilter
+};
+
 /// Reads the values of the knobs that several techniques have.
 KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings);
 
@@ -124,12 +135,13 @@ struct Technique {
     MirrorShadingSetup (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
                                const TechniqueKnobSettings& settings,
                                const MirrorShadingInputs& around) = nullptr;
-    /// Returns how many flat mirrors one behind the other a mirrored view shows. Null: the
-    /// technique has no mirrored views (reflect/mirrored.hpp).
-    int (*mirrored_bounces)(const TechniqueKnobSettings& settings) = nullptr;
+    /// Returns how flat mirrors show mirrored views. Null: the technique has no mirrored views
+    /// (reflect/mirrored.hpp).
+    MirroredViewOptions (*mirrored_views)(const TechniqueKnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
     /// Null: the technique draws any mirror. `tolerance`: scene::compute_flat_tolerance.
-    std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
+    std::string (*unfit)(const scene::FlatFaces& flats, double tolerance,
+                         const TechniqueKnobSettings& settings) = nullptr;
     /// Knob whose choice is the technique that draws the mirrors that are unfit; null: `unfit` is.
     const TechniqueKnob* rest = nullptr;
     /// Returns why the technique cannot draw with these settings together, as words after

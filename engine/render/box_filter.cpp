@@ -3,6 +3,7 @@
 #include "graph/commands.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace catoptric::render {
 
@@ -14,19 +15,53 @@ void declare_writes_of_all_mips(graph::PassBuilder& pass, const ImageHandle& lev
         pass.writes(levels.select_image_mip(mip), ResourceUse::storage_write);
 }
 
+ImageHandle add_picture_levels(graph::Graph& graph, std::string name, uvec2 size) {
+    const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(size.x, size.y)));
+    return graph.add_image({std::move(name), TexelFormat::rgba16f, graph::size_at_mip(size.x, 1),
+                            graph::size_at_mip(size.y, 1), 1, false, std::max(mips, 2u) - 1});
+}
+
+namespace {
+
+/// Push constants of rough/box.comp: texels of a level and of the level below. They matter if the
+/// image has an area.
+struct BoxFilterParameters {
+    uvec2 first;           ///< the texel that the dispatch begins with
+    uvec2 lowest, highest; ///< of the level below that have a value
+};
+
+/// A range of texels; `highest` belongs to it.
+struct TexelRange {
+    uvec2 lowest{0}, highest{0};
+    uvec2 size() const { return highest - lowest + 1u; }
+};
+
+/// Returns the texels of a level of an image of this size that have a value. At level 0 these are
+/// the pixels of `area`.
+TexelRange find_defined_texels(const graph::PixelRectangle& area, uvec2 size, std::uint32_t level) {
+    const uvec2 low(area.x, area.y), end = low + uvec2(area.width, area.height);
+    if (level == 0) return {low, end - 1u};
+    const uvec2 own(graph::size_at_mip(size.x, level), graph::size_at_mip(size.y, level));
+    const uvec2 first = low * own / size, last = (end * own + size - 1u) / size;
+    return {max(first, uvec2(1)) - 1u, min(last, own - 1u)};
+}
+
+} // namespace
+
 void add_box_filter_pass(graph::Graph& graph, const std::string& name,
                          const std::vector<BoxFilteredLayers>& filtered) {
     struct LayersOfSize {
         BoxFilteredLayers layers;
-        std::uint32_t width, height; ///< of level 1, texels
+        uvec2 size; ///< of the image, texels
     };
     std::vector<LayersOfSize> runs;
     graph::PassBuilder pass = graph.add_pass(name);
     for (const BoxFilteredLayers& layers : filtered) {
         pass.reads(layers.unfiltered, ResourceUse::sampled);
+        if (layers.distances) pass.reads(*layers.distances, ResourceUse::sampled);
         declare_writes_of_all_mips(pass, layers.levels);
-        const graph::ImageDesc& desc = graph.list_images()[layers.levels.id];
-        runs.push_back({layers, desc.width, desc.height});
+        const graph::ImageDesc& desc = graph.list_images()[layers.unfiltered.id];
+        runs.push_back({layers, {desc.width, desc.height}});
     }
     pass.record([runs = std::move(runs)](graph::PassCommands& commands) {
         std::uint32_t deepest = 0;
@@ -34,18 +69,26 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
             deepest = std::max(deepest, run.layers.levels.mip_count);
         for (std::uint32_t level = 1; level <= deepest; ++level) {
             if (level > 1) commands.storage_barrier();
-            commands.bind_pipeline(
-                gpu::ComputePipelineState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
-            for (const auto& [layers, width, height] : runs) {
+            for (const auto& [layers, size] : runs) {
                 if (level > layers.levels.mip_count) continue;
+                const graph::PixelRectangle area = layers.area.value_or(
+                    graph::PixelRectangle{0, 0, size.x, size.y});
+                const TexelRange written = find_defined_texels(area, size, level),
+                                 read = find_defined_texels(area, size, level - 1);
+                commands.bind_pipeline(
+                    gpu::ComputePipelineState{"rough/box.comp",
+                                              {{"from_level", level > 1 ? 1u : 0u},
+                                               {"has_area", layers.area ? 1u : 0u},
+                                               {"has_distances", layers.distances ? 1u : 0u}}});
+                commands.push_constants(
+                    BoxFilterParameters{written.lowest, read.lowest, read.highest});
                 commands.bind_resource("unfiltered", layers.unfiltered);
+                if (layers.distances) commands.bind_resource("distances", *layers.distances);
                 commands.bind_resource("below",
                                        layers.levels.select_image_mip(std::max(level, 2u) - 2));
                 commands.bind_resource("level", layers.levels.select_image_mip(level - 1));
-                const auto groups = [&](std::uint32_t side) {
-                    return (graph::size_at_mip(side, level - 1) + 7) / 8;
-                };
-                commands.dispatch(groups(width), groups(height), layers.levels.layer_count);
+                const uvec2 groups = (written.size() + 7u) / 8u;
+                commands.dispatch(groups.x, groups.y, layers.levels.layer_count);
             }
         }
     });

@@ -128,9 +128,11 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDraw
         if (look.captures) add_capture_slot_shader_constants(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind_resource(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind_resource(name, buffer);
+        if (!look.captures) commands.bind_resource("mipmapped_texels", TextureFilter::mipmapped);
     }
     const auto& draw = drawing.peeled ? draw_objects : draw_objects_with_backface_culling;
-    draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted, parts);
+    draw(commands, scene, state, drawing.first_view, drawing.layers, {look.ablated, look.shown},
+         wanted, parts);
 }
 
 /// Returns whether back faces of the object need not be drawn in a view, because none is visible.
@@ -174,7 +176,7 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
             if (hidden == fronts && range.one_sided) continue;
             state.hidden = hidden;
             commands.bind_pipeline(state);
-            commands.push_constants(shared::DrawParameters{drawing.first_view, 0});
+            commands.push_constants(shared::DrawParameters{.first_view = drawing.first_view});
             draw_object(commands, scene, object, drawing.first_view, drawing.layers, parts);
         }
     }
@@ -194,7 +196,7 @@ void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting)
 }
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipelineState state,
-                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
+                  std::uint32_t first_view, std::uint32_t layers, const MirrorDrawNumbers& numbers,
                   const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
     std::ranges::copy(scene.shader_feature_constants(first_view),
                       std::back_inserter(state.features));
@@ -206,7 +208,8 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipe
             if (scene.list_draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
                 commands.bind_pipeline(state);
-                commands.push_constants(shared::DrawParameters{first_view, ablated});
+                commands.push_constants(
+                    shared::DrawParameters{first_view, numbers.ablated, numbers.shown});
             }
             draw_object(commands, scene, i, first_view, layers, parts);
         }
@@ -215,7 +218,7 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipe
 
 void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& scene,
                                         gpu::RasterPipelineState state, std::uint32_t first_view,
-                                        std::uint32_t layers, std::uint32_t ablated,
+                                        std::uint32_t layers, const MirrorDrawNumbers& numbers,
                                         const ObjectFilter& wanted,
                                         const OpaqueOrBlendedParts& parts) {
     const shared::View& view = scene.list_views()[first_view];
@@ -223,11 +226,11 @@ void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& 
         return can_cull_back_faces_of_object(scene, view, i);
     };
     draw_objects(
-        commands, scene, state, first_view, layers, ablated,
+        commands, scene, state, first_view, layers, numbers,
         [&](std::size_t i) { return wanted(i) && !is_front(i); }, parts);
     state.hidden = find_back_face_winding(view);
     draw_objects(
-        commands, scene, std::move(state), first_view, layers, ablated,
+        commands, scene, std::move(state), first_view, layers, numbers,
         [&](std::size_t i) { return wanted(i) && is_front(i); }, parts);
 }
 
@@ -254,7 +257,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;
         draw_objects(
-            commands, scene, diffuse, first_view, layers, 0,
+            commands, scene, diffuse, first_view, layers, {},
             [&](std::size_t i) {
                 const ObjectDrawRange& range = scene.list_draw_ranges()[i];
                 return !range.mirror && range.one_sided == one_sided && wanted(i);
@@ -298,7 +301,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
             return draw_objects(
                 commands, scene,
                 {"", kBlackMirrorShader, store, gpu::TriangleWinding::none, features}, first_view,
-                layers, 0, is_shut, whole);
+                layers, {}, is_shut, whole);
 }
 
 void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,

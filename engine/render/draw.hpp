@@ -23,19 +23,26 @@ struct OpaqueOrBlendedParts {
     std::span<const std::uint8_t> layers;
 };
 
+/// Numbers of a mirror's shader that may change from frame to frame: members of
+/// shared::DrawParameters.
+struct MirrorDrawNumbers {
+    std::uint32_t ablated = 0;
+    vec4 shown{0};
+};
+
 /// Draws the wanted objects with this fragment shader and state. Draws each object into those
 /// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
 /// space last.
 void draw_objects(graph::PassCommands& commands, const GpuScene& scene,
                   gpu::RasterPipelineState state, std::uint32_t first_view, std::uint32_t layers,
-                  std::uint32_t ablated, const ObjectFilter& wanted,
+                  const MirrorDrawNumbers& numbers, const ObjectFilter& wanted,
                   const OpaqueOrBlendedParts& parts = {});
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
 void draw_objects_with_backface_culling(graph::PassCommands& commands, const GpuScene& scene,
                                         gpu::RasterPipelineState state, std::uint32_t first_view,
-                                        std::uint32_t layers, std::uint32_t ablated,
+                                        std::uint32_t layers, const MirrorDrawNumbers& numbers,
                                         const ObjectFilter& wanted,
                                         const OpaqueOrBlendedParts& parts = {});
 

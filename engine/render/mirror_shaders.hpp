@@ -23,6 +23,7 @@ struct MirrorShader {
         buffers;               ///< further buffers that the mirror's shader reads
     bool blank = false;        ///< black, because the captures of the frame before do not exist
     std::uint32_t ablated = 0; ///< causes of error that fragment#ablate removes
+    vec4 shown{0};             ///< drawn part of a mirrored view: shared::DrawParameters::shown
 };
 
 /// A part of a mirror with its own shader.

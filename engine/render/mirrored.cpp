@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace catoptric::render {
 
@@ -62,14 +64,34 @@ ViewClipPlanes list_view_side_planes(const shared::View& view, const PictureSubr
             {part.high.y * forward - down, 0}};
 }
 
-/// Returns the pixels that a visible polygon may cover, and one more on each side.
+/// Returns a coordinate of the picture, -1 to 1 at its edges, moved by an angle. `scale`: the
+/// coordinate of the direction at 45 degrees. Returns an infinity if the direction does not point
+/// forward.
+double turn_picture_coordinate(double at, double scale, double angle) {
+    const double turned = std::atan(at / scale) + angle;
+    if (std::abs(turned) < std::numbers::pi / 2) return scale * std::tan(turned);
+    return std::copysign(std::numeric_limits<double>::infinity(), angle);
+}
+
+/// Returns the pixels that a visible polygon may cover, those up to the angle beside them, and one
+/// more on each side. An angle has no meaning in a parallel view, which gets all pixels of
+/// `within`.
 graph::PixelRectangle find_pixels_covered_by_polygon(const Polygon& polygon,
                                                      const shared::View& view, uvec2 size,
-                                                     const graph::PixelRectangle& within) {
+                                                     const graph::PixelRectangle& within,
+                                                     double blur_angle) {
+    if (blur_angle > 0 && view.parallel != 0) return within;
     dvec2 low(1), high(-1);
     for (const dvec3& v : polygon) {
         const dvec2 at = project_to_picture(view, v);
         low = min(low, at), high = max(high, at);
+    }
+    if (blur_angle > 0) {
+        const dvec2 scale(length(dvec3(view.right)), length(dvec3(view.down)));
+        for (int i = 0; i < 2; ++i) {
+            low[i] = turn_picture_coordinate(low[i], scale[i], -blur_angle);
+            high[i] = turn_picture_coordinate(high[i], scale[i], blur_angle);
+        }
     }
     const auto pixel = [&](const dvec2& at, double more) {
         return (at * .5 + .5) * dvec2(size) + more;
@@ -115,8 +137,9 @@ MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatF
 
 /// Returns the view in the mirror as `from` shows it; nothing if `from` does not show the mirror.
 std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
-                                                const scene::FlatFace& mirror, uvec2 size,
+                                                const MirrorPlane& mirror_plane, uvec2 size,
                                                 const Bounds<float>& everything) {
+    const scene::FlatFace& mirror = mirror_plane.flat;
     const double height = dot(from.eye - mirror.point, mirror.normal);
     if (std::abs(height) < kEdgeOnMirrorCosine || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
@@ -133,8 +156,8 @@ std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
     if (clip != dvec4(0)) planes.push_back(clip);
     for (const dvec4& plane : planes) polygon = clip_polygon(polygon, plane);
     if (polygon.empty()) return {};
-    const graph::PixelRectangle area = find_pixels_covered_by_polygon(polygon, from.view, size,
-                                                                      from.area);
+    const graph::PixelRectangle area = find_pixels_covered_by_polygon(
+        polygon, from.view, size, from.area, mirror_plane.blur_angle);
     if (area.width == 0) return {};
     MirroredView made = make_view_behind_plane(from, mirror, height, everything);
     made.area = area;
@@ -155,10 +178,10 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
                         int left) {
     for (std::uint32_t mirror = 0; mirror < mirrors.planes.size(); ++mirror) {
         if (!mirrors.planes[mirror] || (within && from.mirror == mirror)) continue;
-        const auto& [flat, bounces] = *mirrors.planes[mirror];
-        const int deep = within ? left : std::min(left, bounces);
+        const MirrorPlane& plane = *mirrors.planes[mirror];
+        const int deep = within ? left : std::min(left, plane.bounces);
         if (deep == 0) continue;
-        std::optional<MirroredView> made = make_view_in_mirror(from, flat, mirrors.size,
+        std::optional<MirroredView> made = make_view_in_mirror(from, plane, mirrors.size,
                                                                mirrors.everything);
         if (!made) continue;
         if (views.size() == kMaxMirroredViews) return false;

@@ -34,6 +34,9 @@ struct MirrorPlane {
     /// Number of mirror reflections, one behind the other, that the mirrored view draws; 0: the
     /// view is black.
     int bounces = 0;
+    /// Angle, radians, up to which a blurred look-up leaves the pixel of the mirror that shows it;
+    /// 0: the mirror shows the same pixel of the view.
+    double blur_angle = 0;
 };
 
 inline constexpr std::size_t kMaxMirroredViews = 1000;
@@ -41,8 +44,9 @@ inline constexpr std::size_t kMaxMirroredViews = 1000;
 /// Returns a view for each mirror that the picture shows in part, then for each mirror that these
 /// views show, and so on. A view precedes the views that it shows.
 ///
-/// Each view has the pixels that its mirror covers in the picture: the basis of the eye is
-/// mirrored, and the projection stays (Diefenbach and Badler 1997). If this gives more than
+/// Each view has the pixels that its mirror covers in the picture, and those up to `blur_angle`
+/// beside them: the basis of the eye is mirrored, and the projection stays (Diefenbach and Badler
+/// 1997). If this gives more than
 /// kMaxMirroredViews, reduces `most`, the greatest depth, until the views fit; else `most` stays.
 /// Ignores occlusion. Costs O(views * mirrors).
 std::vector<MirroredView>

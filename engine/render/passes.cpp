@@ -1,12 +1,13 @@
 #include "render/passes.hpp"
 
+#include "core/half.hpp"
 #include "render/box_filter.hpp"
 #include "render/draw.hpp"
 #include "render/pass_faces.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <limits>
 
 namespace catoptric::render {
 
@@ -82,12 +83,8 @@ OpaquePicture declare_opaque_picture(graph::Graph& graph, const FrameInputs& inp
     OpaquePicture picture{
         graph.add_image({inputs.prefix + "opaque_picture", TexelFormat::rgba32f, size.x, size.y}),
         {}};
-    const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(size.x, size.y)));
     if (has_levels)
-        picture.levels = graph.add_image({inputs.prefix + "opaque_picture/levels",
-                                          TexelFormat::rgba16f, graph::size_at_mip(size.x, 1),
-                                          graph::size_at_mip(size.y, 1), 1, false,
-                                          std::max(mips, 2u) - 1});
+        picture.levels = add_picture_levels(graph, inputs.prefix + "opaque_picture/levels", size);
     return picture;
 }
 
@@ -159,7 +156,7 @@ ImageHandle add_glass_back_pass(graph::Graph& graph, const FrameInputs& inputs) 
         .record([&scene = inputs.scene](PassCommands& commands) {
             scene.bind(commands);
             draw_objects(commands, scene, {"", "glass_back.frag", {}}, GpuScene::kCameraViewIndex,
-                         1, 0, [&](std::size_t i) {
+                         1, {}, [&](std::size_t i) {
                              const ObjectDrawRange& range = scene.list_draw_ranges()[i];
                              return range.glass && range.seen_by_camera;
                          });
@@ -167,26 +164,39 @@ ImageHandle add_glass_back_pass(graph::Graph& graph, const FrameInputs& inputs) 
     return backs;
 }
 
-ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
-                              const std::string& name, const MirroredView& view,
-                              std::uint32_t number, const ShadingLights& lighting,
-                              ShaderOfEachMirror looks, std::optional<std::uint32_t> left_out) {
+MirroredViewImages add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
+                                     const std::string& name, const MirroredView& view,
+                                     std::uint32_t number, const ShadingLights& lighting,
+                                     ShaderOfEachMirror looks,
+                                     std::optional<std::uint32_t> left_out,
+                                     const MirroredViewImageWishes& wanted) {
     const uvec2 size = inputs.size;
-    const ImageHandle hdr = graph.add_image(
-        {inputs.prefix + name, TexelFormat::rgba32f, size.x, size.y});
+    // Every device filters 16-bit floats linearly, as blurred look-ups need.
+    const ImageHandle colour = graph.add_image(
+        {inputs.prefix + name, wanted.has_levels ? TexelFormat::rgba16f : TexelFormat::rgba32f,
+         size.x, size.y});
+    MirroredViewImages images{colour, {}, {}};
     const ImageHandle depth = graph.add_image(
         {inputs.prefix + name + ".depth", TexelFormat::d32f, size.x, size.y});
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + name, PassPurpose::scene);
     declare_shader_reads(pass, lighting, looks);
-    const SceneDrawSettings drawing{
-        .first_view = number,
-        .layers = 1,
-        .lighting = lighting,
-        .looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks)),
-        .store = {},
-        .peeled = {}};
-    pass.writes(hdr, ResourceUse::colour, kClearColourBlack)
-        .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+    SceneDrawSettings drawing{.first_view = number,
+                              .layers = 1,
+                              .lighting = lighting,
+                              .looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks)),
+                              .store = {},
+                              .peeled = {}};
+    if (wanted.has_levels)
+        drawing.store.emplace_back("largest_colour", kLargestFiniteHalfFloatValue);
+    pass.writes(colour, ResourceUse::colour, kClearColourBlack);
+    if (wanted.has_distances) {
+        constexpr float kNoSurface = std::numeric_limits<float>::infinity();
+        images.distances = graph.add_image(
+            {inputs.prefix + name + ".distances", TexelFormat::r16f, size.x, size.y});
+        pass.writes(*images.distances, ResourceUse::colour,
+                    ClearValue{{kNoSurface, kNoSurface, kNoSurface, kNoSurface}});
+    }
+    pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .set_pass_render_area(view.area)
         .record([&scene = inputs.scene, drawing, view, size, left_out](PassCommands& commands) {
             const auto is_left_out = [&](std::size_t object) {
@@ -200,7 +210,12 @@ ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
             draw_blended_surfaces(commands, scene, drawing, is_shown);
         });
-    return hdr;
+    if (wanted.has_levels) {
+        images.levels = add_picture_levels(graph, inputs.prefix + name + "/levels", size);
+        add_box_filter_pass(graph, inputs.prefix + name + "/levels",
+                            {{colour, *images.levels, view.area, images.distances}});
+    }
+    return images;
 }
 
 ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, ImageHandle hdr,

@@ -86,14 +86,27 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
                                   bool is_traced = false, ShadingTracer completing_tracer = {},
                                   std::optional<GlassOverOpaquePicture> glass = {});
 
-/// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
-/// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of
-/// views. Leaves out everything behind the mirror's plane, and the mirror `left_out`, from 0.
-graph::ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
+/// The images of a mirrored view. They are defined only in the view's area.
+struct MirroredViewImages {
+    graph::ImageHandle colour; ///< linear radiance: rgba32f, or rgba16f if there are levels
+    /// Distances from the mirrored eye, r16f; infinity where no surface is.
+    std::optional<graph::ImageHandle> distances;
+    std::optional<graph::ImageHandle> levels; ///< box-filtered levels of `colour`, from level 1 on
+};
+/// The images that a mirrored view has besides its colour.
+struct MirroredViewImageWishes {
+    bool has_distances = false, has_levels = false;
+};
+
+/// Declares a pass that draws a mirrored view within its area, and a pass that computes its levels
+/// if they are wanted. `number`: of the view in the scene's list of views. Leaves out everything
+/// behind the mirror's plane, and the mirror `left_out`, from 0.
+MirroredViewImages add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                      const std::string& name, const MirroredView& view,
                                      std::uint32_t number, const ShadingLights& lighting,
                                      ShaderOfEachMirror looks,
-                                     std::optional<std::uint32_t> left_out);
+                                     std::optional<std::uint32_t> left_out,
+                                     const MirroredViewImageWishes& wanted);
 
 /// Declares the pass that makes the final picture: exposure in stops, clamp and sRGB curve,
 /// rgba8_unorm.

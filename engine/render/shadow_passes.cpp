@@ -51,7 +51,7 @@ void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t l
                 draw_objects_with_backface_culling(
                     commands, scene, {"", masked ? "masked.frag" : "", {}},
                     scene.shadow_view_index(light) + faces.first,
-                    std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
+                    std::min(faces.count, drawn - faces.first), {}, [&](std::size_t i) {
                         const ObjectDrawRange& range = scene.list_draw_ranges()[i];
                         return range.casts_shadow && range.masked == masked &&
                                !scene.shadowless_backdrops_of_light(light)[i];
@@ -125,7 +125,7 @@ ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inpu
                 gpu::RasterPipelineState state{"", "glass_shadow.frag", {}};
                 state.blending = gpu::Blending::sum;
                 draw_objects(commands, scene, state, scene.shadow_view_index(light),
-                             scene.drawn_shadow_faces(light), 0,
+                             scene.drawn_shadow_faces(light), {},
                              [&](std::size_t i) { return scene.list_draw_ranges()[i].tints; });
             });
     }

@@ -44,8 +44,10 @@ struct MirrorCostInputs {
 
 bool is_mirror_flat(const RequiredWorkModelInput& question, const scene::Object& object) {
     const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
-    return flats.flat_area_share(scene::compute_flat_tolerance(question.camera, question.size)) >=
-           1 - kMaxCurvedAreaShare;
+    // The errors of the candidates are those of sharp mirrors. A blurred view has a larger error.
+    return !flats.is_rough &&
+           flats.flat_area_share(scene::compute_flat_tolerance(question.camera, question.size)) >=
+               1 - kMaxCurvedAreaShare;
 }
 
 /// Returns how many mirrors for which `of` is true the path meets before any other mirror.

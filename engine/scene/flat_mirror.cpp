@@ -187,10 +187,14 @@ double FlatFaces::flat_area_share(double tolerance) const {
 FlatFaces find_flat_faces(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     FlatFaces none;
-    if (may_reflect_by_lobe(scene, object)) none.misfit = "rough";
     if (scene.materials[object.material].normal_texture) none.misfit = "bumpy";
     if (is_glass(scene.materials[object.material])) none.misfit = "glass";
-    if (none.misfit.empty()) return find_flat_faces(mesh, object.world_from_object);
+    none.is_rough = may_reflect_by_lobe(scene, object);
+    if (none.misfit.empty()) {
+        FlatFaces found = find_flat_faces(mesh, object.world_from_object);
+        found.is_rough = none.is_rough;
+        return found;
+    }
     if (!mesh.triangles.empty())
         none.bent = {{0, static_cast<std::uint32_t>(mesh.triangles.size())}};
     return none;

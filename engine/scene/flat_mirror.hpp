@@ -34,9 +34,10 @@ struct FlatFace {
 struct FlatFaces {
     std::vector<FlatFace> faces;        ///< largest first, at most kMaxFlatFaces
     std::vector<TriangleIndexRun> bent; ///< triangles that lie in no face, ascending
-    /// Why no mirrored view shows what the surface reflects, although it may be flat: "rough" or
-    /// "bumpy". Such a surface has no faces. Empty for any other surface.
+    /// Why no mirrored view shows what the surface reflects, although it may be flat: "bumpy" or
+    /// "glass". Such a surface has no faces. Empty for any other surface.
     std::string_view misfit = {};
+    bool is_rough = false; ///< the surface reflects by a lobe (may_reflect_by_lobe)
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
     double flat_area_share(double tolerance) const;
     /// Returns whether the whole surface lies in one plane.

@@ -26,7 +26,8 @@ std::vector<std::string> list_default_techniques(const Request& base) {
     std::vector<std::string> rows;
     for (const reflect::Technique* technique : reflect::list_techniques())
         if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {
-                return technique->unfit(flat, tolerance).empty();
+                return technique->unfit(flat, tolerance, TechniqueKnobSettings(technique->knobs))
+                    .empty();
             }))
             rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
     rows.emplace_back(reflect::kAutoPlanName);

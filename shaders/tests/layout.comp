@@ -52,7 +52,7 @@ void main() {
     for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append_result_word(s.level_width[i]);
     Frame f = frames[1];
     append_result_word(f.ambient), append_result_word(f.light_count), append_result_word(f.mirror_count), append_result_word(f.object_count), append_result_word(f.shadow_faces);
-    append_result_word(draws[1].first_view), append_result_word(draws[1].ablated);
+    append_result_word(draws[1].first_view), append_result_word(draws[1].ablated), append_result_word(draws[1].shown);
     Placement p = placements[1];
     append_result_word(p.x), append_result_word(p.y), append_result_word(p.z), append_result_word(p.centre), append_result_word(p.centre_low);
     TraceParameters t = traces[1];

@@ -59,8 +59,8 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
                         if (range.mirror != mirrors_now ||
                             i == gpu_scene.object_index_of_mirror(mirror))
                             continue;
-                        commands.push_constants(
-                            shared::DrawParameters{gpu_scene.capture_view_index(mirror), 0});
+                        commands.push_constants(shared::DrawParameters{
+                            .first_view = gpu_scene.capture_view_index(mirror)});
                         gpu_scene.bind_vertices(commands, i);
                         commands.draw(range.first_index, range.index_count, 0, 6,
                                       static_cast<std::uint32_t>(i) << shared::kInstanceLayerBits);

@@ -75,6 +75,7 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(Frame, shadow_faces),
                                                            MEMBER(DrawParameters, first_view),
                                                            MEMBER(DrawParameters, ablated),
+                                                           MEMBER(DrawParameters, shown),
                                                            MEMBER(Placement, x),
                                                            MEMBER(Placement, y),
                                                            MEMBER(Placement, z),

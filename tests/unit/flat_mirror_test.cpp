@@ -25,7 +25,7 @@ const dmat4 kTurnedObjectPlacement = glm::rotate(glm::translate(dmat4(1), dvec3(
                                                  glm::normalize(dvec3(1, 2, -1))) *
                                      glm::scale(dmat4(1), dvec3(3, .5, 2));
 
-TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
+TEST(FlatMirror, RoughMirrorHasFlatFacesAndBumpyMirrorHasNone) {
     scene::Scene scene;
     scene.mirror_max_roughness = .6f;
     const std::size_t metal = scene::add_material(
@@ -33,12 +33,13 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
     scene::add_mesh(scene, make_flat_board(), metal);
     scene.objects.front().mirror = true;
     const scene::FlatFaces rough = scene::find_flat_faces(scene, scene.objects.front());
-    EXPECT_EQ(rough.misfit, "rough");
-    EXPECT_TRUE(rough.faces.empty());
-    EXPECT_EQ(rough.bent, (std::vector<scene::TriangleIndexRun>{{0, 2}}));
+    EXPECT_EQ(rough.misfit, "");
+    EXPECT_TRUE(rough.is_rough);
+    EXPECT_TRUE(rough.is_single_plane());
     scene.materials.front().roughness = .03f;
     const scene::FlatFaces sharp = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(sharp.misfit, "");
+    EXPECT_FALSE(sharp.is_rough);
     EXPECT_TRUE(sharp.is_single_plane());
     scene.materials.front().normal_texture = scene::Texture{
         .image = std::make_shared<scene::Image>(
@@ -46,6 +47,7 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
     const scene::FlatFaces bumpy = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(bumpy.misfit, "bumpy");
     EXPECT_TRUE(bumpy.faces.empty());
+    EXPECT_EQ(bumpy.bent, (std::vector<scene::TriangleIndexRun>{{0, 2}}));
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
