@@ -119,7 +119,7 @@ inline constexpr TechniqueKnob kRoughMirrorMethodKnob{
     .choices = kRoughMirrorMethodChoices};
 inline constexpr TechniqueKnob kFilterTapsKnob{
     .name = "taps",
-    .help = "samples of each texel for rough=prefilter, and most for fast",
+    .help = "samples of each texel for rough=prefilter, and for wide lobes of fast",
     .low = 1,
     .high = 2048,
     .value = 32};

@@ -80,7 +80,7 @@ struct KnobsSharedByTechniques {
     RoughMirrorLookup rough = RoughMirrorLookup::none;
     DistanceLaw law = DistanceLaw::none;
     std::uint32_t taps =
-        0; ///< most samples of each texel for RoughMirrorLookup::prefilter and fast
+        0; ///< samples of each texel for RoughMirrorLookup::prefilter, and for wide lobes of fast
     std::uint32_t lobe_rays = 1; ///< directions of each rough pixel
     /// Returns whether rough surfaces are looked up in filtered levels of captures.
     bool uses_filtered_levels() const {

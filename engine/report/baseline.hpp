@@ -44,7 +44,7 @@ void check_baseline_matches_comparison(const Comparison& comparison, const std::
 /// row's time, are `worse` only if the 95 % interval of the ratio of both medians lies above the
 /// limit as a whole. Clearing the cube maps is constant work. If its time has risen with
 /// confidence, the machine is slower, and all times are divided by the same ratio. Times are
-/// `unknown` on another device, if a row was noisy, or if the intervals contain the limit. Counted
+/// `unknown` on another device, if a row was noisy, or if the interval contains the limit. Counted
 /// work, if both reports have it, must not grow by more than the same factor. A rise of FLIP below
 /// the noise of the reference counts as kept. Throws as check_baseline_matches_comparison does.
 std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison& comparison,

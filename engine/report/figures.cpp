@@ -123,7 +123,11 @@ std::string write_drawing_figure(const std::string& svg, const fs::path& folder,
                                  const DrawingConverter& make_pdf) {
     if (svg.empty()) return "";
     write_file(folder / (name + ".svg"), make_standalone_svg(svg));
-    if (make_pdf) make_pdf(folder / (name + ".svg"), folder / (name + ".pdf"));
+    if (make_pdf)
+        make_pdf(folder / (name + ".svg"), folder / (name + ".pdf"));
+    else
+        fs::remove(folder /
+                   (name + ".pdf")); // figures.tex would show the drawing of an earlier run
     return make_latex_figure(name, make_latex_picture(name + ".pdf", 1), caption);
 }
 

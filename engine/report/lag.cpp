@@ -98,9 +98,9 @@ std::string describe_lag_limits(const LagResults& lag) {
         "instants; s: when FLIP is largest. Right: FLIP against the reference, moving and still.",
         lag.path, lag.seconds.size());
     if (!std::isnan(lag.reference_flip_floor))
-        note += fmt::format(" The reference has noise: two such pictures of the first instant "
-                            "differ by a FLIP of {}. Smaller differences between distances to the "
-                            "reference tie.",
+        note += fmt::format(" Two references of the first instant with different random rays "
+                            "differ by a FLIP of {}. Rows tie whose FLIP against the reference "
+                            "differs by less.",
                             format_picture_error(lag.reference_flip_floor));
     for (const LagRow& row : lag.rows)
         if (row.restless_stills > 0)

@@ -25,7 +25,8 @@ const PlanJson& find_plan_rules(const PlanJson& document, const std::string& fil
     if (document.is_object() && document.contains("schema"))
         check(document["schema"].is_string() &&
                   document["schema"].get_ref<const std::string&>().starts_with("catoptric/"),
-              Failure::bad_data, file, ".schema: wanted a schema of catoptric, found ",
+              Failure::bad_data, file,
+              ".schema: wanted one that begins with \"catoptric/\", found ",
               format_json_value(document["schema"]));
     const PlanJson& list = document.is_object() && document.contains("plan") ? document["plan"]
                                                                              : document;

@@ -11,6 +11,7 @@
 #include "scene/pose.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
+#include "study/reference_cache.hpp"
 #include "study/reference_seeds.hpp"
 #include "study/study.hpp"
 
@@ -128,10 +129,13 @@ public:
         lag_.path = path_.path_length_seconds();
         lag_.jump_from = path_.start + path_.path_length_seconds() / 2;
         lag_.frame_cap = kMaxLagFrames;
-        begin_row_progress("reference " + lag_request_.reference, 0, path_.count * kMaxLagFrames);
+        const bool has_noise = does_reference_have_noise(lag_request_.reference,
+                                                         lag_request_.base.scene);
+        begin_row_progress("reference " + lag_request_.reference, 0,
+                           (path_.count + (has_noise ? 1 : 0)) * kMaxLagFrames);
         for (int i = 0; i < path_.count; ++i)
             add_reference_instant(path_.scene_seconds_of_lag_instant(i));
-        if (draws_rays_from_lobes(lag_request_.reference)) measure_reference_noise();
+        if (has_noise) measure_reference_noise();
         for (std::size_t i = 0; i < lag_request_.base.techniques.size(); ++i) {
             measure_lag_of_technique(i);
             if (lag_request_.on_finished_row) lag_request_.on_finished_row();

@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <optional>
 
@@ -320,6 +321,7 @@ int run_compare(const CompareOptions& options) {
     CompareReportOutput output(options, requests.size());
     std::vector<std::string> broken;
     bool keeps_budgets = true;
+    std::exception_ptr figure_failure; ///< the first failure to write figures
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const report::Comparison comparison = compare_scene(engine, requests[i], i, options,
                                                             progress, output, gate);
@@ -327,9 +329,13 @@ int run_compare(const CompareOptions& options) {
         if (!comparison.stopped && i + 1 == requests.size())
             print_note_unless_quiet(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
-        if (!options.figures.folder.empty())
-            report::write_figures(comparison, options.figures.scene_folder(requests[i].images),
-                                  options.figures.crop, make_pdf);
+        try {
+            if (!options.figures.folder.empty())
+                report::write_figures(comparison, options.figures.scene_folder(requests[i].images),
+                                      options.figures.crop, make_pdf);
+        } catch (const Error&) { // the other scenes and the verdict matter more
+            if (!figure_failure) figure_failure = std::current_exception();
+        }
         gate.judge_scene_against_baseline(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||
@@ -338,6 +344,7 @@ int run_compare(const CompareOptions& options) {
     }
     if (const std::string verdict = gate.finish(); !verdict.empty())
         manners.json ? print_message(verdict) : print_result(verdict);
+    if (figure_failure) std::rethrow_exception(figure_failure);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
     if (options.common.device.validate) engine.check_validation();

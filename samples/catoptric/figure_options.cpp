@@ -3,9 +3,9 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
+#include "external_program.hpp"
 #include "output.hpp"
 #include "parse.hpp"
-#include "programs.hpp"
 
 #include <array>
 #include <sstream>
@@ -34,8 +34,8 @@ report::PixelRectangle parse_crop(const std::string& text) {
 void add_figure_options(CommandVerb& verb, FigureOptions& options) {
     verb.option(
         "--figures", "DIR",
-        "folder for figures of a paper: plots as SVG and PDF, enlarged crops, and a LaTeX file with "
-        "captions and a table",
+        "folder for figures of a paper: plots as SVG and, with rsvg-convert, as PDF; enlarged crops; and "
+        "a LaTeX file with captions and a table",
         options.folder);
     verb.option("--crop", "X,Y,W,H",
                 "pixels that --figures enlarges; X,Y is their corner at the top left (where rows "
@@ -48,10 +48,11 @@ report::DrawingConverter find_pdf_converter() {
     if (program.empty()) return {};
     return [program](const std::filesystem::path& svg, const std::filesystem::path& pdf) {
         PartialFile partial(pdf);
-        run_program({program, "-f", "pdf", "-o",
-                     std::filesystem::absolute(partial.temporary_path()).string(),
-                     std::filesystem::absolute(svg).string()},
-                    pdf.string());
+        run_external_program({program, "-f", "pdf", "-o",
+                              std::filesystem::absolute(partial.temporary_path()).string(),
+                              std::filesystem::absolute(svg).string()},
+                             pdf.string());
+        partial.copy_mode_of_target();
         partial.replace_target();
     };
 }

@@ -1,16 +1,13 @@
 #include "film.hpp"
 
 #include "core/error.hpp"
+#include "external_program.hpp"
 #include "measure/picture_file.hpp"
-#include "programs.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
-#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>

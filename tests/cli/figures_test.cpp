@@ -57,6 +57,8 @@ TEST_F(PdfFigures, ConverterMakesAPdfOfEachDrawing) {
 }
 
 TEST_F(PdfFigures, ANoteSaysThatThereIsNoConverter) {
+    fs::create_directory(folder / "paper");
+    write_input_file("paper/plot.pdf", "the drawing of an earlier run");
     const test::ProcessResult ended = write_figures_with_path((folder / "none").string());
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("--figures: SVG without PDF: wanted the program "
@@ -81,6 +83,18 @@ TEST_F(PdfFigures, FailureOfTheConverterNamesTheFileAndKeepsTheOldOne) {
         EXPECT_THAT(ended.err, testing::HasSubstr(part));
     EXPECT_EQ(read_output_file("paper/plot.pdf"), "old");
     EXPECT_FALSE(fs::exists(folder / "paper/figures.tex"));
+}
+
+/// A failure to write figures does not keep the other scenes from being measured.
+TEST_F(PdfFigures, FailureOfTheConverterKeepsTheReportOfAllScenes) {
+    test::ProcessStartOptions start = make_process_start(
+        add_small_frame_options({"compare", "cornell-mirrors", "flat", "-o", "out", "--figures",
+                                 "paper", "--techniques", "reuse:face=16"}));
+    start.environment["PATH"] = write_stand_in_for_converter("exit 3");
+    const test::ProcessResult ended = test::run_process(start);
+    EXPECT_EQ(ended.exit_code, 74) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("paper/1-cornell-mirrors/plot.pdf"));
+    EXPECT_EQ(nlohmann::json::parse(read_output_file("out/report.json"))["scenes"].size(), 2u);
 }
 
 /// rsvg-convert itself writes a page with the drawing's own text.

@@ -32,12 +32,12 @@ using namespace catoptric;
 
 constexpr uvec2 kTimedSize{512, 512}; // pictures for counted work
 constexpr int kChoicesPerScene = 200;
-constexpr double kShare = .95; // of views, which a certificate states
+constexpr int kTrainingCamerasPerInstant = 3; // of a choice in a moving scene
+constexpr double kShare = .95;                // of views, which a certificate states
 
 /// The number of recorded views of a bank, and the side of their square pictures, pixels.
 struct BankSize {
-    int instants = 24, cameras_per_instant = 10;
-    unsigned side = 48;
+    int instants = 24, cameras_per_instant = 10, side = 48;
 };
 
 /// Returns the size in the environment variable CATOPTRIC_TEST_BANK, such as "100 40 96" for 100
@@ -46,11 +46,14 @@ BankSize read_bank_size() {
     BankSize size;
     if (const char* text = std::getenv("CATOPTRIC_TEST_BANK")) {
         std::istringstream words(text);
-        if (!(words >> size.instants >> size.cameras_per_instant >> size.side) || size.side == 0 ||
-            size.instants < 1 || size.cameras_per_instant < 1)
+        std::string rest;
+        if (!(words >> size.instants >> size.cameras_per_instant >> size.side) || words >> rest ||
+            size.side < 8 || size.side > 4096 || size.instants < 1 ||
+            size.cameras_per_instant < kTrainingCamerasPerInstant)
             throw std::invalid_argument(
-                std::string("CATOPTRIC_TEST_BANK: wanted 'INSTANTS CAMERAS SIDE', found '") + text +
-                "'");
+                std::string("CATOPTRIC_TEST_BANK: wanted 'INSTANTS CAMERAS SIDE', at least 1, 3 "
+                            "and 8, found '") +
+                text + "'");
     }
     return size;
 }
@@ -126,7 +129,7 @@ ViewBank record_view_bank(const char* name) {
     request.studies = {{"work"}};
     bank.comparison = app::compare(test::get_test_engine(), request);
     EXPECT_FALSE(bank.comparison.stopped);
-    request.base.size = {size.side, size.side};
+    request.base.size = uvec2(static_cast<unsigned>(size.side));
     request.studies = {{"views", views}};
     request.cameras_per_instant = size.cameras_per_instant;
     measure::Comparison drawn = app::compare(test::get_test_engine(), request);

@@ -78,7 +78,8 @@ TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
 }
 
 /// The lag is the difference of pictures with the same random rays, so it is exactly 0 in a still
-/// scene, also with a noisy reference. The noise floor falls by about 2 if the rays quadruple.
+/// scene, also with a noisy reference. The noise halves if the number of rays is multiplied by
+/// four.
 TEST(Lag, NoisyReferenceStatesItsFloorAndAddsNoLag) {
     const auto measure_floor = [](const std::string& reference) {
         scene::Scene room = test::make_lit_room(2, 1);
@@ -95,6 +96,9 @@ TEST(Lag, NoisyReferenceStatesItsFloorAndAddsNoLag) {
     EXPECT_GT(few, 0);
     EXPECT_LT(many, few / 2) << "16 times the rays have a quarter of the noise";
     EXPECT_TRUE(std::isnan(measure_floor("raytrace:depth=4")));
+    app::LagRequest sharp = make_lag_request(test::make_lit_room(2, 1), {"reuse:face=32"}, {1});
+    sharp.reference = "raytrace:depth=4,rays=4";
+    EXPECT_TRUE(std::isnan(measure_lag_results(sharp).reference_flip_floor)) << "no rough surface";
 }
 
 /// A capture shows the surroundings of the present frame. Only other mirrors in the capture come

@@ -151,7 +151,7 @@ TEST_F(PlanFileTest, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {
     bad("[]", {"wanted a list of rules"});
     bad(R"({"plans": []})", {"wanted a list of rules", "an object"});
     bad(R"({"schema": "other/1", "plan": [{"mirror": "*", "technique": "reuse"}]})",
-        {".schema: wanted a schema of catoptric", "\"other/1\""});
+        {".schema: wanted one that begins with \"catoptric/\"", "\"other/1\""});
     bad(R"({"schema": 1, "plan": [{"mirror": "*", "technique": "reuse"}]})", {".schema", "1"});
     bad(R"([{"mirror": -1, "technique": "reuse"}])",
         {"plan[0].mirror: wanted a mirror's number or a pattern, found -1"});

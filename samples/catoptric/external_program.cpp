@@ -1,7 +1,8 @@
-#include "programs.hpp"
+#include "external_program.hpp"
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -30,7 +31,7 @@ std::string find_program_in_path(const std::string& name) {
     return {};
 }
 
-void run_program(const std::vector<std::string>& words, const std::string& name) {
+void run_external_program(const std::vector<std::string>& words, const std::string& name) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -39,9 +40,14 @@ void run_program(const std::vector<std::string>& words, const std::string& name)
     // Our stdin may be a scene, and our stdout may carry JSON.
     ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    // In a process group of its own, a signal from the terminal stops this program only.
+    posix_spawnattr_t attributes;
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t process = 0;
-    const int error = ::posix_spawn(&process, words.front().c_str(), &actions, nullptr,
+    const int error = ::posix_spawn(&process, words.front().c_str(), &actions, &attributes,
                                     arguments.data(), environ);
+    ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&actions);
     check(error == 0, Failure::missing_input, words.front(),
           ": cannot be run: ", std::generic_category().message(error));
