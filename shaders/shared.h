@@ -50,15 +50,22 @@ struct TextureUse {
 const uint kSrgbTableWords = 256u, kLobeTableEdge = 32u;
 const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFlag = 64u;
 
-// The factors of a material: numbers that members of scene::Material hold under the same names. A new factor needs its
-// name here, and its row in engine/scene/material_facts.hpp.
+// The factors of a material, one row each: FACTOR(name, extension, key, gltf_default, largest). scene::Material has a
+// member of this name. glTF keeps the value in the extension's JSON object, or in pbrMetallicRoughness, under this key.
+// Without the key the value is gltf_default. Values range from 0 to largest.
 #define MATERIAL_FACTORS(FACTOR)                                                                                       \
-    FACTOR(metallic)  /* share of the surface that is metal, 0 to 1 */                                                 \
-    FACTOR(roughness) /* glTF roughness, 0 to 1 */                                                                     \
-    FACTOR(transmission) /* share of light not reflected that passes through, 0 to 1 */                               \
-    FACTOR(dispersion) /* of glass: 20 divided by the Abbe number; 0: all colours bend alike */                        \
-    FACTOR(clearcoat) /* share of the surface under a clear coat, 0 to 1 */                                            \
-    FACTOR(clearcoat_roughness) /* glTF roughness of the coat, 0 to 1 */
+    /* share of the surface that is metal */                                                                           \
+    FACTOR(metallic, pbrMetallicRoughness, metallicFactor, 1.0f, 1.0f)                                                 \
+    /* root of the lobe's alpha */                                                                                     \
+    FACTOR(roughness, pbrMetallicRoughness, roughnessFactor, 1.0f, 1.0f)                                               \
+    /* share of the surface under a clear coat */                                                                      \
+    FACTOR(clearcoat, KHR_materials_clearcoat, clearcoatFactor, 0.0f, 1.0f)                                            \
+    /* glTF roughness of the coat */                                                                                   \
+    FACTOR(clearcoat_roughness, KHR_materials_clearcoat, clearcoatRoughnessFactor, 0.0f, 1.0f)                         \
+    /* share of light not reflected that passes through */                                                             \
+    FACTOR(transmission, KHR_materials_transmission, transmissionFactor, 0.0f, 1.0f)                                   \
+    /* of glass: 20 divided by the Abbe number; 0: all colours bend alike */                                           \
+    FACTOR(dispersion, KHR_materials_dispersion, dispersion, 0.0f, 3.4e38f)
 
 // The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
 struct IN_QUADS MaterialParameters {
@@ -76,11 +83,11 @@ struct IN_QUADS MaterialParameters {
     float normal_scale;     // factor of the texture's x and y
     vec3 absorption;        // in solid glass, per scene unit: light falls by e^-absorption
     float ior;              // index of refraction of glass
-#define DECLARE_FACTOR(name) float name;
+#define DECLARE_FACTOR(name, extension, key, gltf_default, largest) float name;
     MATERIAL_FACTORS(DECLARE_FACTOR)
 #undef DECLARE_FACTOR
 };
-#define ADD_ONE_PER_FACTOR(name) +1u
+#define ADD_ONE_PER_FACTOR(name, extension, key, gltf_default, largest) +1u
 const uint kMaterialWordsBeforeFactors = 52u; // words of a MaterialParameters before its factors
 const uint kWordsPerMaterial = kMaterialWordsBeforeFactors MATERIAL_FACTORS(ADD_ONE_PER_FACTOR);
 #undef ADD_ONE_PER_FACTOR

@@ -67,7 +67,7 @@ shared::MaterialParameters make_material_parameters(const scene::Material& mater
                    flag_if_set(range.turns, shared::kMaterialTwoSidedFlag) |
                    flag_if_set(range.glass, shared::kMaterialGlassFlag) |
                    flag_if_set(range.blended, shared::kMaterialBlendedFlag);
-#define COPY_FACTOR(name) detail.name = material.name;
+#define COPY_FACTOR(name, extension, key, gltf_default, largest) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
     detail.alpha = material.alpha, detail.alpha_cutoff = material.alpha_cutoff;

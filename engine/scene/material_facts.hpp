@@ -1,35 +1,30 @@
 #pragma once
 
 #include "scene/material.hpp"
+#include "shared.h"
 
-#include <limits>
 #include <string_view>
 
 // Lists of the members of a material, and functions that derive properties from them.
 namespace catoptric::scene {
 
-/// A number that scales a property of a material. glTF reading and writing, `info` and
-/// the device's MaterialParameters (shaders/shared.h) follow from the rows of kMaterialFactors.
+/// A number that scales a property of a material. glTF reading and writing, `info`, hashes and the
+/// device's MaterialParameters follow from the rows of MATERIAL_FACTORS (shaders/shared.h).
 struct MaterialFactor {
-    std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
+    std::string_view name;
     float Material::*member;
     std::string_view extension; ///< glTF extension, or kCoreMaterialFactors
     std::string_view key;       ///< name of the value in the extension's JSON object
     float gltf_default;         ///< value without this key
-    float largest = 1;          ///< values range from 0 to this
+    float largest;              ///< values range from 0 to this
 };
 /// The part of a glTF material that holds the factors of glTF itself.
 inline constexpr std::string_view kCoreMaterialFactors = "pbrMetallicRoughness";
 inline constexpr MaterialFactor kMaterialFactors[] = {
-    {"metallic", &Material::metallic, kCoreMaterialFactors, "metallicFactor", 1},
-    {"roughness", &Material::roughness, kCoreMaterialFactors, "roughnessFactor", 1},
-    {"transmission", &Material::transmission, "KHR_materials_transmission", "transmissionFactor",
-     0},
-    {"dispersion", &Material::dispersion, "KHR_materials_dispersion", "dispersion", 0,
-     std::numeric_limits<float>::max()},
-    {"clearcoat", &Material::clearcoat, "KHR_materials_clearcoat", "clearcoatFactor", 0},
-    {"clearcoat_roughness", &Material::clearcoat_roughness, "KHR_materials_clearcoat",
-     "clearcoatRoughnessFactor", 0},
+#define MAKE_FACTOR(name, extension, key, gltf_default, largest)                                   \
+    {#name, &Material::name, #extension, #key, gltf_default, largest},
+    MATERIAL_FACTORS(MAKE_FACTOR)
+#undef MAKE_FACTOR
 };
 
 /// Reflectance of glass and plastic seen head-on: that of the index of refraction 1.5, which glTF
@@ -37,21 +32,24 @@ inline constexpr MaterialFactor kMaterialFactors[] = {
 inline constexpr float kUsualDielectricF0 = .04f;
 
 /// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
-/// this list; a member that is missing here does not compile.
+/// this list; a member that is missing here and in MATERIAL_FACTORS does not compile.
 template <typename Visit>
 inline void visit_material_members(const Material& material, Visit&& visit) {
+#define NAME_FACTOR(name, extension, key, gltf_default, largest) name,
+#define VISIT_FACTOR(name, extension, key, gltf_default, largest) visit(name);
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
-                 metallic, roughness, clearcoat, clearcoat_roughness, dielectric_f0, dielectric_f90,
-                 transmission, ior, dispersion, solid, absorption, alpha, alpha_cutoff, blended,
-                 albedo_texture, emission_texture, roughness_texture, normal_texture, normal_scale,
-                 light] = material;
+                 MATERIAL_FACTORS(NAME_FACTOR) dielectric_f0, dielectric_f90, ior, solid,
+                 absorption, alpha, alpha_cutoff, blended, albedo_texture, emission_texture,
+                 roughness_texture, normal_texture, normal_scale, light] = material;
     visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
-    visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
-    visit(clearcoat), visit(clearcoat_roughness), visit(dielectric_f0), visit(dielectric_f90);
-    visit(transmission), visit(ior), visit(dispersion), visit(solid);
+    visit(two_sided), visit(front_only), visit(unlit);
+    MATERIAL_FACTORS(VISIT_FACTOR)
+    visit(dielectric_f0), visit(dielectric_f90), visit(ior), visit(solid);
     visit(absorption), visit(alpha), visit(alpha_cutoff), visit(blended);
     visit(albedo_texture), visit(emission_texture), visit(roughness_texture);
     visit(normal_texture), visit(normal_scale), visit(light);
+#undef NAME_FACTOR
+#undef VISIT_FACTOR
 }
 
 /// Returns whether camera and reflected rays see the surface only from its front. This holds for

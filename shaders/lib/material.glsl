@@ -38,7 +38,7 @@ MaterialParameters read_material_parameters(uint detail) {
     result.normal_scale = f11.w;
     result.absorption = f12.xyz, result.ior = f12.w;
     uint word = kMaterialWordsBeforeFactors;
-#define READ_FACTOR(name) result.name = uintBitsToFloat(read_material_word(detail, word++));
+#define READ_FACTOR(name, extension, key, gltf_default, largest) result.name = uintBitsToFloat(read_material_word(detail, word++));
     MATERIAL_FACTORS(READ_FACTOR)
 #undef READ_FACTOR
     return result;

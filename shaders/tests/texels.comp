@@ -29,7 +29,7 @@ void main() {
         append_result_word(d.alpha_cutoff);
     append_result_word(d.f0), append_result_word(d.f90), append_result_word(d.albedo), append_result_word(d.emission), append_result_word(d.rough), append_result_word(d.normal), append_result_word(d.normal_scale);
     append_result_word(d.absorption), append_result_word(d.ior);
-#define PUT_FACTOR(name) append_result_word(d.name);
+#define PUT_FACTOR(name, extension, key, gltf_default, largest) append_result_word(d.name);
     MATERIAL_FACTORS(PUT_FACTOR)
     VertexAttribute a = read_vertex_attribute(number);
     append_result_word(a.uv), append_result_word(a.colour);
