@@ -6,6 +6,7 @@
 #include "session/technique_choice.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace catoptric::cli {
 
@@ -27,14 +28,16 @@ bool sets_knob(const std::string& text, const std::string& knob) {
         [&](const std::string& setting) { return setting.starts_with(knob + "="); });
 }
 
+std::string format_setting(const Setting& setting) {
+    return setting.name + "=" + (setting.number ? std::to_string(*setting.number) : setting.text);
+}
+
 /// Returns the technique as text with the values of all its knobs. Two texts that mean the same
 /// technique give the same result.
 std::string format_technique_with_all_knobs(const std::string& text) {
     const app::TechniqueChoice choice = app::parse_technique(text);
     std::string all = choice.technique;
-    for (const Setting& setting : choice.settings)
-        all += " " + setting.name + "=" +
-               (setting.number ? std::to_string(*setting.number) : setting.text);
+    for (const Setting& setting : choice.settings) all += " " + format_setting(setting);
     return all;
 }
 
@@ -94,6 +97,30 @@ std::vector<std::string> expand_techniques_along_axes(std::vector<std::string> t
                                                       const std::vector<KnobAxis>& axes) {
     for (const KnobAxis& axis : axes) techniques = expand_along_axis(techniques, axis);
     return techniques;
+}
+
+std::vector<std::string> list_axes_without_effect(const measure::Comparison& comparison,
+                                                  const std::vector<KnobAxis>& axes) {
+    std::vector<std::string> sentences;
+    for (const KnobAxis& axis : axes) {
+        // Rows that differ in this knob alone, by technique, model and the other knobs.
+        std::map<std::string, std::vector<const measure::Row*>> groups;
+        for (const measure::Row& row : comparison.rows) {
+            std::string key = row.technique + " " + row.model;
+            for (const Setting& setting : row.settings)
+                if (setting.name != axis.knob) key += " " + format_setting(setting);
+            if (has_knob_of_axis(row.technique, axis.knob)) groups[key].push_back(&row);
+        }
+        for (const auto& [key, rows] : groups)
+            if (rows.size() > 1 && std::ranges::all_of(rows, [&](const measure::Row* row) {
+                    return row->hdr.pixels == rows.front()->hdr.pixels;
+                }))
+                sentences.push_back("--axis " + axis.knob + ": the picture of " +
+                                    rows.front()->label +
+                                    " is the same with each value; the knob may have no effect "
+                                    "with these settings");
+    }
+    return sentences;
 }
 
 } // namespace catoptric::cli

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "measure/comparison.hpp"
+
 #include <string>
 #include <vector>
 
@@ -21,5 +23,9 @@ KnobAxis parse_knob_axis(const std::string& text);
 /// axes multiply. Throws `usage` if no technique has the knob of an axis.
 std::vector<std::string> expand_techniques_along_axes(std::vector<std::string> techniques,
                                                       const std::vector<KnobAxis>& axes);
+
+/// Returns a sentence for each technique whose pictures are equal with all values of an axis.
+std::vector<std::string> list_axes_without_effect(const measure::Comparison& comparison,
+                                                  const std::vector<KnobAxis>& axes);
 
 } // namespace catoptric::cli

@@ -231,14 +231,18 @@ public:
         is_one_ ? one_.write_comparison(comparison)
                 : several_.write_scene_comparison(index, comparison);
     }
-    /// Prints the table of one finished scene.
-    void print_comparison_table(const report::Comparison& comparison) const {
+    /// Prints the table of one finished scene, and the warnings but the first `known`, which were
+    /// printed when the scene was read.
+    void print_comparison_table(const report::Comparison& comparison, std::size_t known) const {
         const OutputOptions& manners = compare_options_.common.manners;
-        for (const std::string& warning : comparison.warnings)
-            print_detail_if_verbose(manners, "warning: " + warning);
+        for (std::size_t i = known; i < comparison.warnings.size(); ++i)
+            print_warning(comparison.warnings[i]);
         for (const report::Row& row : comparison.rows)
             for (const std::string& what : measure::list_row_notes(comparison, row))
                 print_note_unless_quiet(manners, row.label + ": " + what);
+        for (const std::string& sentence :
+             list_axes_without_effect(comparison, compare_options_.axes))
+            print_note_unless_quiet(manners, sentence);
         std::size_t views = 0;
         for (const report::Row& row : comparison.rows) views = std::max(views, row.views.size());
         if (views > 0 && !manners.json)
@@ -286,7 +290,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
     // If no row was finished, nothing is written, because an earlier report in the folder is worth
     // more.
     if (!comparison.rows.empty()) output.write_scene_report(index, comparison);
-    output.print_comparison_table(comparison);
+    output.print_comparison_table(comparison, request.base.scene.warnings.size());
     return comparison;
 }
 

@@ -34,6 +34,20 @@ TEST_F(CommandLineTest, AxisLeavesOutRowsThatAreThere) {
                                                       "naive:bounces=3"));
 }
 
+TEST_F(CommandLineTest, AxisWithoutEffectIsNoted) {
+    const auto run = run_cli({"compare", "cornell-mirrors", "-o", "out", "--size", "24x16",
+                              "--frames", "6", "--warmup", "1", "--axis", "taps=8,16",
+                              "--techniques", "planar", "naive"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, testing::HasSubstr("--axis taps: the picture of planar:taps=8 is the same "
+                                            "with each value; the knob may have no effect"));
+    const auto other = run_cli({"compare", "cornell-mirrors", "-o", "out", "--size", "24x16",
+                                "--frames", "6", "--warmup", "1", "--axis", "face=8,64",
+                                "--techniques", "reuse"});
+    ASSERT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_THAT(other.err, testing::Not(testing::HasSubstr("--axis")));
+}
+
 TEST_F(CommandLineTest, AxisErrorsSayWhatIsWanted) {
     for (const char* text : {"rays", "rays=", "=1,2", "rays=4", "rays=1,1", "rays=1,,2"})
         expect_usage_refused({"compare", "-o", "x", "--axis", text, "--techniques", "raytrace"}, 2,
