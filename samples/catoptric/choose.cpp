@@ -64,8 +64,8 @@ nlohmann::json read_certificate_of_plan(const std::string& file) {
     return certificate.is_object() ? certificate : nlohmann::json::object();
 }
 
-/// Sets size, reference, limits, share, confidence and seeds from a plan's certificate, where the
-/// options give none.
+/// Sets size, exposure, reference, limits, share, confidence and seeds from a plan's certificate,
+/// where the options give none.
 void read_certificate(const ChooseOptions& options, app::ChooseRequest& request) {
     const std::string& file = options.certified;
     const nlohmann::json certificate = read_certificate_of_plan(file);
@@ -85,6 +85,12 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
           ": certificate: wanted width and height, found one of them");
     if (width && !options.common.is_size_given)
         request.base.size = {static_cast<unsigned>(*width), static_cast<unsigned>(*height)};
+    if (!options.common.overrides.exposure)
+        if (const std::optional<double> exposure = number("exposure", -scene::kMaxExposureStops,
+                                                          scene::kMaxExposureStops)) {
+            request.base.exposure = *exposure;
+            request.base.auto_exposure = false;
+        }
     const nlohmann::json reference = certificate.value("reference", nlohmann::json());
     check(reference.is_null() || reference.is_string(), Failure::bad_data, file,
           ": certificate.reference: wanted a technique, found ",
@@ -300,8 +306,8 @@ void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
                 options->techniques);
     verb.option(
         "--certify", "FILE",
-        "prove the plan of this file again on fresh views, by its certificate's limits, size and "
-        "reference",
+        "prove the plan of this file again on fresh views, by its certificate's limits, size, "
+        "exposure and reference",
         options->certified);
     add_limit_options(verb, *options);
     add_view_count_options(verb, *options);

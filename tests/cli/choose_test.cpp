@@ -115,14 +115,20 @@ TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
         return run_choose(words);
     };
     write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "auto"}],
-        "certificate": {"quantity": "rmse", "max_error": 0.9}})");
+        "certificate": {"quantity": "rmse", "max_error": 0.9, "exposure": 1.25}})");
     const test::ProcessResult holds = certify({"--proof-seed", "7", "-o", "again.json"});
     EXPECT_EQ(holds.exit_code, 0) << holds.err;
     EXPECT_THAT(holds.out, HasSubstr("holds: plan:plan.json: "));
     EXPECT_THAT(holds.out, HasSubstr("rmse <= 0.9"));
     const json again = json::parse(read_file_at_path(folder / "again.json"));
     EXPECT_EQ(again["certificate"]["proof_seed"], 7);
+    EXPECT_EQ(again["certificate"]["exposure"], 1.25);
     EXPECT_EQ(again["plan"], read_plan()["plan"]);
+    const test::ProcessResult darker = certify(
+        {"--proof-seed", "7", "--exposure=-2", "-o", "darker.json"});
+    EXPECT_EQ(darker.exit_code, 0) << darker.err;
+    EXPECT_EQ(json::parse(read_file_at_path(folder / "darker.json"))["certificate"]["exposure"],
+              -2);
 
     write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "reuse:face=16"}],
         "certificate": {"quantity": "flip", "max_error": 1e-9}})");
