@@ -79,9 +79,9 @@ struct FittedLobe {
     std::array<FittedLobeRing, 3> rings;
     std::uint32_t ring_count;
 };
-/// Least squares over six pictures of edges, squares and bright lamps, filtered by lobes of 4 and 8
-/// texels. The rms of the error, relative to the value plus .2, is .033 and .019. Samples of
-/// rough/prefilter.comp have .041 (8 samples), .027 (16), .021 (32).
+/// Fitted by bench/rough/fit_rings.py to six pictures of edges, noise and bright lamps, filtered by
+/// lobes of 4 and 8 texels. The rms of the error, relative to the value plus .2, is .032 and .019.
+/// Samples of rough/prefilter.comp have .053 (8 samples), .035 (16), .020 (32).
 constexpr FittedLobe kFittedLobeOfFiveSamples{1, .572F, {{{2.745F, 2, .428F}, {}, {}}}, 1},
     kFittedLobeOfThirteenSamples{
         0, .109F, {{{1.358F, 1, .61F}, {3.55F, 2, .198F}, {8.139F, 3, .083F}}}, 3};
