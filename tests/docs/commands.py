@@ -184,6 +184,10 @@ def write_inputs(folder, text, program, environment):
                    env=environment, check=True, stdout=subprocess.DEVNULL)
     for name in ("a", "b"):
         shutil.copy(folder / "mine.exr", folder / f"{name}.exr")
+    if "merged/results.json" in text and "sweep merge" not in text:
+        for words in (["plan", "sweep.json", "-o", "sweep"], ["run", "sweep"], ["merge", "sweep", "-o", "merged"]):
+            subprocess.run(["catoptric", "sweep", *words, "-q"], cwd=folder, env=environment, check=True,
+                           stdout=subprocess.DEVNULL)
     before = folder.parent / "before/build/release/catoptric"
     before.parent.mkdir(parents=True, exist_ok=True)
     before.unlink(missing_ok=True)
