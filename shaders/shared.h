@@ -132,6 +132,15 @@ struct Light {
 };
 // Kinds of light: a point or spot light; a directional light; an open lamp that emits on both sides; any other lamp.
 const uint kLightKindPoint = 0u, kLightKindDirectional = 1u, kLightKindTwoSidedLamp = 2u, kLightKindLamp = 3u;
+// The extent of a lamp, in the axes of its shadow map (right, -down, forward), scene units. Points of the box
+// a * first + b * second + c * third, -1 <= a, b, c <= 1, replace the lamp's surface (lib/soft_shadow.glsl). All members
+// of a light without a surface are zero.
+struct LampExtent {
+    vec3 first;
+    vec3 second;
+    vec3 third;
+    vec3 flat_normal; // unit normal of a flat lamp; zero: the lamp is not flat
+};
 const uint kMaxLights = 128u; // most lights of a scene: 178 fit into 16 KiB, the uniform buffer that every device has
 
 // The data of a mirror's capture. Mirror n, counted from 0, has the layers [6 n, 6 n + 6) of the cube arrays.
@@ -318,6 +327,7 @@ const uint kTexelsPerSurface = 4u, kTexelsPerProbe = 5u, kQuadsPerMaterial = (kW
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 60);
 static_assert(sizeof(Light) == 92);
+static_assert(sizeof(LampExtent) == 48);
 static_assert(sizeof(TextureUse) == 36);
 static_assert(sizeof(MaterialParameters) == 16 * kQuadsPerMaterial);
 static_assert(sizeof(VertexAttribute) == 32);

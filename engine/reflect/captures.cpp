@@ -34,6 +34,7 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
                                                 TexelFormat::r8_unorm};
     KnobsSharedByTechniques knobs{.shadow = read_shadow_method(settings)};
     knobs.shadow_map = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
+    knobs.has_soft_shadows = has_second_choice_of_knob(settings, kSoftShadowKnob);
     knobs.face = find_knob_number(settings, kCaptureFaceKnob);
     knobs.chooses_face = settings.has_knob_named(kCaptureFaceKnob) && !knobs.face;
     knobs.stores_floats = has_second_choice_of_knob(settings, kCaptureColourKnob);

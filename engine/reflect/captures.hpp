@@ -51,6 +51,13 @@ inline constexpr TechniqueKnob kShadowMapEdgeKnob{.name = "shadow_map",
                                                   .low = 1,
                                                   .high = 16384,
                                                   .value = 1024};
+inline constexpr std::array<std::string_view, 2> kSoftShadowChoices{"none", "pcss"};
+inline constexpr TechniqueKnob kSoftShadowKnob{
+    .name = "soft",
+    .help = "shadows of lamps in shadow maps: none (hard, as from a point), or pcss (soft by the "
+            "lamp's size; shadows of rays stay hard; judge it by --truth paths)",
+    .high = 1,
+    .choices = kSoftShadowChoices};
 inline constexpr TechniqueKnob kCaptureDistanceKnob{.name = "distance",
                                                     .help = "format of captured distances",
                                                     .high = 2,
@@ -201,7 +208,8 @@ inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,
                                                kIndirectLightKnob,
                                                kLightProbesKnob,
                                                kShadowKnob,
-                                               kShadowMapEdgeKnob};
+                                               kShadowMapEdgeKnob,
+                                               kSoftShadowKnob};
 
 template <std::size_t N>
 constexpr std::array<TechniqueKnob, N + kCommonSearchKnobs.size()>

@@ -31,9 +31,15 @@ declare_opaque_picture_of_techniques(graph::Graph& graph, const render::FrameInp
     return render::declare_opaque_picture(graph, inputs, has_levels);
 }
 
-std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechniques& knobs) {
-    if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return std::nullopt;
-    return knobs.shadow_map;
+/// The shadow map that a pass reads, and how.
+struct ShadowMapWish {
+    std::optional<std::uint32_t> edge; ///< texels; none: the pass needs no shadow map
+    bool is_soft = false;              ///< whether lamps cast soft shadows
+};
+
+ShadowMapWish choose_shadow_map(const KnobsSharedByTechniques& knobs) {
+    if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return {};
+    return {knobs.shadow_map, knobs.has_soft_shadows};
 }
 
 /// Shadow maps by edge in texels. Each is added to the graph once.
@@ -45,21 +51,30 @@ public:
                const std::optional<render::LightProbeImages>& probes)
         : frame_graph_(graph), shadow_frame_inputs_(inputs), model_(model), probes_(probes) {}
 
-    render::ShadingLights find_or_add_shadow_map(std::optional<std::uint32_t> edge) {
-        if (!edge) return {.probes = probes_};
-        const auto found = made_.find(*edge);
-        if (found != made_.end()) return found->second;
-        const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
-        render::ShadingLights lighting{
-            render::add_shadow_passes(frame_graph_, shadow_frame_inputs_, *edge, model_, suffix),
-            probes_};
-        if (lighting.shadow_map && shadow_frame_inputs_.scene.has_tinted_shadows())
-            lighting.glass_depths = render::add_glass_shadow_passes(
-                frame_graph_, shadow_frame_inputs_, *lighting.shadow_map, *edge, suffix);
-        return made_[*edge] = lighting;
+    render::ShadingLights find_or_add_shadow_map(const ShadowMapWish& wanted) {
+        if (!wanted.edge) return {.probes = probes_};
+        render::ShadingLights lighting = find_or_add_shadow_map_of_edge(*wanted.edge);
+        const render::GpuScene& scene = shadow_frame_inputs_.scene;
+        lighting.has_soft_shadows = wanted.is_soft && lighting.shadow_map &&
+                                    scene.has_lamp_extents();
+        if (lighting.has_soft_shadows) scene.request_lamp_extents();
+        return lighting;
     }
 
 private:
+    render::ShadingLights find_or_add_shadow_map_of_edge(std::uint32_t edge) {
+        const auto found = made_.find(edge);
+        if (found != made_.end()) return found->second;
+        const std::string suffix = made_.empty() ? "" : "." + std::to_string(edge);
+        render::ShadingLights lighting{
+            render::add_shadow_passes(frame_graph_, shadow_frame_inputs_, edge, model_, suffix),
+            probes_};
+        if (lighting.shadow_map && shadow_frame_inputs_.scene.has_tinted_shadows())
+            lighting.glass_depths = render::add_glass_shadow_passes(
+                frame_graph_, shadow_frame_inputs_, *lighting.shadow_map, edge, suffix);
+        return made_[edge] = lighting;
+    }
+
     graph::Graph& frame_graph_;
     const render::FrameInputs& shadow_frame_inputs_;
     const require::RequiredWorkModel& model_;
@@ -76,17 +91,19 @@ bool is_view_drawn_by_tracer_after_raster(const std::vector<TechniqueChoice>& ch
            technique.completes_view(choice.settings);
 }
 
-/// Returns the edge of the view's shadow map in texels; none: the view needs no shadow map.
-/// `is_drawn`: the view is rasterised although a technique traces shadow rays, so it needs a shadow
-/// map.
-std::optional<std::uint32_t>
-choose_shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices, bool is_drawn) {
-    std::optional<std::uint32_t> finest;
-    if (!is_drawn) return choose_shadow_map_edge(choices.front().shared);
-    for (const TechniqueChoice& choice : choices)
-        if (choice.shared.shadow != KnobsSharedByTechniques::ShadowMethod::none)
-            finest = std::max(finest.value_or(1), choice.shared.shadow_map);
-    return finest;
+/// Returns the view's shadow map: the finest that a technique asks for, read softly if one
+/// technique asks for it. `is_drawn`: the view is rasterised although a technique traces shadow
+/// rays, so it needs a shadow map.
+ShadowMapWish choose_shadow_map_for_view(const std::vector<TechniqueChoice>& choices,
+                                         bool is_drawn) {
+    if (!is_drawn) return choose_shadow_map(choices.front().shared);
+    ShadowMapWish wanted;
+    for (const TechniqueChoice& choice : choices) {
+        if (choice.shared.shadow == KnobsSharedByTechniques::ShadowMethod::none) continue;
+        wanted.edge = std::max(wanted.edge.value_or(1), choice.shared.shadow_map);
+        wanted.is_soft = wanted.is_soft || choice.shared.has_soft_shadows;
+    }
+    return wanted;
 }
 
 /// Returns the capture options of each mirror: the options of its technique, extended by data that
@@ -101,7 +118,7 @@ choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachM
         render::CaptureOptions options{.face = 0, .lighting = view_lighting};
         if (technique->capture) {
             options = technique->capture(inputs, choice.settings);
-            options.lighting = maps.find_or_add_shadow_map(choose_shadow_map_edge(choice.shared));
+            options.lighting = maps.find_or_add_shadow_map(choose_shadow_map(choice.shared));
             if (does_search_other_captures(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
@@ -275,7 +292,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                     probes ? std::optional(probes->images) : std::nullopt);
     const bool completes = is_view_drawn_by_tracer_after_raster(choices);
     const render::ShadingLights lighting = maps.find_or_add_shadow_map(
-        choose_shadow_map_edge_for_view(choices, is_mixed || completes));
+        choose_shadow_map_for_view(choices, is_mixed || completes));
     if (!is_mixed && !completes && choices.front().technique->picture) {
         TechniqueOutputs traced = choices.front().technique->picture(
             graph, inputs, choices.front().settings, lighting);
@@ -301,7 +318,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         const MirrorShadingInputs around{
             outputs.captures,
             completes ? lighting
-                      : maps.find_or_add_shadow_map(choose_shadow_map_edge(choices[i].shared)),
+                      : maps.find_or_add_shadow_map(choose_shadow_map(choices[i].shared)),
             list_mirrors_using_technique(i, assignment), completes};
         MirrorShadingSetup look = technique.search
                                       ? MirrorShadingSetup{make_search_shader(technique, around,

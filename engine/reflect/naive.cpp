@@ -14,15 +14,10 @@ constexpr TechniqueKnob kBouncesKnob{
     .low = 0,
     .high = 8,
     .value = 3};
-constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob,
-                                         kCaptureFaceKnob,
-                                         kCaptureColourKnob,
-                                         kGlassRefractionModelKnob,
-                                         kIndirectLightKnob,
-                                         kLightProbesKnob,
-                                         kShadowKnob,
-                                         kShadowMapEdgeKnob,
-                                         kCaptureContentCacheKnob};
+constexpr TechniqueKnob kNaiveKnobs[] = {
+    kBouncesKnob,       kCaptureFaceKnob,        kCaptureColourKnob, kGlassRefractionModelKnob,
+    kIndirectLightKnob, kLightProbesKnob,        kShadowKnob,        kShadowMapEdgeKnob,
+    kSoftShadowKnob,    kCaptureContentCacheKnob};
 
 /// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
 /// technique `naive`, because only these look into its captures.

@@ -17,11 +17,10 @@ constexpr TechniqueKnob kOmittedParallaxRuleKnob{
     .high = 2,
     .choices = kOmittedParallaxRuleChoices};
 constexpr TechniqueKnob kParallaxKnobs[] = {
-    kCaptureFaceKnob,   kCaptureColourKnob,      kCaptureDistanceKnob,
-    kDistanceRangeKnob, kRoughMirrorMethodKnob,  kBlurLawKnob,
-    kFilterTapsKnob,    kRoughRaysKnob,          kGlassRefractionModelKnob,
-    kIndirectLightKnob, kLightProbesKnob,        kShadowKnob,
-    kShadowMapEdgeKnob, kOmittedParallaxRuleKnob};
+    kCaptureFaceKnob,          kCaptureColourKnob, kCaptureDistanceKnob,    kDistanceRangeKnob,
+    kRoughMirrorMethodKnob,    kBlurLawKnob,       kFilterTapsKnob,         kRoughRaysKnob,
+    kGlassRefractionModelKnob, kIndirectLightKnob, kLightProbesKnob,        kShadowKnob,
+    kShadowMapEdgeKnob,        kSoftShadowKnob,    kOmittedParallaxRuleKnob};
 
 render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
                                                      const TechniqueKnobSettings& settings) {

@@ -83,8 +83,8 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
 TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
     const TechniqueKnobSettings defaults(choice.technique->knobs);
-    for (const TechniqueKnob* const knob :
-         {&kShadowKnob, &kShadowMapEdgeKnob, &kIndirectLightKnob, &kLightProbesKnob}) {
+    for (const TechniqueKnob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob, &kSoftShadowKnob,
+                                            &kIndirectLightKnob, &kLightProbesKnob}) {
         if (!rest.settings.has_knob_named(*knob) ||
             (knob == &kIndirectLightKnob && !rest.settings.has_knob_named(kLightProbesKnob)))
             continue; // raytrace has other settings for light
@@ -123,6 +123,11 @@ bool TechniquePlan::is_same_plan_as(const TechniquePlan& other) const {
 bool TechniquePlan::uses_light_probes() const {
     return std::ranges::any_of(
         rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.light_probes > 0; });
+}
+
+bool TechniquePlan::uses_soft_shadows() const {
+    return std::ranges::any_of(
+        rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.has_soft_shadows; });
 }
 
 TechniquePlan parse_plan(std::string_view text) {
@@ -197,6 +202,7 @@ void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
             if (choice.shared.shadow == KnobsSharedByTechniques::ShadowMethod::none) continue;
             const std::uint32_t edge = choice.shared.shadow_map;
             coarsest = std::min(coarsest.value_or(edge), edge);
+            question.has_soft_shadows = question.has_soft_shadows || choice.shared.has_soft_shadows;
         }
     question.shadow_edge = coarsest.value_or(question.shadow_edge);
 }

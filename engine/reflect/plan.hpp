@@ -33,6 +33,8 @@ struct TechniquePlan {
     bool is_same_plan_as(const TechniquePlan& other) const;
     /// Returns whether some technique of the plan takes light between surfaces from light probes.
     bool uses_light_probes() const;
+    /// Returns whether some rule draws soft shadows of lamps (soft=pcss).
+    bool uses_soft_shadows() const;
 };
 
 /// Name of the technique `auto`, which chooses a plan for each scene

@@ -10,7 +10,7 @@ constexpr const char* kReuseShader = "reflect/naive.frag";
 constexpr TechniqueKnob kReuseKnobs[] = {
     kCaptureFaceKnob, kCaptureColourKnob,        kRoughMirrorMethodKnob, kFilterTapsKnob,
     kRoughRaysKnob,   kGlassRefractionModelKnob, kIndirectLightKnob,     kLightProbesKnob,
-    kShadowKnob,      kShadowMapEdgeKnob};
+    kShadowKnob,      kShadowMapEdgeKnob,        kSoftShadowKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 

@@ -61,7 +61,8 @@ struct MirrorShadingSetup {
 struct KnobsSharedByTechniques {
     enum class ShadowMethod { none, map, ray };
     ShadowMethod shadow = ShadowMethod::none;
-    std::uint32_t shadow_map = 1; ///< edge of a shadow map's face in texels
+    std::uint32_t shadow_map = 1;  ///< edge of a shadow map's face in texels
+    bool has_soft_shadows = false; ///< soft=pcss
     /// Edge of a capture's face in texels; none: `auto`, or the technique has no such knob.
     std::optional<std::uint32_t> face;
     bool chooses_face = false;           ///< face=auto

@@ -109,6 +109,7 @@ gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
     if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
     if (drawing.lighting.probes) features.emplace_back("has_light_probes", 1u);
+    if (drawing.lighting.has_soft_shadows) features.emplace_back("soft_shadows", 1u);
     return features;
 }
 
@@ -187,6 +188,8 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
 void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting) {
     if (lighting.shadow_map)
         commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
+    if (lighting.shadow_map && lighting.has_soft_shadows)
+        commands.bind_resource("shadow_depths", *lighting.shadow_map, TextureFilter::nearest);
     if (lighting.shadow_map && lighting.glass_depths)
         commands.bind_resource("glass_depths", *lighting.glass_depths, TextureFilter::nearest);
     if (!lighting.probes) return;

@@ -32,6 +32,9 @@ struct ShadingLights {
     std::optional<LightProbeImages> probes = {};
     /// Optical depths of glass, in the layers of the shadow map; none: glass casts no shadow.
     std::optional<graph::ImageHandle> glass_depths = {};
+    /// Whether shadows of lamps are soft (shaders/lib/soft_shadow.glsl). Only set with a shadow
+    /// map, in frames that called GpuScene::request_lamp_extents.
+    bool has_soft_shadows = false;
     friend bool operator==(const ShadingLights&, const ShadingLights&) = default;
 };
 

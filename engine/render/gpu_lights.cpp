@@ -32,6 +32,20 @@ shared::Light make_light_entry(const scene::PointLight& light, const SceneUnitTr
     return entry;
 }
 
+/// Returns the extent of a light in the axes of its shadow map, which are the columns of `axes`.
+shared::LampExtent make_lamp_extent(const scene::PointLight& light, const SceneUnitTransform& space,
+                                    const dmat3& axes) {
+    // Third half axis of a flat lamp, relative to its first. Rounding of the lamp's vertices is
+    // less.
+    constexpr double kFlatLampThickness = 1e-3;
+    const dmat3 half_axes = space.scale * glm::transpose(axes) * light.half_axes;
+    shared::LampExtent extent{vec3(half_axes[0]), vec3(half_axes[1]), vec3(half_axes[2]), vec3(0)};
+    const double least_second = kFlatLampThickness * glm::length(half_axes[0]);
+    if (glm::length(half_axes[1]) > least_second && glm::length(half_axes[2]) <= least_second)
+        extent.flat_normal = vec3(glm::normalize(glm::cross(half_axes[0], half_axes[1])));
+    return extent;
+}
+
 } // namespace
 
 void GpuScene::fill_light_table(const scene::Scene& now, bool others) {
@@ -74,6 +88,15 @@ void GpuScene::fill_light_table(const scene::Scene& now, bool others) {
     std::vector<shared::Light> all = lights_;
     all.resize(shared::kMaxLights);
     light_buffer_.set_device_list_contents(all);
+}
+
+void GpuScene::fill_lamp_extent_table() const {
+    std::vector<shared::LampExtent> extents(shared::kMaxLights);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        const dmat3 axes(vec3(lights_[i].right), -vec3(lights_[i].down), vec3(lights_[i].forward));
+        extents[i] = make_lamp_extent(world_lights_[i], space_, axes);
+    }
+    lamp_extent_buffer_.set_device_list_contents(extents);
 }
 
 std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {

@@ -93,14 +93,17 @@ GpuScene::GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_
       light_buffer_("lights", gpu::BufferUsage::uniform, slots),
       probe_buffer_("probes", gpu::BufferUsage::texels, slots),
       mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots),
-      lamp_buffer_("lamps", gpu::BufferUsage::texels, slots), material_details_(slots),
-      environment_(slots), tracing_(std::make_unique<RayTracingTrees>(slots)) {}
+      lamp_buffer_("lamps", gpu::BufferUsage::texels, slots),
+      lamp_extent_buffer_("lamp_extents", gpu::BufferUsage::uniform, slots),
+      material_details_(slots), environment_(slots),
+      tracing_(std::make_unique<RayTracingTrees>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
                       double ambient, std::size_t slot) {
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->bvh_update_ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = wants_lamp_points_ = false;
+    wants_lamp_extents_ = false;
     const SceneChanges changes = seen_.update_and_find_scene_changes(now, !complete_);
     complete_ = false; // stays false if the update throws; then the next update writes all data
     if (changes.layout)
@@ -324,6 +327,8 @@ void GpuScene::bind(graph::PassCommands& commands) const {
     commands.bind_resource("probe_texels", probe_buffer_.buffer_of_device_copy(slot_));
     commands.bind_resource("mirror_nodes", mirror_tree_.buffer_of_device_copy(slot_));
     commands.bind_resource("lamp_texels", lamp_buffer_.buffer_of_device_copy(slot_));
+    if (wants_lamp_extents_)
+        commands.bind_resource("LampExtents", lamp_extent_buffer_.buffer_of_device_copy(slot_));
     material_details_.bind(commands, slot_);
     environment_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
@@ -373,6 +378,10 @@ void GpuScene::write_views_and_update_trees() const {
     if (wants_lamp_points_) {
         if (!has_lamp_table_) fill_lamp_table();
         uploads_ += lamp_buffer_.upload_changed_pages(scene_device_, slot_);
+    }
+    if (wants_lamp_extents_) {
+        fill_lamp_extent_table();
+        uploads_ += lamp_extent_buffer_.upload_changed_pages(scene_device_, slot_);
     }
     for (const SphereIntersectionMode spheres :
          {SphereIntersectionMode::mesh, SphereIntersectionMode::exact})

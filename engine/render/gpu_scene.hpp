@@ -162,8 +162,16 @@ public:
     /// Announces that rays of a pass aim at points drawn on lamps. Call it when the pass is
     /// declared.
     void request_lamp_points() const { wants_lamp_points_ = true; }
+    /// Returns whether some light is a lamp with an extent.
+    bool has_lamp_extents() const {
+        return std::ranges::any_of(world_lights_, [](const scene::PointLight& light) {
+            return light.half_axes != dmat3(0);
+        });
+    }
+    /// Announces that a pass draws soft shadows of lamps. Call it when the pass is declared.
+    void request_lamp_extents() const { wants_lamp_extents_ = true; }
     /// Writes the views that `add_view` added to device memory, and updates the bounding volume
-    /// hierarchies and the list of lamps that passes of this frame read. Call it after the frame's
+    /// hierarchies and the lists of lamps that passes of this frame read. Call it after the frame's
     /// passes are declared.
     void write_views_and_update_trees() const;
     /// Binds the hierarchy. Updates it first if `write_views_and_update_trees` has not.
@@ -196,6 +204,7 @@ private:
     void fill_instance_placement_table();
     void fill_light_table(const scene::Scene& now, bool others);
     void fill_lamp_table() const;
+    void fill_lamp_extent_table() const;
     void fill_mirror_probe_table(const scene::Scene& now, const SceneChanges& changes);
     /// Returns the simple body that replaces the mesh of a glass object in captures; nothing for
     /// other objects.
@@ -247,14 +256,15 @@ private:
     mutable DoubleBufferedDeviceList view_buffer_;
     DoubleBufferedDeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_,
         probe_buffer_, mirror_tree_;
-    mutable DoubleBufferedDeviceList lamp_buffer_;
+    mutable DoubleBufferedDeviceList lamp_buffer_, lamp_extent_buffer_;
     MaterialParameterLists material_details_;
     DeviceEnvironment environment_;
     std::unique_ptr<RayTracingTrees> tracing_;
     /// Whether a pass of this frame traces rays, for each value of Spheres.
     mutable std::array<bool, 2> wants_tracing_{};
     mutable bool wants_first_hits_ = false;
-    mutable bool wants_lamp_points_ = false; ///< whether a pass of this frame aims at lamps
+    mutable bool wants_lamp_points_ = false;  ///< whether a pass of this frame aims at lamps
+    mutable bool wants_lamp_extents_ = false; ///< whether a pass of this frame draws soft shadows
 };
 
 } // namespace catoptric::render

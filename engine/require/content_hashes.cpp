@@ -24,13 +24,16 @@ bool may_object_appear_small(const VisibilityScene& world, const VisibilityObjec
 
 } // namespace
 
-void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge) {
+void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge,
+                                    bool has_soft_shadows) {
     const bool is_new_layout = layout_ != world.object_list_change_count();
-    if (!world.has_world_changed() && !is_new_layout && shadow_edge_ == shadow_edge) return;
+    if (!world.has_world_changed() && !is_new_layout && shadow_edge_ == shadow_edge &&
+        has_soft_shadows_ == has_soft_shadows)
+        return;
     if (is_new_layout) mirrors_.assign(world.list_mirror_objects().size(), {});
     ++changes_;
     layout_ = world.object_list_change_count(), epoch_ = world.static_change_count(),
-    shadow_edge_ = shadow_edge;
+    shadow_edge_ = shadow_edge, has_soft_shadows_ = has_soft_shadows;
     ContentHash all(epoch_);
     for (const std::size_t mover : world.list_moving_objects())
         all.add_value(world.list_objects()[mover].content_hash);
@@ -42,7 +45,7 @@ void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t 
                movers * mirrors > kMaxVisibilityPairs;
     landings_.clear();
     if (is_much_) return;
-    find_shadow_receivers(world, shadow_edge, landings_);
+    find_shadow_receivers(world, shadow_edge, has_soft_shadows, landings_);
     is_much_ = landings_.size() * mirrors > kMaxShadowReceiverTests;
 }
 

@@ -36,7 +36,8 @@ class ContentHashes {
 public:
     /// Takes over an instant, after VisibilityScene::move_to_instant. O(movers * (lights * objects
     /// + walls)).
-    void move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge);
+    void move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge,
+                         bool has_soft_shadows);
     /// Content hashes of the six faces of a mirror's capture.
     struct CaptureFaceHashes {
         std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
@@ -60,6 +61,7 @@ private:
     std::uint64_t all_ = 0;     ///< content hash of the whole scene
     std::uint64_t epoch_ = 0, layout_ = 0;
     std::uint32_t shadow_edge_ = 0;
+    bool has_soft_shadows_ = false;
     bool is_much_ = false;
 };
 

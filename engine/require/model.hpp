@@ -24,6 +24,8 @@ struct RequiredWorkModelInput {
     /// Edge in texels of the coarsest shadow map in use. The coarser the map, the further shadows
     /// reach.
     std::uint32_t shadow_edge = 1;
+    /// Whether lamps cast soft shadows. A look-up may then read any place of a lamp's shadow map.
+    bool has_soft_shadows = false;
     /// Whether a search reads the captures of all mirrors, visible or not (`captures=all`).
     bool asks_all = false;
     /// Whether a technique reads whole cubes, not only the directions that a mirror can reflect to.

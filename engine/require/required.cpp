@@ -137,7 +137,8 @@ RequiredWorkModelBuilder::make_work_model_for_request(const RequiredWorkModelInp
     const PictureFrustum picture(question.camera, question.size);
     impl.world.move_to_instant(question.now);
     impl.sight.move_to_instant(impl.world);
-    impl.content_hashes.move_to_instant(impl.world, question.shadow_edge);
+    impl.content_hashes.move_to_instant(impl.world, question.shadow_edge,
+                                        question.has_soft_shadows);
     impl.find_mirrors_seen_by_camera(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.find_mirrors_needing_captures(i, question.asks_all);

@@ -73,7 +73,7 @@ ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bou
              light.position + times * (caster.hi - light.position)}};
 }
 
-void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge,
+void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge, bool is_soft,
                            std::vector<ShadowReceiver>& landings) {
     landings.clear();
     Bounds<double> everything;
@@ -82,7 +82,9 @@ void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge,
         const VisibilityObject& caster = world.list_objects()[mover];
         if (!caster.casts_shadow || caster.box.empty()) continue;
         for (const scene::PointLight& light : world.list_point_lights()) {
-            const auto [from, to] = compute_shadowed_volume(light, caster.box, everything);
+            const auto [from, to] = is_soft && light.is_lamp
+                                        ? ShadowedVolume{everything, everything}
+                                        : compute_shadowed_volume(light, caster.box, everything);
             Bounds<double> shade = from;
             shade.add(to);
             for (std::size_t i = 0; i < world.list_objects().size(); ++i) {

@@ -35,8 +35,9 @@ struct ShadowReceiver {
 
 /// Finds, for each light and each mover that casts a shadow, the receivers that the shadow may
 /// meet. The result is the receiver's box cut by the box of the shade. The shade is enlarged by
-/// kShadowFilterTexels of a map whose faces have `edge` texels. O(movers * lights * objects).
-void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge,
+/// kShadowFilterTexels of a map whose faces have `edge` texels. With `is_soft`, the shade of a lamp
+/// is everything. O(movers * lights * objects).
+void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge, bool is_soft,
                            std::vector<ShadowReceiver>& landings);
 
 } // namespace catoptric::require

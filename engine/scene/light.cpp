@@ -39,7 +39,8 @@ private:
 struct LampComponentSums {
     dvec3 positions{0}, normals{0};
     double position_count = 0, normal_count = 0, area = 0;
-    dmat3 facets{0}; ///< outer products of the facets' unit normals, times their areas
+    dmat3 facets{0};  ///< outer products of the facets' unit normals, times their areas
+    dmat3 moments{0}; ///< integral over the area: outer products of points minus the mean position
     bool closed = true;
 
     void add_position_to_component_sums(const dvec3& position) {
@@ -47,6 +48,18 @@ struct LampComponentSums {
     }
     void add_vertex(const dvec3& normal, double its_area) {
         normals += normal, normal_count += 1, area += its_area;
+    }
+    dvec3 mean_position() const { return positions / position_count; }
+    /// Adds a triangle to `moments`. Call it after all positions are added. The mean outer product
+    /// of a triangle's points is that of its corners and of their sum, divided by 12.
+    void add_triangle_to_moments(const std::array<dvec3, 3>& corners, double triangle_area) {
+        dvec3 sum(0);
+        dmat3 products(0);
+        for (const dvec3& corner : corners) {
+            const dvec3 arm = corner - mean_position();
+            sum += arm, products += glm::outerProduct(arm, arm);
+        }
+        moments += triangle_area / 12 * (products + glm::outerProduct(sum, sum));
     }
 };
 
@@ -109,11 +122,27 @@ void set_two_sided_axes(PointLight& light, const LampComponentSums& sums) {
     light.cosines = cosines * (.5 / mean_projected_length(cosines));
 }
 
+/// Returns PointLight::half_axes. An even spread over [-a, a] has the variance a^2 / 3.
+dmat3 find_half_axes_of_lamp(const LampComponentSums& sums) {
+    // A ball shows a disc, and a quarter of r^2 is the disc's variance. The sphere's is a third.
+    const double shown_share_of_variance = sums.closed ? .75 : 1;
+    dmat3 variances = shown_share_of_variance / sums.area * sums.moments, axes(1);
+    diagonalise_matrix(variances, axes);
+    std::array<int, 3> order{0, 1, 2};
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [&](int axis) { return variances[axis][axis]; });
+    dmat3 half_axes(0);
+    for (int i = 0; i < 3; ++i)
+        half_axes[i] = axes[order[i]] * std::sqrt(3 * std::max(variances[order[i]][order[i]], 0.0));
+    return half_axes;
+}
+
 PointLight make_point_light(const LampComponentSums& sums, const Material& material) {
-    PointLight light{.position = sums.positions / sums.position_count,
+    PointLight light{.position = sums.mean_position(),
                      .area = sums.area,
                      .is_lamp = true,
                      .closed = sums.closed,
+                     .half_axes = find_half_axes_of_lamp(sums),
                      .emission = scene::emitted_radiance(material)};
     if (light.closed) return light;
     if (material.two_sided)
@@ -185,11 +214,13 @@ ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& worl
                 index != index_of_root.end())
                 sums[index->second].closed = false;
     });
-    for (const uvec3& t : mesh.triangles)
-        components.of_triangles.push_back(
-            compute_triangle_area(world, t) > 0
-                ? std::optional(index_of_root.at(islands.find_root_vertex_of_set(first[t.x])))
-                : std::nullopt);
+    for (const uvec3& t : mesh.triangles) {
+        const double triangle_area = compute_triangle_area(world, t);
+        std::optional<std::size_t>& index = components.of_triangles.emplace_back();
+        if (!(triangle_area > 0)) continue;
+        index = index_of_root.at(islands.find_root_vertex_of_set(first[t.x]));
+        sums[*index].add_triangle_to_moments({world[t.x], world[t.y], world[t.z]}, triangle_area);
+    }
     return components;
 }
 
@@ -266,7 +297,8 @@ double van_der_corput(std::uint32_t i) {
     return result;
 }
 
-/// Appends `count` lights that replace a lamp, each with an equal share of its area. They lie at
+/// Appends `count` lights that replace a lamp, each with an equal share of its area, and extents
+/// that are smaller by the root of `count`. They lie at
 /// stratified points (Hammersley) of its facets. Each shines to the facet's front, or to both sides
 /// if the lamp is open and two-sided. The front of a closed lamp is the side away from the mean of
 /// its vertices.
@@ -284,6 +316,7 @@ void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& la
                          .area = lamp.area / count,
                          .is_lamp = true,
                          .closed = lamp.closed,
+                         .half_axes = lamp.half_axes / std::sqrt(double(count)),
                          .emission = lamp.emission};
         if (two_sided && !lamp.closed) {
             LampComponentSums one;

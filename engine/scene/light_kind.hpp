@@ -74,11 +74,11 @@ inline void visit_light_members(const PunctualLight& light, Visit&& visit) {
 }
 template <typename Visit>
 inline void visit_light_members(const PointLight& light, Visit&& visit) {
-    const auto& [position, normal, area, is_lamp, closed, axes, cosines, emission, axis, range,
-                 cos_inner, cos_outer, directional, kind] = light;
+    const auto& [position, normal, area, is_lamp, closed, axes, cosines, half_axes, emission, axis,
+                 range, cos_inner, cos_outer, directional, kind] = light;
     visit(position), visit(normal), visit(area), visit(is_lamp), visit(closed), visit(axes);
-    visit(cosines), visit(emission), visit(axis), visit(range), visit(cos_inner);
-    visit(cos_outer), visit(directional), visit(kind);
+    visit(cosines), visit(half_axes), visit(emission), visit(axis), visit(range);
+    visit(cos_inner), visit(cos_outer), visit(directional), visit(kind);
 }
 
 /// Returns whether two lights shine in the same way. Compares lights as scene::scene_at_time leaves

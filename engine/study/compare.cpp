@@ -307,8 +307,15 @@ private:
             comparison_.reference_settings, [](const Setting& setting) {
                 return setting.name == "indirect" && setting.text == "paths";
             });
-        if (!has_paths &&
-            read_technique_plan(compare_request_.base.techniques[index]).uses_light_probes())
+        const reflect::TechniquePlan plan = read_technique_plan(
+            compare_request_.base.techniques[index]);
+        if (!has_paths && plan.uses_soft_shadows() &&
+            compare_request_.base.scene.light_samples == 1)
+            row_warnings_[index].push_back(
+                "'" + row.label +
+                "': its soft shadows count as an error beside this reference, whose lamps are "
+                "points; --truth paths has lamps as areas");
+        if (!has_paths && plan.uses_light_probes())
             row_warnings_[index].push_back(
                 "'" + row.label +
                 "': its light between surfaces counts as an error beside this reference; --truth "

@@ -36,7 +36,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define LAMPS_BINDING 31 // triangles that emit light (lib/lamps.glsl)
 // lib/rough.glsl uses the bindings 32 and 33, and lib/light_probes.glsl 34 to 36.
 #define GLASS_DEPTHS_BINDING 37  // optical depths of glass (lib/shadow.glsl)
-#define SHADOW_DEPTHS_BINDING 38 // the shadow map without comparison (glass_shadow.frag)
+#define SHADOW_DEPTHS_BINDING 38 // the shadow map without comparison (lib/soft_shadow.glsl, glass_shadow.frag)
 #define GLASS_BACKS_BINDING 39   // back faces of glass in the camera's view (lib/refraction.glsl)
 // Bindings from 20 on belong to the techniques. lib/material.glsl uses these bindings:
 #define DETAILS_BINDING 40
@@ -45,6 +45,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 // lib/work.glsl uses binding 43.
 #define OPAQUE_PICTURE_BINDING 44 // the camera's view without glass (lib/opaque_picture.glsl)
 #define OPAQUE_LEVELS_BINDING 45  // its box-filtered levels
+#define LAMP_EXTENTS_BINDING 46   // a LampExtent for each light (lib/soft_shadow.glsl)
 // Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
 // Reads the surface of an object.

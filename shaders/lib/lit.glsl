@@ -10,6 +10,11 @@
 bool shadow_is_open = false; // whether the shadow map could not tell whether some light reaches the surface
 #endif
 
+#ifndef FIRST_HIT
+// The unit normal of the triangle, for soft shadows. Derivatives come before any discard.
+vec3 fragment_facet = soft_shadows == 0u ? vec3(0) : normalize(cross(dFdx(from_eye), dFdy(from_eye)));
+#endif
+
 float visible_share_of_light(uint light, vec3 at, vec3 n, vec3 direction, float distance) {
     if (has_shadow_map == 0u) return 1.0;
 #ifdef FIRST_HIT
@@ -17,7 +22,7 @@ float visible_share_of_light(uint light, vec3 at, vec3 n, vec3 direction, float 
     if (!find_light_share_by_shadow_map(light, at, n, fragment_position_error(n), visible)) shadow_is_open = true;
     return visible;
 #else
-    return sample_shadow_map(light, at, n, fragment_position_error(n));
+    return sample_hard_or_soft_shadow_map(light, at, n, fragment_facet, fragment_position_error(n));
 #endif
 }
 #include "lib/lighting.glsl"

@@ -109,6 +109,16 @@ float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {
     return sample_shadow_map(light, position, normal, error, kBiasAlongNormal);
 }
 
+#include "lib/soft_shadow.glsl"
+
+// Returns the share of the light that reaches the point, 0 to 1: with soft_shadows, the share of a lamp that it sees. `facet`
+// is a unit normal of the point's facet, on either side.
+float sample_hard_or_soft_shadow_map(uint light, vec3 position, vec3 normal, vec3 facet, float error) {
+    float visible = sample_shadow_map(light, position, normal, error);
+    if (soft_shadows != 0u && is_light_a_lamp(light)) visible = sample_soft_shadow_map(light, position, facet, error, visible);
+    return visible;
+}
+
 // Finds the share of the light that reaches the point. Returns false at the edge of a shadow, where the four taps differ
 // and a shadow ray must tell, and behind glass.
 bool find_light_share_by_shadow_map(uint light, vec3 position, vec3 normal, float error, out float visible) {

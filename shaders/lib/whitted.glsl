@@ -401,7 +401,7 @@ void pass_sphere_of_glass(Ray ray, uint object, vec3 centre, float radius, float
 float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
-        return sample_shadow_map(light, position, normal, dot(abs(normal), point.error));
+        return sample_hard_or_soft_shadow_map(light, position, normal, normalize(point.facet), dot(abs(normal), point.error));
     float visible;
     if (has_shadow_map != 0u && first_raster != 0u &&
         find_light_share_by_shadow_map(light, position, normal, dot(abs(normal), point.error), visible))

@@ -17,6 +17,7 @@ layout(set = 0, binding = 7, scalar) readonly buffer Traces { TraceParameters tr
 layout(set = 0, binding = 8, scalar) readonly buffer AllCounters { Counters counters[2]; };
 layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
 layout(set = 0, binding = 12, scalar) readonly buffer Grids { LightProbeGrid grids[2]; };
+layout(set = 0, binding = 13, scalar) readonly buffer Extents { LampExtent extents[2]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
@@ -38,6 +39,8 @@ void main() {
     append_result_word(l.position), append_result_word(l.normal), append_result_word(l.intensity), append_result_word(l.right), append_result_word(l.down), append_result_word(l.forward),
         append_result_word(l.near);
     append_result_word(l.reach), append_result_word(l.cos_outer), append_result_word(l.sharpness), append_result_word(l.kind);
+    LampExtent e = extents[1];
+    append_result_word(e.first), append_result_word(e.second), append_result_word(e.third), append_result_word(e.flat_normal);
     append_result_word(probes[1].centre), append_result_word(probes[1].sphere), append_result_word(probes[1].radius), append_result_word(probes[1].reflectance);
     append_result_word(probes[1].lowest), append_result_word(probes[1].highest), append_result_word(probes[1].kind);
     View v = views[1];

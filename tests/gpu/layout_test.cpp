@@ -44,6 +44,10 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(Light, cos_outer),
                                                            MEMBER(Light, sharpness),
                                                            MEMBER(Light, kind),
+                                                           MEMBER(LampExtent, first),
+                                                           MEMBER(LampExtent, second),
+                                                           MEMBER(LampExtent, third),
+                                                           MEMBER(LampExtent, flat_normal),
                                                            MEMBER(Probe, centre),
                                                            MEMBER(Probe, sphere),
                                                            MEMBER(Probe, radius),
@@ -122,7 +126,7 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
         .record([&](graph::PassCommands& commands) {
             for (const char* name :
                  {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies", "Frames", "Draws",
-                  "Placements", "Traces", "AllCounters", "Grids"})
+                  "Placements", "Traces", "AllCounters", "Grids", "Extents"})
                 commands.bind_resource(name, input);
             commands.bind_resource("Words", output);
             commands.bind_pipeline(gpu::ComputePipelineState{"tests/layout.comp", {}});
@@ -144,7 +148,7 @@ TEST(Layout, TestedMembersFillTheirStructures) {
         size[structure] = member.size_of_struct;
     }
     EXPECT_EQ(sum, size); // scalar layout has no padding, so the members add up to the structure
-    EXPECT_EQ(sum.size(), 12u);
+    EXPECT_EQ(sum.size(), 13u);
 }
 
 TEST(Layout, PushConstantsHaveTheSizeOfTheirStructure) {

@@ -71,35 +71,22 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(list_constant_texts(found), (std::vector<std::string>{"bvh_in_storage",
-                                                                    "count_work",
-                                                                    "details",
-                                                                    "environment_kind",
-                                                                    "exact_spheres",
-                                                                    "first_raster",
-                                                                    "fixed_offset",
-                                                                    "groups_in_order",
-                                                                    "has_blending",
-                                                                    "has_clear_coats",
-                                                                    "has_glass",
-                                                                    "has_light_probes",
-                                                                    "has_lobes",
-                                                                    "has_normal_textures",
-                                                                    "has_shadow_map",
-                                                                    "light_kinds",
-                                                                    "masks",
-                                                                    "max_depth",
-                                                                    "object_spaces",
-                                                                    "one_light",
-                                                                    "orthographic",
-                                                                    "pixels_in_rows",
-                                                                    "samples_lamps",
-                                                                    "shadow",
-                                                                    "texels_in_storage",
-                                                                    "tints_shadows",
-                                                                    "traces_lobes",
-                                                                    "traces_paths",
-                                                                    "without"}));
+    EXPECT_EQ(list_constant_texts(found),
+              (std::vector<std::string>{"bvh_in_storage", "count_work",
+                                        "details",        "environment_kind",
+                                        "exact_spheres",  "first_raster",
+                                        "fixed_offset",   "groups_in_order",
+                                        "has_blending",   "has_clear_coats",
+                                        "has_glass",      "has_light_probes",
+                                        "has_lobes",      "has_normal_textures",
+                                        "has_shadow_map", "light_kinds",
+                                        "masks",          "max_depth",
+                                        "object_spaces",  "one_light",
+                                        "orthographic",   "pixels_in_rows",
+                                        "samples_lamps",  "shadow",
+                                        "soft_shadows",   "texels_in_storage",
+                                        "tints_shadows",  "traces_lobes",
+                                        "traces_paths",   "without"}));
 }
 
 TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
@@ -111,6 +98,13 @@ TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
     EXPECT_TRUE(uses_shadow_map("diffuse.frag", {{"has_shadow_map", 1}}));
     EXPECT_FALSE(uses_shadow_map("raytrace.comp", {{"shadow", 2}}));
     EXPECT_TRUE(uses_shadow_map("raytrace.comp", {{"has_shadow_map", 1}, {"shadow", 1}}));
+    for (const char* binding : {"shadow_depths", "LampExtents"}) {
+        EXPECT_FALSE(find_binding(
+            reflect_specialised_shader("diffuse.frag", {{"has_shadow_map", 1}}), binding));
+        EXPECT_TRUE(find_binding(reflect_specialised_shader(
+                                     "diffuse.frag", {{"has_shadow_map", 1}, {"soft_shadows", 1}}),
+                                 binding));
+    }
     EXPECT_FALSE(find_binding(
         reflect_specialised_shader("reflect/naive.frag", {{"has_capture_table", 0}}), "Captures"));
     EXPECT_TRUE(find_binding(
