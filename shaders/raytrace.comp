@@ -50,7 +50,7 @@ void main() {
     bool inside = find_pixel_to_trace(pixel);
     if (inside) {
         uint met;
-        if (traces_lobes != 0u) {
+        if (traces_lobes != 0u || environment_shadows != 0u) {
             path_pixel = pixel.y * asked.size.x + pixel.x;
             path_sample = asked.sample_index;
             path_seed = asked.seed;

@@ -217,6 +217,11 @@ struct Sky {
     vec3 irradiance[9]; // spherical harmonics coefficients of the irradiance, with scale and rotation applied
     uint level_first[SKY_LEVEL_COUNT]; // index of the first texel of each level, from level 1 on (lib/environment.glsl)
     uint level_width[SKY_LEVEL_COUNT]; // texels of each level along a row; a level has half as many rows
+    // Cells of the environment map that are brighter than its mean, for drawing directions (lib/environment.glsl): index of
+    // the first cell's texel, number of cells (0: none), the mean (sum of the channels, without scale), and the factor of
+    // environment_cell_density.
+    uint cell_first, cell_count;
+    float cell_threshold, cell_density;
 };
 
 // Values that are the same for the whole frame.
@@ -334,7 +339,7 @@ static_assert(sizeof(VertexAttribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureLookupTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
 static_assert(sizeof(View) == 84);
-static_assert(sizeof(Sky) == 192);
+static_assert(sizeof(Sky) == 208);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(DrawParameters) == 24);
 static_assert(sizeof(Placement) == 60);

@@ -41,6 +41,32 @@ std::vector<vec2> make_sample_offsets(int count, std::uint64_t seed) {
     return offsets;
 }
 
+/// Most rays to the environment from one surface in one dispatch, because the software driver
+/// limits the loops of a dispatch.
+constexpr std::uint32_t kMaxEnvironmentRaysPerDispatch = 4;
+
+/// How the rays to the environment are spread over dispatches.
+struct EnvironmentRaySchedule {
+    std::uint32_t dispatches = 1; ///< for each ray of each sample
+    std::uint32_t rays = 0;       ///< from one surface in one dispatch; 0: objects do not hide it
+};
+
+/// Returns a schedule with at least as many rays for each sample as the scene asks for. Light
+/// probes and paths find the environment's light themselves.
+EnvironmentRaySchedule schedule_environment_rays(const TracerSettings& tracer,
+                                                 const render::GpuScene& scene) {
+    const std::uint32_t wanted = scene.environment_shadow_rays(), rays = std::max(tracer.rays, 1u);
+    if (wanted == 0 || tracer.paths || tracer.lighting.probes ||
+        tracer.shadow == TracerSettings::TracedShadow::none)
+        return {};
+    const auto divide_and_round_up = [](std::uint32_t a, std::uint32_t b) {
+        return (a + b - 1) / b;
+    };
+    const std::uint32_t dispatches = divide_and_round_up(wanted,
+                                                         rays * kMaxEnvironmentRaysPerDispatch);
+    return {dispatches, divide_and_round_up(wanted, rays * dispatches)};
+}
+
 render::SphereIntersectionMode sphere_mode_of_tracer(const TracerSettings& tracer) {
     return tracer.exact_spheres ? render::SphereIntersectionMode::exact
                                 : render::SphereIntersectionMode::mesh;
@@ -98,6 +124,7 @@ gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
          {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
          {"samples_lamps", may_sample_lamp_points(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
          {"traces_paths", tracer.paths ? 1u : 0u},
+         {"environment_shadows", schedule_environment_rays(tracer, scene).rays},
          {"without", tracer.without},
          {"fixed_offset", scene.scene_units().world_to_scene_length(kSeedReportRayOffset)}},
         scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))};
@@ -131,12 +158,15 @@ std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
 
-/// Runs one dispatch per sample and ray, with barriers between them.
+/// Runs one dispatch per sample and ray, or more for rays to the environment, with barriers between
+/// them.
 template <typename Dispatch>
-void dispatch_sample_passes(graph::PassCommands& commands, const TracerSettings& tracer, uvec2 size,
-                            std::uint64_t seed, Dispatch&& dispatch) {
+void dispatch_sample_passes(graph::PassCommands& commands, const TracerSettings& tracer,
+                            const render::GpuScene& scene, uvec2 size, std::uint64_t seed,
+                            Dispatch&& dispatch) {
     const std::vector<vec2> offsets = make_sample_offsets(tracer.samples, seed);
-    const std::uint32_t rays = std::max(tracer.rays, 1u);
+    const std::uint32_t rays = std::max(tracer.rays, 1u) *
+                               schedule_environment_rays(tracer, scene).dispatches;
     const auto count = static_cast<std::uint32_t>(offsets.size()) * rays;
     const std::uint32_t lobe_seed = make_lobe_seed(tracer, seed);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -219,7 +249,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
             commands.bind_resource("counters", traced.counters);
             commands.bind_pipeline(make_tracer_state(tracer, scene, false));
             const uvec2 groups = count_picture_work_groups(size);
-            dispatch_sample_passes(commands, tracer, size, seed,
+            dispatch_sample_passes(commands, tracer, scene, size, seed,
                                    [&] { commands.dispatch(groups.x, groups.y); });
         });
     return traced;
@@ -277,7 +307,7 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
             commands.bind_resource("counters", list.counters);
             commands.bind_resource("List", list.pixels);
             commands.bind_pipeline(make_tracer_state(tracer, scene, true));
-            dispatch_sample_passes(commands, tracer, size, seed,
+            dispatch_sample_passes(commands, tracer, scene, size, seed,
                                    [&] { commands.dispatch_indirect(list.arguments); });
         });
     return list.counters;

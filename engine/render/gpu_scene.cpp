@@ -127,7 +127,10 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
         tracing_->set_backdrop_objects(intersect_object_flag_lists(backdrops_));
     }
-    environment_.set_environment(now.environment, material_details_.has_lobe_surfaces());
+    environment_.set_environment(now.environment, material_details_.has_lobe_surfaces(),
+                                 now.environment_shadows > 0);
+    environment_shadow_rays_ = now.environment ? static_cast<std::uint32_t>(now.environment_shadows)
+                                               : 0;
     if (changes.has_shape_changes() || changes.lights || changes.materials)
         fill_mirror_probe_table(now, changes);
     if (changes.has_shape_changes() || changes.lights || !are_cameras_equal(camera_, camera) ||

@@ -130,6 +130,10 @@ public:
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return environment_.shader_environment_kind() != 0; }
 
+    /// Returns the number of rays from each traced surface to the environment (option
+    /// --environment-shadows); 0: objects do not hide it.
+    std::uint32_t environment_shadow_rays() const { return environment_shadow_rays_; }
+
     static constexpr std::uint32_t kCameraViewIndex = 0;
     /// Removes the views that the previous frame added. Call it before a frame declares its passes.
     void begin_frame() const;
@@ -250,6 +254,7 @@ private:
     mutable bool has_sampled_lamps_ = false; ///< the lamp table is not empty
     bool has_light_kinds_ = false;           ///< some light has no surface, or shines to two sides
     std::uint32_t shadow_faces_ = 6;
+    std::uint32_t environment_shadow_rays_ = 0;
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;

@@ -1,6 +1,7 @@
 #include "render/lamp_table.hpp"
 
 #include "bvh/words.hpp"
+#include "render/alias_table.hpp"
 
 #include <cstdint>
 #include <numeric>
@@ -28,30 +29,6 @@ void add_lamp_triangles(const FrameGeometry& geometry, std::size_t object, doubl
         const double power = strength * glm::length(glm::cross(b, c)) / 2;
         if (power > 0) triangles.push_back({a, b, c, power, static_cast<std::uint32_t>(object)});
     }
-}
-
-/// Cell of an alias table: the share of the cell that belongs to its own entry, and the entry to
-/// which the rest belongs.
-struct AliasTableCell {
-    double share = 1;
-    std::uint32_t rest = 0;
-};
-
-/// Returns the table for drawing entries by weight (Vose, "A Linear Algorithm for Generating Random
-/// Numbers with a Given Distribution", 1991). The weights have mean 1.
-std::vector<AliasTableCell> make_alias_table(std::vector<double> weights) {
-    std::vector<AliasTableCell> cells(weights.size());
-    std::vector<std::uint32_t> small, large;
-    for (std::uint32_t i = 0; i < weights.size(); ++i)
-        (weights[i] < 1 ? small : large).push_back(i);
-    while (!small.empty() && !large.empty()) {
-        const std::uint32_t less = small.back(), more = large.back();
-        small.pop_back();
-        cells[less] = {weights[less], more};
-        weights[more] -= 1 - weights[less];
-        if (weights[more] < 1) large.pop_back(), small.push_back(more);
-    }
-    return cells; // entries that remain because of rounding have the share 1
 }
 
 } // namespace

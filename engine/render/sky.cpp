@@ -1,6 +1,7 @@
 #include "render/sky.hpp"
 
 #include "core/error.hpp"
+#include "render/environment_cells.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/sky_levels.hpp"
 #include "scene/surroundings.hpp"
@@ -36,6 +37,15 @@ void append_filtered_sky_levels(const std::shared_ptr<const scene::Environment>&
     for (const vec3& texel : levels->texels) texels.emplace_back(texel, 1.0f);
 }
 
+void append_bright_cells(const scene::Environment& environment, shared::Sky& sky,
+                         std::vector<vec4>& texels) {
+    const EnvironmentCells cells = find_bright_environment_cells(environment);
+    sky.cell_first = static_cast<std::uint32_t>(texels.size());
+    sky.cell_count = static_cast<std::uint32_t>(cells.texels.size());
+    sky.cell_threshold = cells.threshold, sky.cell_density = cells.density;
+    texels.insert(texels.end(), cells.texels.begin(), cells.texels.end());
+}
+
 } // namespace
 
 DeviceEnvironment::DeviceEnvironment(std::size_t slots)
@@ -47,15 +57,17 @@ DeviceEnvironment::DeviceEnvironment(std::size_t slots)
 }
 
 void DeviceEnvironment::set_environment(
-    const std::shared_ptr<const scene::Environment>& environment, bool has_lobes) {
-    if (environment_ == environment && has_levels_ == has_lobes) return;
+    const std::shared_ptr<const scene::Environment>& environment, bool has_lobes,
+    bool casts_shadows) {
+    if (environment_ == environment && has_levels_ == has_lobes && has_cells_ == casts_shadows)
+        return;
     if (environment && !environment->studio) {
         const auto [width, height] = std::pair(environment->size.x, environment->size.y);
         check(width > 0 && height > 0 && environment->texels.size() == std::size_t{width} * height,
               Failure::bad_data, "environment '", environment->name, "': wanted ", width, "x",
               height, " texels, at least one, found ", environment->texels.size());
     }
-    environment_ = environment, has_levels_ = has_lobes;
+    environment_ = environment, has_levels_ = has_lobes, has_cells_ = casts_shadows;
     kind_ = !environment          ? kNoEnvironmentKind
             : environment->studio ? kStudioEnvironment
                                   : kMapEnvironment;
@@ -64,6 +76,7 @@ void DeviceEnvironment::set_environment(
     if (kind_ == kMapEnvironment)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
     if (environment && has_lobes) append_filtered_sky_levels(environment, sky, texels);
+    if (kind_ == kMapEnvironment && casts_shadows) append_bright_cells(*environment, sky, texels);
     device_sky_record_.set_device_list_contents(std::vector(1, sky));
     texels_.set_device_list_contents(texels);
     if (kind_ == kNoEnvironmentKind) return;

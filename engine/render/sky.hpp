@@ -16,11 +16,12 @@ class DeviceEnvironment {
 public:
     explicit DeviceEnvironment(std::size_t slots);
 
-    /// Sets the environment; null: black. `has_lobes`: some surface reflects it by a lobe. Costs
-    /// O(texels) if the environment differs from the last one, and about 0.2 s for lobes
-    /// (find_sky_levels).
+    /// Sets the environment; null: black. `has_lobes`: some surface reflects it by a lobe.
+    /// `casts_shadows`: rays leave surfaces towards its bright cells
+    /// (find_bright_environment_cells). Costs O(texels) if the environment differs from the last
+    /// one, and about 0.2 s for lobes (find_sky_levels).
     void set_environment(const std::shared_ptr<const scene::Environment>& environment,
-                         bool has_lobes);
+                         bool has_lobes, bool casts_shadows);
     /// Writes the changes, like DoubleBufferedDeviceList::upload_changed_pages.
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
@@ -32,7 +33,7 @@ public:
 private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
-    bool has_levels_ = false;
+    bool has_levels_ = false, has_cells_ = false;
     DoubleBufferedDeviceList device_sky_record_, texels_, vertices_, indices_;
 };
 

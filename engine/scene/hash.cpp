@@ -159,6 +159,10 @@ std::string hash_scene(const Scene& scene) {
     if (scene.light_samples != 1)
         hasher.add_members_to_hash(scene.light_samples); // scenes without this member keep the hash
                                                          // of earlier versions
+    if (scene.environment_shadows != 0) {
+        hasher.add_members_to_hash(std::string("environment-shadows"));
+        hasher.add_members_to_hash(scene.environment_shadows);
+    }
     if (scene.tints_glass_shadows) hasher.add_members_to_hash(std::string("glass-shadow tint"));
     hasher.add_members_to_hash(scene.exposure);
     std::string digits(16, '0');

@@ -154,7 +154,8 @@ struct Scene {
     bool has_multiple_scattering = false;           ///< rough lobes lose no light (Turquin 2019)
     bool tints_glass_shadows = false;               ///< glass attenuates the light of shadow rays
     int light_samples = 1;                          ///< points that replace each lamp
-    std::optional<double> exposure;                 ///< stops, if the file gives them
+    int environment_shadows = 0;    ///< rays from traced surfaces to the environment; 0: no shadows
+    std::optional<double> exposure; ///< stops, if the file gives them
     std::vector<UnsupportedFeature> unsupported;
     std::vector<std::string> warnings; ///< about features that the loader left out or repaired
     /// Real paths of the scene's files, its own first, read or not. No output may replace them.

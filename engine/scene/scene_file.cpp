@@ -61,6 +61,14 @@ double read_bounded_number(const JsonObject& file, const Json& value, const char
     return number;
 }
 
+int read_bounded_whole_number(const JsonObject& file, const Json& value, const char* key, int low,
+                              int high) {
+    const double number = read_bounded_number(file, value, key, low, high);
+    file.require_condition(number == std::floor(number), key, ": wanted a whole number, found ",
+                           gltf::describe_json_value(value));
+    return static_cast<int>(number);
+}
+
 /// Calls `read`, which is shared with the command line, and turns its errors into
 /// errors of the file.
 template <typename Read>
@@ -89,7 +97,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileJsonKey, 15> kSceneFileKeys{
+const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_text_list_member(file, value, "mirrors"))
@@ -141,14 +149,18 @@ const std::array<SceneFileJsonKey, 15> kSceneFileKeys{
       }},
      {"light_samples",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          const double count = read_bounded_number(file, value, "light_samples", 1,
-                                                   kMaxLightSamples);
-          file.require_condition(count == std::floor(count),
-                                 "light_samples: wanted a whole number, found ",
-                                 gltf::describe_json_value(value));
-          overrides.light_samples = static_cast<int>(count);
+          overrides.light_samples = read_bounded_whole_number(file, value, "light_samples", 1,
+                                                              kMaxLightSamples);
       },
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.light_samples); }},
+     {"environment_shadows",
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment_shadows = read_bounded_whole_number(
+              file, value, "environment_shadows", 0, kMaxEnvironmentShadows);
+      },
+      [](const SceneOverrides& overrides) {
+          return overrides_to_json(overrides.environment_shadows);
+      }},
      {"environment",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment = read_text_member(file, value, "environment");

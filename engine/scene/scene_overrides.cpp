@@ -133,6 +133,7 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     replace_value_if_set(both.multiple_scattering, stronger.multiple_scattering);
     replace_value_if_set(both.tints_glass_shadows, stronger.tints_glass_shadows);
     replace_value_if_set(both.light_samples, stronger.light_samples);
+    replace_value_if_set(both.environment_shadows, stronger.environment_shadows);
     replace_value_if_set(both.environment, stronger.environment);
     replace_value_if_set(both.environment_scale, stronger.environment_scale);
     replace_value_if_set(both.environment_rotation, stronger.environment_rotation);

@@ -39,6 +39,8 @@ inline constexpr double kMaxLightScale = 1e30; ///< limit of factors that scale 
 inline constexpr int kMaxLightSamples =
     128; ///< most points that replace a lamp (shared::kMaxLights)
 
+inline constexpr int kMaxEnvironmentShadows = 1024; ///< most rays to the environment
+
 /// Overrides as the user gave them. An empty member was not given.
 struct SceneOverrides {
     std::vector<MirrorOverride> mirrors; ///< a later override wins over an earlier one
@@ -48,6 +50,7 @@ struct SceneOverrides {
     std::optional<bool> multiple_scattering; ///< "turquin" in files and on the command line
     std::optional<bool> tints_glass_shadows; ///< "tint" in files and on the command line
     std::optional<int> light_samples;        ///< points for each lamp, 1 to kMaxLightSamples
+    std::optional<int> environment_shadows;  ///< rays, 0 to kMaxEnvironmentShadows
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;

@@ -226,6 +226,7 @@ ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOpt
     apply_scene_overrides(wanted, options.overrides, filed);
     if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxSceneLights);
     apply_light_samples(wanted);
+    wanted.scene.environment_shadows = wanted.overrides.environment_shadows.value_or(0);
     apply_environment_overrides(wanted, options.overrides);
     scene::sort_unsupported_features(wanted.scene);
     warn_of_scene_with_many_mirrors(wanted.scene);

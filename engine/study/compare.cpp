@@ -273,7 +273,8 @@ private:
     /// nothing for other references, which may refuse samples, and if the samples would take longer
     /// than kMaxAreaMeasurementSeconds.
     void measure_pixel_centre_sampling_error() {
-        if (!is_same_technique_choice(parse_technique(compare_request_.reference),
+        if (truths_.has_reference_noise() ||
+            !is_same_technique_choice(parse_technique(compare_request_.reference),
                                       parse_technique(kReference)) ||
             comparison_.reference_gpu_ms.median * std::stoi(kPixelAreaSampleCountText) >
                 1000 * kMaxAreaMeasurementSeconds)

@@ -327,8 +327,10 @@ private:
 
 /// Returns the reference. If the rays of the reference are random, it gets a seed that no row has.
 std::string choose_reference_unlike_rows(const std::string& reference,
-                                         const std::vector<std::string>& rows) {
-    if (!draws_rays_from_lobes(reference)) return reference;
+                                         const std::vector<std::string>& rows,
+                                         const scene::Scene& scene) {
+    if (!draws_rays_from_lobes(reference) && !draws_rays_to_environment(reference, scene))
+        return reference;
     return set_lobe_seed(reference, ReferenceSeeds(rows).next());
 }
 
@@ -337,13 +339,13 @@ void measure_lag_of_rows(const StudyInput& input) {
     if (input.request.both_models)
         base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
                               base.techniques.end());
-    measure_lag(
-        input.session,
-        {.base = base,
-         .reference = choose_reference_unlike_rows(input.request.reference, base.techniques),
-         .watcher = input.request.watcher,
-         .on_finished_row = input.tell},
-        *(input.comparison.lag = std::make_shared<report::LagResults>()));
+    measure_lag(input.session,
+                {.base = base,
+                 .reference = choose_reference_unlike_rows(input.request.reference, base.techniques,
+                                                           base.scene),
+                 .watcher = input.request.watcher,
+                 .on_finished_row = input.tell},
+                *(input.comparison.lag = std::make_shared<report::LagResults>()));
 }
 
 const RegisteredStudy kLagStudy{

@@ -73,7 +73,7 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
 }
 
 bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene) {
-    return traces_paths(reference) ||
+    return traces_paths(reference) || draws_rays_to_environment(reference, scene) ||
            (draws_rays_from_lobes(reference) && scene::has_rough_reflector(scene));
 }
 

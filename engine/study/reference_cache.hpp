@@ -38,8 +38,8 @@ inline constexpr const char* kConvergedRoughReference = "raytrace:depth=16,sampl
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
                              ReferencePixelKind truth = ReferencePixelKind::centre);
 
-/// Returns whether a reference of this scene has noise: it traces paths, or draws rays from the
-/// lobes of rough surfaces.
+/// Returns whether a reference of this scene has noise: it traces paths, or draws rays to the
+/// environment or from the lobes of rough surfaces.
 bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene);
 
 /// A noisy reference: two means of frames. All frames have different seeds.

@@ -48,6 +48,14 @@ bool draws_rays_from_lobes(const std::string& technique) {
            (find_knob_number(choice, "rays") > 0 || traces_paths(technique));
 }
 
+bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene) {
+    if (scene.environment_shadows == 0 || !scene.environment) return false;
+    const TechniqueChoice choice = parse_technique(technique);
+    const auto shadow = std::ranges::find(choice.settings, "shadow", &Setting::name);
+    return choice.technique == "raytrace" &&
+           (shadow == choice.settings.end() || shadow->text != "none");
+}
+
 std::string set_lobe_seed(const std::string& technique, int seed) {
     const TechniqueChoice choice = parse_technique(technique);
     std::string text = choice.technique;

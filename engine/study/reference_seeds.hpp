@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/scene.hpp"
+
 #include <set>
 #include <string>
 #include <vector>
@@ -30,6 +32,9 @@ private:
 bool draws_rays_from_lobes(const std::string& technique);
 /// Returns whether the technique traces light between surfaces: `raytrace` with indirect=paths.
 bool traces_paths(const std::string& technique);
+/// Returns whether the technique draws rays to the environment of this scene: `raytrace` with
+/// shadows, in a scene with --environment-shadows and an environment.
+bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene);
 /// Returns the text of a `raytrace` technique with another value of the knob `seed`.
 std::string set_lobe_seed(const std::string& technique, int seed);
 

@@ -67,6 +67,13 @@ void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides
                   "--environment: wanted FILE.exr, .hdr or .png, studio or none, found ''");
             overrides.environment = text;
         });
+    verb.option("--environment-shadows", "N",
+                "rays from each traced surface to the environment, from 0 to 1024, so that objects "
+                "hide its light; rasterised surfaces stay unshadowed; 0: no shadows (0)",
+                [&](const std::string& text) {
+                    overrides.environment_shadows = static_cast<int>(parse_integer(
+                        "--environment-shadows", text, 0, scene::kMaxEnvironmentShadows));
+                });
     verb.option("--environment-scale", "S", "factor for the light of the environment (1)",
                 [&](const std::string& text) {
                     overrides.environment_scale = parse_real("--environment-scale", text, 0,

@@ -23,6 +23,32 @@ vec3 environment_radiance(vec3 direction) {
                                  mix(read_sky_texel(at.left, at.below), read_sky_texel(at.right, at.below), at.across), at.down);
 }
 
+// Returns the environment's radiance in a unit direction, and the density per steradian with which
+// draw_environment_cell_direction draws the direction; 0 if there are no cells.
+vec3 environment_radiance_and_density(vec3 direction, out float density) {
+    density = 0.0;
+    if (environment_kind != kMapEnvironment || sky.value.cell_count == 0u) return environment_radiance(direction);
+    vec3 d = rotate_to_environment_axes(direction, sky.value.turn.x, sky.value.turn.y);
+    count_work_once(kWorkTextureLookups);
+    EnvironmentCell cell = direction_to_environment_cell(d, sky.value.size.x, sky.value.size.y);
+    vec3 a = read_sky_texel(cell.left, cell.above), b = read_sky_texel(cell.right, cell.above),
+         c = read_sky_texel(cell.left, cell.below), e = read_sky_texel(cell.right, cell.below);
+    float mean = dot(a + b + c + e, vec3(0.25));
+    density = max(mean - sky.value.cell_threshold, 0.0) * cell.sine_ratio * sky.value.cell_density;
+    return sky.value.scale * mix(mix(a, b, cell.across), mix(c, e, cell.across), cell.down);
+}
+
+// Draws a unit direction towards the part of the environment that is brighter than its mean (MIS compensation: Karlik et
+// al., "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", 2019). `cell` and `alias` are
+// uniform in [0, 1) and choose the cell (alias method, as in lib/lamps.glsl); `across` and `down` place the direction in it.
+vec3 draw_environment_cell_direction(float cell, float alias, float across, float down) {
+    uint i = min(uint(cell * float(sky.value.cell_count)), sky.value.cell_count - 1u);
+    vec4 entry = sky_texels_at(sky.value.cell_first + i);
+    if (alias >= entry.x) entry = sky_texels_at(sky.value.cell_first + (floatBitsToUint(entry.y) & kBvhIdMask));
+    vec3 d = environment_cell_direction(floatBitsToUint(entry.z) & kBvhIdMask, across, down, sky.value.size.x, sky.value.size.y);
+    return rotate_to_environment_axes(d, sky.value.turn.x, -sky.value.turn.y);
+}
+
 // Returns the radiance in a unit direction of level `level`, from 1, of the environment (Sky::level_first).
 vec3 environment_level_radiance(vec3 direction, uint level) {
     uint width = sky.value.level_width[level - 1u], first = sky.value.level_first[level - 1u];

@@ -2,6 +2,11 @@
 //   float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance)
 // that returns the visible share of a light, and with tints_shadows sets light_tint. Shading calls visible_share_of_light only
 // if the cosines at light and surface are both positive.
+// A shader that defines DRAWS_ENVIRONMENT_DIRECTIONS also defines the constant environment_shadows and the functions
+//   uint environment_direction_count()
+//   bool draw_environment_direction(uint i, vec3 normal, out vec3 direction, out vec3 radiance)
+// for the environment's light with shadows. `radiance` is the radiance from the drawn direction over the density of the
+// direction, times the cosine, over the count. The number of the light is then kEnvironmentLight.
 #ifndef CATOPTRIC_LIGHTING_GLSL
 #define CATOPTRIC_LIGHTING_GLSL
 
@@ -11,6 +16,12 @@
 #include "lib/light_kinds.glsl"
 #include "lib/light_probes.glsl"
 #include "lib/material.glsl"
+
+#ifndef DRAWS_ENVIRONMENT_DIRECTIONS
+const uint environment_shadows = 0u;
+uint environment_direction_count() { return 0u; }
+bool draw_environment_direction(uint i, vec3 normal, out vec3 direction, out vec3 radiance) { return false; }
+#endif
 
 // Returns the direction from the surface to the viewer in the tangent space of `normal`. An interpolated normal that
 // points away from the viewer counts as if it pointed to the viewer.
@@ -49,12 +60,18 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         tangent_frame(normal, tangent, bitangent);
         to_eye = to_viewer_in_tangent_space(normal, tangent, bitangent, to_viewer);
     }
-    uint light = 0u;
+    uint light = 0u, end = count;
+    if (environment_shadows != 0u && surface.albedo != vec3(0)) end += environment_direction_count();
     if (count_work != 0u) add_to_work_count(kWorkLightEvaluations, count);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
-        bool is_lit = light < count && !(traces_paths != 0u && is_light_a_lamp(light)) &&
+        vec3 intensity = vec3(0);
+        bool is_environment = environment_shadows != 0u && light >= count, is_lit = false;
+        if (environment_shadows != 0u && is_environment) {
+            is_lit = light < end && draw_environment_direction(light - count, normal, direction, intensity);
+            distance = kLargestFloat, factor = 1.0;
+        } else is_lit = light < count && !(traces_paths != 0u && is_light_a_lamp(light)) &&
                       sample_light_of_any_kind(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
             factor *= facet_light_share(direction, normal, facet);
@@ -62,26 +79,27 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         }
         if (is_lit) {
             if (tints_shadows != 0u) light_tint = vec3(1);
-            float visible = visible_share_of_light(light, position, normal, direction, distance);
-            vec3 irradiance = read_light(light).intensity * (factor * visible);
+            float visible = visible_share_of_light(is_environment ? kEnvironmentLight : light, position, normal, direction, distance);
+            if (!is_environment) intensity = read_light(light).intensity;
+            vec3 irradiance = intensity * (factor * visible);
             if (tints_shadows != 0u && !is_glass(surface.detail)) irradiance *= light_tint;
             direct += irradiance;
-            if (has_clear_coats != 0u && has_rough_coat && !is_light_a_lamp(light)) {
+            if (has_clear_coats != 0u && has_rough_coat && !is_environment && !is_light_a_lamp(light)) {
                 vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
                 coat_highlights += irradiance / to_light.z * evaluate_lobe(roughness_to_alpha(clear_coat.roughness), vec3(kClearCoatF0), vec3(1), to_eye, to_light);
             }
-            if (has_lobes != 0u && is_rough) {
+            if (has_lobes != 0u && is_rough && !is_environment) {
                 vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
                 if (is_light_a_lamp(light)) by_lamps += irradiance;
                 else highlights += irradiance / to_light.z * evaluate_lobe(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, to_light);
             }
         }
         ++light;
-    } while (one_light == 0u && light < count);
+    } while ((one_light == 0u || environment_shadows != 0u) && light < end);
     bool has_ambient = traces_paths == 0u && has_light_probes == 0u;
     if (has_light_probes != 0u && traces_paths == 0u) {
         if (surface.albedo != vec3(0)) direct += light_probe_irradiance(position, normal);
-    } else if (environment_kind != kNoEnvironment && traces_paths == 0u) {
+    } else if (environment_kind != kNoEnvironment && traces_paths == 0u && environment_shadows == 0u) {
         direct += environment_irradiance(normal);
     }
     vec3 result = lambertian_radiance(surface.emission, surface.albedo, direct, has_ambient ? frame_ambient_light() : 0.0);

@@ -12,6 +12,9 @@ layout(constant_id = ONE_LIGHT_CONSTANT) const uint one_light = 0u;
 // 1: paths (lib/paths.glsl) find the light of lamps, of the environment and of other surfaces, so shading adds none of it.
 layout(constant_id = TRACES_PATHS_CONSTANT) const uint traces_paths = 0u;
 
+// Number by which shading asks for the visible share of the environment in one direction.
+const uint kEnvironmentLight = 0xffffffffu;
+
 #ifndef CATOPTRIC_DRAWN_GLSL // a compute shader reads light data once for all lanes, as long as no lanes have diverged
 Light only_light = lights[0];
 Light read_first_light() { return only_light; }

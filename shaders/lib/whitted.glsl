@@ -68,6 +68,11 @@ layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
 // The arguments of sample_pattern_point for the traced path.
 uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
 
+// Above 0: the environment lights diffuse surfaces with shadows, from this many directions at the first two surfaces of a
+// path, and from one direction at each later surface.
+layout(constant_id = ENVIRONMENT_SHADOWS_CONSTANT) const uint environment_shadows = 0u;
+uint path_bounce = 0u; // reflections before the surface that is shaded
+
 uint camera_rays = 0u; // camera rays that walked through the BVH
 uint mirror_rays = 0u;
 uint shadow_rays = 0u;
@@ -398,12 +403,48 @@ void pass_sphere_of_glass(Ray ray, uint object, vec3 centre, float radius, float
     }
 }
 
+#define DRAWS_ENVIRONMENT_DIRECTIONS
+// First dimension of sample_pattern_point for directions to the environment. Each reflection has four.
+const uint kEnvironmentDimensions = 0x50000u;
+
+uint environment_direction_count() { return path_bounce <= 1u ? environment_shadows : 1u; }
+
+// Draws direction `i` of environment_direction_count(). If the map has bright cells, every second direction is drawn from
+// them and the others by the cosine; both count by the mean of the two densities (one-sample multiple importance sampling).
+bool draw_environment_direction(uint i, vec3 normal, out vec3 direction, out vec3 radiance) {
+    uint first = kEnvironmentDimensions + 4u * path_bounce, count = environment_direction_count(), index = path_sample * count + i;
+    float u, v;
+    bool has_cells = environment_kind == kMapEnvironment && sky.value.cell_count > 0u, is_of_cell = false;
+    if (has_cells) {
+        // A random start makes each direction of either kind with probability 1/2, so that few directions have no bias.
+        sample_pattern_point(path_pixel, 0u, first, path_seed, u, v);
+        if (u < 0.5) ++index;
+        is_of_cell = (index & 1u) != 0u;
+        index >>= 1;
+    }
+    if (is_of_cell) {
+        float across, down;
+        sample_pattern_point(path_pixel, index, first + 1u, path_seed, u, v);
+        sample_pattern_point(path_pixel, index, first + 2u, path_seed, across, down);
+        direction = draw_environment_cell_direction(u, v, across, down);
+    } else {
+        sample_pattern_point(path_pixel, index, first + 3u, path_seed, u, v);
+        direction = sample_cosine(normal, u, v);
+    }
+    float cosine = dot(normal, direction), density;
+    radiance = environment_radiance_and_density(direction, density);
+    density = has_cells ? 0.5 * (max(cosine, 0.0) / kPi + density) : max(cosine, 0.0) / kPi;
+    radiance *= cosine / (density * float(count));
+    return cosine > 0.0 && density > 0.0;
+}
+
 float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
+    bool is_environment = environment_shadows != 0u && light == kEnvironmentLight;
     if (SHADOW_BY == kShadowNone) return 1.0;
-    if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
+    if (has_shadow_map != 0u && SHADOW_BY == kShadowMap && !is_environment)
         return sample_hard_or_soft_shadow_map(light, position, normal, normalize(point.facet), dot(abs(normal), point.error));
     float visible;
-    if (has_shadow_map != 0u && first_raster != 0u &&
+    if (has_shadow_map != 0u && first_raster != 0u && !is_environment &&
         find_light_share_by_shadow_map(light, position, normal, dot(abs(normal), point.error), visible))
         return visible;
     ++shadow_rays;
@@ -411,9 +452,12 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
     vec3 origin;
     if (goes_below) origin = lifted_shadow_ray_origin(point, normal);
     else origin = find_leaving_ray_origin(point, direction);
-    Ray ray = Ray(origin, read_light(light).position - origin, point.leaves);
+    bool is_parallel = is_environment;
+    if (!is_environment) is_parallel = is_directional_light(light);
+    Ray ray = Ray(origin, direction, point.leaves);
+    if (!is_environment) ray.direction = read_light(light).position - origin;
     float t = is_precision_rule_kept(kShadowRayEndRule) ? kShadowRayEnd : 1.0;
-    if (is_directional_light(light)) {
+    if (is_parallel) {
         ray.direction = direction;
         t = kLargestFloat;
     }
@@ -424,7 +468,7 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
     bool is_hidden = has_any_hit(ray, t, kBvhCastsNoShadow | skipped_triangle_flags());
     if (tints_shadows != 0u) {
         // If the light is inside a body of glass, its light starts in the glass.
-        if (!is_directional_light(light)) passed_depth += max(entered_absorption, vec3(0)) * length(shadow_direction);
+        if (!is_parallel) passed_depth += max(entered_absorption, vec3(0)) * length(shadow_direction);
         light_tint = share_behind_glass(passed_depth);
     }
     return is_hidden ? 0.0 : 1.0;
@@ -514,6 +558,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         if (has_glass != 0u && is_passed && dot(lit_normal, ray.direction) > 0.0) lit_normal = -lit_normal;
         // All surfaces share this one call, because the driver's compiler inlines each call with the whole BVH walk of its
         // shadow ray.
+        if (environment_shadows != 0u) path_bounce = bounce - first;
         if (has_glass != 0u && is_inside) result += weight * surface.emission;
         else if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, lit_normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || is_passed || traces_paths != 0u);
         if (has_glass != 0u && is_passed) {

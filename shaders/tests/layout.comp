@@ -53,6 +53,7 @@ void main() {
     for (int i = 0; i < 9; ++i) append_result_word(s.irradiance[i]);
     for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append_result_word(s.level_first[i]);
     for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append_result_word(s.level_width[i]);
+    append_result_word(s.cell_first), append_result_word(s.cell_count), append_result_word(s.cell_threshold), append_result_word(s.cell_density);
     Frame f = frames[1];
     append_result_word(f.ambient), append_result_word(f.light_count), append_result_word(f.mirror_count), append_result_word(f.object_count), append_result_word(f.shadow_faces);
     append_result_word(draws[1].first_view), append_result_word(draws[1].ablated), append_result_word(draws[1].shown);

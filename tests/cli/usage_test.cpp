@@ -55,6 +55,7 @@ TEST_F(CommandLineTest, HelpNamesEveryCommonOption) {
                                "--glass-shadow",
                                "--light-samples",
                                "--environment",
+                               "--environment-shadows",
                                "--environment-scale",
                                "--environment-rotate",
                                "--up",
@@ -205,6 +206,8 @@ TEST_F(CommandLineTest, InvalidNumberOfAnOptionIsRefused) {
     refused("--glass-shadow", "yes", "none or tint");
     for (const std::string scale : {"-1", "inf"}) refused("--environment-scale", scale, "from 0");
     refused("--environment-rotate", "north", "finite");
+    for (const std::string rays : {"-1", "1025"})
+        refused("--environment-shadows", rays, "from 0 to 1024");
     refused("--mirror", "a=2", "from 0 to 1");
     for (const std::string seed : {"-1", "1.5", "18446744073709551616"})
         refused("--seed", seed, "whole number");

@@ -280,6 +280,7 @@ TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
                            {"multiple_scattering", "turquin"},
                            {"glass_shadow", "tint"},
                            {"light_samples", 4},
+                           {"environment_shadows", 4},
                            {"environment", "good.exr"},
                            {"environment_scale", 1},
                            {"environment_rotate", 90},

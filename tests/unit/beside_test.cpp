@@ -46,7 +46,7 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
     const app::ResolvedScene found = load_with_override_file(
         R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin", "glass_shadow": "tint", "light_samples": 4,
-            "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
+            "environment_shadows": 16, "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
             "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
             "animation": "none"})");
     const Scene& scene = found.scene;
@@ -56,6 +56,7 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_TRUE(scene.has_multiple_scattering);
     EXPECT_TRUE(scene.tints_glass_shadows);
     EXPECT_EQ(scene.light_samples, 4);
+    EXPECT_EQ(scene.environment_shadows, 16);
     ASSERT_NE(scene.environment, nullptr);
     EXPECT_EQ(scene.environment->name, "sky.exr");
     EXPECT_EQ(scene.environment->size, uvec2(4, 2));
@@ -145,6 +146,8 @@ TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
                 HasSubstr("light_samples: wanted a number from 1 to 128, found 0"));
     EXPECT_THAT(override_file_error_text(R"({"light_samples": 2.5})"),
                 HasSubstr("light_samples: wanted a whole number, found 2.5"));
+    EXPECT_THAT(override_file_error_text(R"({"environment_shadows": 2000})"),
+                HasSubstr("environment_shadows: wanted a number from 0 to 1024, found 2000"));
     EXPECT_THAT(override_file_error_text(R"({"up": "x"})"),
                 HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
     EXPECT_THAT(override_file_error_text(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
@@ -201,6 +204,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.lights = {"l*"};
     overrides.mirror_max_roughness = .3, overrides.dielectric_mirrors = false;
     overrides.multiple_scattering = true, overrides.light_samples = 9;
+    overrides.environment_shadows = 5;
     overrides.tints_glass_shadows = true;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";

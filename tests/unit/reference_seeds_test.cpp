@@ -83,6 +83,18 @@ TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
     EXPECT_TRUE(scene::has_rough_reflector(lambertian)) << "a dielectric";
 }
 
+TEST(EnvironmentShadows, MakeNoiseInTracedReferencesWithAnEnvironment) {
+    scene::Scene scene = make_metal_triangle_scene(0, .3f);
+    scene.environment_shadows = 4;
+    EXPECT_FALSE(app::does_reference_have_noise(app::kReference, scene)) << "no environment";
+    scene.environment = std::make_shared<scene::Environment>();
+    EXPECT_TRUE(app::does_reference_have_noise(app::kReference, scene));
+    EXPECT_FALSE(app::does_reference_have_noise("raytrace:shadow=none", scene));
+    EXPECT_FALSE(app::does_reference_have_noise("reuse", scene));
+    scene.environment_shadows = 0;
+    EXPECT_FALSE(app::does_reference_have_noise(app::kReference, scene));
+}
+
 /// The green channel of the texture multiplies the roughness. The whole range of the texture must
 /// count.
 TEST(RoughReflectors, TextureCountsByItsWholeRange) {

@@ -31,6 +31,45 @@ INLINE EnvironmentMapPosition direction_to_environment_map(vec3 d, uint width, u
     return place;
 }
 
+// The cell of an environment map that holds a direction, and the direction's place in the cell. Between the centres of four
+// texels lies one cell, in which the bilinear look-up has four fixed corners. Row 0 and row `height` are half as high, at
+// the poles.
+struct EnvironmentCell {
+    uint left, right, above, below; // columns and rows of the four texels
+    real across, down;              // bilinear weights
+    real sine_ratio;                // sine of the angle from the +y axis, in the cell's middle over that of the direction
+};
+INLINE real environment_cell_middle_sine(uint row, uint height) {
+    real middle = row == 0u ? real(0.25) : row == height ? real(height) - real(0.25) : real(row);
+    return sin(kPi * middle / real(height));
+}
+INLINE EnvironmentCell direction_to_environment_cell(vec3 d, uint width, uint height) {
+    real level = sqrt(d.x * d.x + d.z * d.z);
+    real azimuth = level > real(0) ? atan(d.x, -d.z) : real(0);
+    real x = (real(0.5) + azimuth / (real(2) * kPi)) * real(width) - real(0.5);
+    real y = atan(level, d.y) / kPi * real(height) + real(0.5);
+    real first = floor(x), row = clamp(floor(y), real(0), real(height));
+    EnvironmentCell cell;
+    cell.left = uint(first + real(width)) % width;
+    cell.right = (cell.left + 1u) % width;
+    cell.above = row > real(0) ? uint(row) - 1u : 0u;
+    cell.below = min(uint(row), height - 1u);
+    cell.across = x - first;
+    cell.down = clamp(y - row, real(0), real(1));
+    cell.sine_ratio = environment_cell_middle_sine(uint(row), height) / max(level, real(1e-9));
+    return cell;
+}
+
+// Returns the unit direction at the place (`across`, `down`), each in [0, 1), of cell `cell`, counted by rows.
+INLINE vec3 environment_cell_direction(uint cell, real across, real down, uint width, uint height) {
+    uint row = cell / width;
+    real x = real(cell % width) + real(0.5) + across;
+    real top = row == 0u ? real(0) : real(row) - real(0.5);
+    real y = top + down * (row == 0u || row == height ? real(0.5) : real(1));
+    real azimuth = (x / real(width) - real(0.5)) * real(2) * kPi, angle = kPi * y / real(height);
+    return vec3(sin(angle) * sin(azimuth), cos(angle), -sin(angle) * cos(azimuth));
+}
+
 // Returns the grey radiance of the built-in studio environment in the unit direction `d`. The studio has a bright
 // ceiling that darkens to the floor, and a soft box to the left behind a camera that looks along -z.
 INLINE real studio_radiance(vec3 d) {
