@@ -110,7 +110,8 @@ public:
             add_picture_rows();
             for (const StudyChoice& choice : list_requested_studies())
                 find_study(choice.name)
-                    .run({.session = shared_session_,
+                    .run({.engine = comparison_engine_,
+                          .session = shared_session_,
                           .request = compare_request_,
                           .count = choice.count,
                           .texts = choice.texts,

@@ -17,6 +17,7 @@ namespace catoptric::app {
 
 /// The data that the function `run` of a study gets.
 struct StudyInput {
+    Engine& engine;   ///< for sessions of other scenes
     Session& session; ///< shows the scene of `request.base`
     /// The request of the comparison. `base.techniques` has the text of each row, in the order of
     /// the rows.

@@ -1,0 +1,308 @@
+// The study `truth-causes`: the distance of the usual ray tracing to path tracing, by cause. A
+// chain of references removes one simplification of the light after the other, until the last is
+// path traced. Each step of the chain counts by the squared error that it removes.
+#include "measure/display.hpp"
+#include "measure/masks.hpp"
+#include "measure/metric.hpp"
+#include "measure/picture_mean.hpp"
+#include "measure/pixel_error.hpp"
+#include "report/text.hpp"
+#include "scene/light.hpp"
+#include "session/session.hpp"
+#include "shared.h"
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr const char* kTruthCausesMetricName = "truth_causes";
+/// Points of each lamp in the reference with large lamps, unless the scene has too many lamps.
+constexpr std::size_t kPointsOfLamp = 64;
+/// Rays to the environment from each surface in a frame of the reference with its shadows.
+constexpr int kRaysToEnvironment = 64;
+/// A squared error below this number of standard deviations of its noise counts as 0.
+constexpr double kDeviationsOfNoError = 3;
+/// A squared error below this number is due to rounding in means of many equal rays.
+constexpr double kSquaredErrorOfRounding = 1e-10;
+
+/// A reference of the chain: the scene with settings of its light, and the technique.
+struct ChainReference {
+    std::string removed_cause; ///< what the reference before simplifies; empty for the first
+    scene::Scene scene;
+    std::string technique;
+};
+
+/// Returns how many points each lamp gets; 1 if no lamp has an area, or no more points fit.
+int choose_points_of_lamp(const scene::Scene& scene) {
+    const std::size_t others = scene.punctual.size(), all = scene::list_lights(scene).size();
+    if (all <= others || others >= shared::kMaxLights) return 1;
+    const std::size_t lamps = all - others, most = (shared::kMaxLights - others) / lamps;
+    return static_cast<int>(std::clamp<std::size_t>(most, 1, kPointsOfLamp));
+}
+
+/// Returns the chain from the usual model of light to path tracing. Steps that change nothing in
+/// this scene are left out.
+std::vector<ChainReference> make_reference_chain(scene::Scene scene) {
+    scene.light_samples = 1, scene.environment_shadows = 0;
+    std::vector<ChainReference> chain{{"", scene, choose_reference("", scene)}};
+    scene::Scene refined = scene;
+    if (const int points = choose_points_of_lamp(scene); points > 1) {
+        refined.light_samples = points;
+        chain.push_back({"light as a point", refined, chain.front().technique});
+    }
+    if (scene.environment) {
+        refined.environment_shadows = kRaysToEnvironment;
+        chain.push_back({"occlusion of the environment", refined, chain.front().technique});
+    }
+    chain.push_back({"light between surfaces", std::move(scene), kPathReference});
+    return chain;
+}
+
+/// Renders one reference of the chain, as two means of frames if it has noise.
+class ChainPictures {
+public:
+    ChainPictures(const StudyInput& input, ChainReference reference)
+        : technique_(std::move(reference.technique)), request_(input.request.base),
+          watcher_(input.request.watcher),
+          has_noise_(does_reference_have_noise(technique_, reference.scene)),
+          chain_session_(input.engine, reference.scene) {
+        request_.scene = std::move(reference.scene);
+        request_.model = RenderedWork::everything;
+        request_.time = input.request.base.instant(input.request.base.total());
+        request_.animate = false;
+        request_.warmup = 0, request_.frames = 1;
+    }
+
+    /// Adds a frame to each half. Does nothing for a reference without noise that has its picture.
+    void add_frames(ReferenceSeeds& seeds) {
+        if (!has_noise_ && halves_[0].picture_count() > 0) return;
+        for (measure::PictureMean& half : halves_) {
+            request_.techniques = {has_noise_ ? set_lobe_seed(technique_, seeds.next())
+                                              : technique_};
+            half.add_picture(run(chain_session_, request_, watcher_).parts.front().hdr);
+            if (!has_noise_) return;
+        }
+    }
+    int frame_count() const { return halves_[0].picture_count(); }
+    /// Returns the mean of the first or the second half; the one picture of a reference without
+    /// noise.
+    measure::Picture half(std::size_t index) const {
+        return halves_[has_noise_ ? index : 0].mean();
+    }
+
+private:
+    std::string technique_;
+    Request request_;
+    const Watcher& watcher_;
+    bool has_noise_;
+    Session chain_session_;
+    std::array<measure::PictureMean, 2> halves_;
+};
+
+/// The distance of a reference to the path-traced one over the pixels of a mask.
+struct ChainDistance {
+    double squared_error = 0; ///< free of noise: mean of (X - A)(Y - B) over the halves
+    double deviation = 0;     ///< standard deviation of the squared error by the noise
+    double flip = 0;          ///< mean of the FLIP of X and A, and of Y and B
+};
+
+/// Two halves of a picture, after exposure, and as displayed.
+struct ShownHalves {
+    std::array<measure::Picture, 2> light, display;
+};
+
+ShownHalves show_halves(const ChainPictures& pictures, double exposure) {
+    ShownHalves shown;
+    for (std::size_t i = 0; i < 2; ++i) {
+        shown.light[i] = measure::apply_exposure(pictures.half(i), exposure);
+        shown.display[i] = measure::to_unrounded_display(pictures.half(i), exposure);
+    }
+    return shown;
+}
+
+ChainDistance measure_chain_distance(const ShownHalves& x, const ShownHalves& truth,
+                                     const measure::Mask& mask) {
+    double sum = 0, squares = 0, values = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (mask[i] == 0) continue;
+        std::array<dvec3, 2> error;
+        for (std::size_t half = 0; half < 2; ++half)
+            error[half] = measure::clamp_pixel_to_unit_range(x.light[half].pixels[i]) -
+                          measure::clamp_pixel_to_unit_range(truth.light[half].pixels[i]);
+        const dvec3 product = error[0] * error[1],
+                    noise = (error[0] + error[1]) / 2.0 * (error[0] - error[1]);
+        sum += product.x + product.y + product.z;
+        squares += glm::dot(noise, noise);
+        values += 3;
+    }
+    ChainDistance distance{sum / values, std::sqrt(squares) / values};
+    for (std::size_t half = 0; half < 2; ++half)
+        distance.flip += measure::flip_mean(measure::flip(x.display[half], truth.display[half]),
+                                            mask) /
+                         2;
+    return distance;
+}
+
+/// The part of the distance that a step of the chain removes, over one mask.
+struct CausePart {
+    ChainDistance before, after;
+    double share = 0; ///< of the squared error of the first reference; 0 if this is noise
+};
+
+/// Returns the part of each step. The shares add up to 1, or are all 0 if the first reference does
+/// not differ from path tracing by more than the noise.
+std::vector<CausePart> split_chain_distance(const std::vector<ShownHalves>& chain,
+                                            const measure::Mask& mask) {
+    std::vector<ChainDistance> distances;
+    for (const ShownHalves& shown : chain)
+        distances.push_back(measure_chain_distance(shown, chain.back(), mask));
+    distances.back().squared_error = distances.back().deviation = 0; // to itself
+    // The FLIP between the halves of path tracing is the noise floor.
+    distances.back().flip = measure::flip_mean(
+        measure::flip(chain.back().display[0], chain.back().display[1]), mask);
+    const ChainDistance& whole = distances.front();
+    const bool differs = whole.squared_error >
+                         std::max(kDeviationsOfNoError * whole.deviation, kSquaredErrorOfRounding);
+    std::vector<CausePart> parts;
+    for (std::size_t i = 1; i < distances.size(); ++i)
+        parts.push_back({distances[i - 1], distances[i],
+                         differs ? (distances[i - 1].squared_error - distances[i].squared_error) /
+                                       whole.squared_error
+                                 : 0});
+    return parts;
+}
+
+measure::NamedMetricValueParts list_part_values(const std::string& cause, const CausePart& all,
+                                                const CausePart& mirrors) {
+    return {"cause",
+            cause,
+            {{"share", all.share},
+             {"squared_error", all.before.squared_error},
+             {"squared_error_left", all.after.squared_error},
+             {"deviation", all.before.deviation},
+             {"flip", all.before.flip},
+             {"flip_left", all.after.flip},
+             {"mirrors_share", mirrors.share},
+             {"mirrors_squared_error", mirrors.before.squared_error},
+             {"mirrors_squared_error_left", mirrors.after.squared_error},
+             {"mirrors_deviation", mirrors.before.deviation},
+             {"mirrors_flip", mirrors.before.flip},
+             {"mirrors_flip_left", mirrors.after.flip}}};
+}
+
+void set_truth_causes(const StudyInput& input, const std::vector<std::string>& causes,
+                      const std::vector<std::unique_ptr<ChainPictures>>& chain) {
+    std::vector<ShownHalves> shown;
+    for (const std::unique_ptr<ChainPictures>& pictures : chain)
+        shown.push_back(show_halves(*pictures, input.request.base.exposure));
+    const std::vector<std::uint32_t>& hits = input.truth.find_mirror_hits();
+    const std::vector<CausePart> all = split_chain_distance(shown, measure::mask_all_pixels(hits)),
+                                 mirrors = split_chain_distance(shown,
+                                                                measure::mask_mirror_pixels(hits));
+    std::vector<measure::NamedMetricValueParts> list;
+    for (std::size_t i = 0; i < causes.size(); ++i)
+        list.push_back(list_part_values(causes[i], all[i], mirrors[i]));
+    for (report::Row& row : input.comparison.rows)
+        measure::set_row_metric_of_study(row, kTruthCausesMetricName, list);
+}
+
+void split_distance_to_path_tracing(const StudyInput& input) {
+    std::vector<std::string> causes, rows = input.request.base.techniques;
+    rows.push_back(input.request.reference);
+    ReferenceSeeds seeds(rows);
+    std::vector<std::unique_ptr<ChainPictures>> chain;
+    for (ChainReference& reference : make_reference_chain(input.request.base.scene)) {
+        if (!chain.empty()) causes.push_back(reference.removed_cause);
+        chain.push_back(std::make_unique<ChainPictures>(input, std::move(reference)));
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const auto most = static_cast<std::size_t>(
+        std::max(std::ceil(input.request.reference_seconds), 1.0));
+    double seconds = 0;
+    do {
+        report_row_to_watcher(input.request.watcher,
+                              "references with more light, " +
+                                  std::to_string(chain.back()->frame_count()) + " frames a half",
+                              std::min(static_cast<std::size_t>(seconds), most), most);
+        for (const std::unique_ptr<ChainPictures>& pictures : chain) pictures->add_frames(seeds);
+        seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    } while (seconds < input.request.reference_seconds);
+    set_truth_causes(input, causes, chain);
+    input.tell();
+}
+
+double find_part_number(const measure::NamedMetricValueParts& parts, const std::string& name) {
+    for (const auto& [what, value] : parts.values)
+        if (const auto* number = std::get_if<double>(&value); what == name && number != nullptr)
+            return *number;
+    return NAN;
+}
+
+std::string format_square(double square) {
+    return std::isfinite(square) ? fmt::format("{:.2e}", square)
+                                 : std::string(report::kEmptyCellText);
+}
+
+report::ReportTable make_truth_cause_table(const report::Comparison& comparison,
+                                           const std::string& title, const std::string& prefix) {
+    report::ReportTable table{
+        title,
+        {report::make_text_column("Cause"), "Share, %", "Squared error", "Without the cause",
+         "Deviation", "FLIP", "Without the cause"},
+        "The usual ray tracing, against path tracing. Each line removes one more cause from the "
+        "references, in this order. Squared error: of the reference that has the cause, free of "
+        "noise by two halves. Deviation: its standard deviation by noise. Share: the squared "
+        "error that the line removes, of that in the first line; 0 if all is noise. FLIP includes "
+        "noise; in the last cell it is the noise of path tracing. Light between surfaces includes "
+        "caustics."};
+    if (comparison.rows.empty()) return table;
+    const measure::MetricValue value = measure::find_row_metric_of_study(comparison.rows.front(),
+                                                                         kTruthCausesMetricName);
+    const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
+    if (list == nullptr) return table;
+    for (const measure::NamedMetricValueParts& parts : *list) {
+        const auto number = [&](const char* name) {
+            return find_part_number(parts, prefix + name);
+        };
+        table.rows.push_back(
+            {parts.name, report::format_fixed(100 * number("share"), 1),
+             format_square(number("squared_error")), format_square(number("squared_error_left")),
+             format_square(number("deviation")), report::format_fixed(number("flip"), 4),
+             report::format_fixed(number("flip_left"), 4)});
+    }
+    return table;
+}
+
+std::vector<report::ReportTable> make_truth_cause_tables(const report::Comparison& comparison) {
+    return {
+        make_truth_cause_table(comparison, "Distance to path tracing by cause, whole picture", ""),
+        make_truth_cause_table(comparison, "Distance to path tracing by cause, mirrors",
+                               "mirrors_")};
+}
+
+const RegisteredStudy kTruthCausesStudy{
+    {.name = "truth-causes",
+     .help = "also split the distance of ray tracing to path tracing into lamps as points, "
+             "occlusion of the environment, and light between surfaces; takes --reference-seconds",
+     .order = 60,
+     .run = split_distance_to_path_tracing,
+     .metrics = {{.name = kTruthCausesMetricName,
+                  .help = "distance of the usual ray tracing to path tracing, by cause; the same "
+                          "in each row",
+                  .order = 795,
+                  .get = measure::Metric::IsMetricOfStudy{}}},
+     .part = {.order = 710, .tables = make_truth_cause_tables}}};
+
+} // namespace
+
+} // namespace catoptric::app
