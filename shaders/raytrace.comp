@@ -50,6 +50,9 @@ void main() {
     bool inside = find_pixel_to_trace(pixel);
     if (inside) {
         uint met;
+#ifdef LISTED
+        occluded_pixel = ivec2(pixel);
+#endif
         if (traces_lobes != 0u || environment_shadows != 0u) {
             path_pixel = pixel.y * asked.size.x + pixel.x;
             path_sample = asked.sample_index;

@@ -61,6 +61,7 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
     if (settings.has_knob_named(kLightProbesKnob) &&
         has_second_choice_of_knob(settings, kIndirectLightKnob))
         knobs.light_probes = *find_knob_number(settings, kLightProbesKnob);
+    knobs.occludes_environment = has_second_choice_of_knob(settings, kAmbientOcclusionKnob);
     knobs.capture = find_knob_number(settings, kCaptureContentCacheKnob);
     knobs.is_black_in_others = settings.has_knob_named(kCaptureContentCacheKnob) && !knobs.capture;
     return knobs;

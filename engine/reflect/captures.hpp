@@ -183,6 +183,14 @@ inline constexpr TechniqueKnob kIndirectLightKnob{
             "paths)",
     .high = 1,
     .choices = kIndirectLightChoices};
+inline constexpr std::array<std::string_view, 2> kAmbientOcclusionChoices{"none", "screen"};
+inline constexpr TechniqueKnob kAmbientOcclusionKnob{
+    .name = "ao",
+    .help = "surfaces that hide the environment and --ambient from diffuse surfaces: none, or "
+            "screen (those that the camera's view shows nearby; not in captures and mirrored "
+            "views; judge it by --truth paths)",
+    .high = 1,
+    .choices = kAmbientOcclusionChoices};
 inline constexpr TechniqueKnob kLightProbesKnob{
     .name = "probes",
     .help = "most light probes of the grid, for indirect=captures",
@@ -191,25 +199,16 @@ inline constexpr TechniqueKnob kLightProbesKnob{
     .value = 64};
 
 /// Knobs that every search has, in lists after the search's own knobs.
-inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,
-                                               kCaptureColourKnob,
-                                               kCaptureDistanceKnob,
-                                               kDistanceRangeKnob,
-                                               kContinuedSearchesKnob,
-                                               kCaptureTexelLookupKnob,
-                                               kSearchedCapturesKnob,
-                                               kMirrorsInCapturesKnob,
-                                               kShownDebugPictureKnob,
-                                               kRoughMirrorMethodKnob,
-                                               kBlurLawKnob,
-                                               kFilterTapsKnob,
-                                               kRoughRaysKnob,
-                                               kGlassRefractionModelKnob,
-                                               kIndirectLightKnob,
-                                               kLightProbesKnob,
-                                               kShadowKnob,
-                                               kShadowMapEdgeKnob,
-                                               kSoftShadowKnob};
+inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,       kCaptureColourKnob,
+                                               kCaptureDistanceKnob,   kDistanceRangeKnob,
+                                               kContinuedSearchesKnob, kCaptureTexelLookupKnob,
+                                               kSearchedCapturesKnob,  kMirrorsInCapturesKnob,
+                                               kShownDebugPictureKnob, kRoughMirrorMethodKnob,
+                                               kBlurLawKnob,           kFilterTapsKnob,
+                                               kRoughRaysKnob,         kGlassRefractionModelKnob,
+                                               kIndirectLightKnob,     kLightProbesKnob,
+                                               kAmbientOcclusionKnob,  kShadowKnob,
+                                               kShadowMapEdgeKnob,     kSoftShadowKnob};
 
 template <std::size_t N>
 constexpr std::array<TechniqueKnob, N + kCommonSearchKnobs.size()>

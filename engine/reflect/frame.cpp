@@ -3,9 +3,11 @@
 #include "reflect/captures.hpp"
 #include "reflect/mirrored.hpp"
 #include "reflect/rough.hpp"
+#include "render/ambient_occlusion.hpp"
 #include "require/model.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 namespace catoptric::reflect {
@@ -201,6 +203,33 @@ declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInput
     return render::declare_light_probes(graph, inputs, most);
 }
 
+/// Returns whether surfaces of the camera's view hide the environment from each other: some
+/// technique asks for it, and diffuse surfaces are lit by it. Light probes know what hides it. Adds
+/// a note if a technique's wish has no effect.
+bool is_environment_occluded(const render::FrameInputs& inputs,
+                             const std::vector<TechniqueChoice>& choices,
+                             std::vector<std::string>& notes) {
+    const auto occludes = [](const TechniqueChoice& choice) {
+        return choice.shared.occludes_environment;
+    };
+    const auto has_probes = [](const TechniqueChoice& choice) {
+        return choice.shared.light_probes > 0;
+    };
+    if (!std::ranges::any_of(choices, occludes)) return false;
+    if (std::ranges::any_of(choices, has_probes)) {
+        notes.push_back("ao=screen has no effect beside indirect=captures, whose light probes know "
+                        "what hides the environment");
+        return false;
+    }
+    if (!inputs.scene.has_environment_light()) return false;
+    char note[96];
+    std::snprintf(note, sizeof note,
+                  "ao=screen: surfaces up to %.3g world units away hide the environment",
+                  render::find_ambient_occlusion_radius(inputs.scene));
+    notes.emplace_back(note);
+    return true;
+}
+
 /// Declares the captures of all techniques based on `reuse`, in which mirrors are drawn by the
 /// captures of the last frame. Returns an empty update if no technique needs captures.
 MutualMirrorCaptures add_capture_passes_with_feedback(
@@ -300,6 +329,9 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         return traced;
     }
     TechniqueOutputs outputs;
+    render::ShadingLights view_lighting = lighting;
+    if (is_environment_occluded(inputs, choices, outputs.notes))
+        view_lighting.ambient_occlusion = render::add_ambient_occlusion_passes(graph, inputs);
     const MutualMirrorCaptures feedback = add_capture_passes_with_feedback(
         graph, inputs, assignment, keeping, maps, lighting, probes);
     outputs.captures = feedback.update.captures;
@@ -345,7 +377,10 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
             look.tracer->first_raster = false;
         }
         if (look.tracer) {
-            if (!look.tracer->paths) look.tracer->lighting.probes = lighting.probes;
+            if (!look.tracer->paths) {
+                look.tracer->lighting.probes = lighting.probes;
+                look.tracer->lighting.ambient_occlusion = view_lighting.ambient_occlusion;
+            }
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",
                                                static_cast<std::uint32_t>(tracers.size()));
@@ -353,7 +388,9 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         if (!outputs.captures) outputs.captures = look.mirror.captures;
         looks.looks.push_back(std::move(look.mirror));
     }
-    if (outputs.captures) outputs.notes = outputs.captures->notes;
+    if (outputs.captures)
+        outputs.notes.insert(outputs.notes.begin(), outputs.captures->notes.begin(),
+                             outputs.captures->notes.end());
     outputs.draws_everything = probes.has_value();
     if (probes && !probes->note.empty()) outputs.notes.push_back(probes->note);
     if (probes && history.most > 0)
@@ -370,7 +407,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         std::ranges::for_each(glass->opaque_looks.looks, remove_images_of_camera_view);
     }
     const render::CameraPassOutputs view = render::add_camera_view(
-        graph, inputs, lighting, std::move(looks), !tracers.empty(),
+        graph, inputs, view_lighting, std::move(looks), !tracers.empty(),
         completes ? render::ShadingTracer{1, tracers.front().rays > 0} : render::ShadingTracer{},
         std::move(glass));
     outputs.hdr = view.hdr;

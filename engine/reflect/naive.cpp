@@ -15,9 +15,9 @@ constexpr TechniqueKnob kBouncesKnob{
     .high = 8,
     .value = 3};
 constexpr TechniqueKnob kNaiveKnobs[] = {
-    kBouncesKnob,       kCaptureFaceKnob,        kCaptureColourKnob, kGlassRefractionModelKnob,
-    kIndirectLightKnob, kLightProbesKnob,        kShadowKnob,        kShadowMapEdgeKnob,
-    kSoftShadowKnob,    kCaptureContentCacheKnob};
+    kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,      kGlassRefractionModelKnob,
+    kIndirectLightKnob, kLightProbesKnob, kAmbientOcclusionKnob,   kShadowKnob,
+    kShadowMapEdgeKnob, kSoftShadowKnob,  kCaptureContentCacheKnob};
 
 /// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
 /// technique `naive`, because only these look into its captures.

@@ -16,11 +16,22 @@ constexpr TechniqueKnob kOmittedParallaxRuleKnob{
     .help = "rule of robustness to leave out, to measure its cost",
     .high = 2,
     .choices = kOmittedParallaxRuleChoices};
-constexpr TechniqueKnob kParallaxKnobs[] = {
-    kCaptureFaceKnob,          kCaptureColourKnob, kCaptureDistanceKnob,    kDistanceRangeKnob,
-    kRoughMirrorMethodKnob,    kBlurLawKnob,       kFilterTapsKnob,         kRoughRaysKnob,
-    kGlassRefractionModelKnob, kIndirectLightKnob, kLightProbesKnob,        kShadowKnob,
-    kShadowMapEdgeKnob,        kSoftShadowKnob,    kOmittedParallaxRuleKnob};
+constexpr TechniqueKnob kParallaxKnobs[] = {kCaptureFaceKnob,
+                                            kCaptureColourKnob,
+                                            kCaptureDistanceKnob,
+                                            kDistanceRangeKnob,
+                                            kRoughMirrorMethodKnob,
+                                            kBlurLawKnob,
+                                            kFilterTapsKnob,
+                                            kRoughRaysKnob,
+                                            kGlassRefractionModelKnob,
+                                            kIndirectLightKnob,
+                                            kLightProbesKnob,
+                                            kAmbientOcclusionKnob,
+                                            kShadowKnob,
+                                            kShadowMapEdgeKnob,
+                                            kSoftShadowKnob,
+                                            kOmittedParallaxRuleKnob};
 
 render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
                                                      const TechniqueKnobSettings& settings) {

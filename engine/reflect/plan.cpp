@@ -83,8 +83,9 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
 TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
     const TechniqueKnobSettings defaults(choice.technique->knobs);
-    for (const TechniqueKnob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob, &kSoftShadowKnob,
-                                            &kIndirectLightKnob, &kLightProbesKnob}) {
+    for (const TechniqueKnob* const knob :
+         {&kShadowKnob, &kShadowMapEdgeKnob, &kSoftShadowKnob, &kIndirectLightKnob,
+          &kLightProbesKnob, &kAmbientOcclusionKnob}) {
         if (!rest.settings.has_knob_named(*knob) ||
             (knob == &kIndirectLightKnob && !rest.settings.has_knob_named(kLightProbesKnob)))
             continue; // raytrace has other settings for light
@@ -128,6 +129,12 @@ bool TechniquePlan::uses_light_probes() const {
 bool TechniquePlan::uses_soft_shadows() const {
     return std::ranges::any_of(
         rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.has_soft_shadows; });
+}
+
+bool TechniquePlan::occludes_environment() const {
+    return std::ranges::any_of(rules, [](const TechniquePlanRule& rule) {
+        return rule.choice.shared.occludes_environment;
+    });
 }
 
 TechniquePlan parse_plan(std::string_view text) {

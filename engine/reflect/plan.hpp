@@ -35,6 +35,8 @@ struct TechniquePlan {
     bool uses_light_probes() const;
     /// Returns whether some rule draws soft shadows of lamps (soft=pcss).
     bool uses_soft_shadows() const;
+    /// Returns whether some technique of the plan hides the environment from diffuse surfaces.
+    bool occludes_environment() const;
 };
 
 /// Name of the technique `auto`, which chooses a plan for each scene

@@ -46,12 +46,12 @@ constexpr TechniqueKnob kPlanarTapsKnob{.name = "taps",
                                         .low = 1,
                                         .high = 1024,
                                         .value = 16};
-constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob,      kNonPlanarMirrorTechniqueKnob,
-                                          kPlanarRoughKnob,        kPlanarLawKnob,
-                                          kPlanarTapsKnob,         kIndirectLightKnob,
-                                          kLightProbesKnob,        kShadowKnob,
-                                          kShadowMapEdgeKnob,      kSoftShadowKnob,
-                                          kCaptureContentCacheKnob};
+constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob, kNonPlanarMirrorTechniqueKnob,
+                                          kPlanarRoughKnob,   kPlanarLawKnob,
+                                          kPlanarTapsKnob,    kIndirectLightKnob,
+                                          kLightProbesKnob,   kAmbientOcclusionKnob,
+                                          kShadowKnob,        kShadowMapEdgeKnob,
+                                          kSoftShadowKnob,    kCaptureContentCacheKnob};
 
 std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance,
                                               const TechniqueKnobSettings& settings) {

@@ -8,9 +8,10 @@ namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
 constexpr TechniqueKnob kReuseKnobs[] = {
-    kCaptureFaceKnob, kCaptureColourKnob,        kRoughMirrorMethodKnob, kFilterTapsKnob,
-    kRoughRaysKnob,   kGlassRefractionModelKnob, kIndirectLightKnob,     kLightProbesKnob,
-    kShadowKnob,      kShadowMapEdgeKnob,        kSoftShadowKnob};
+    kCaptureFaceKnob,   kCaptureColourKnob, kRoughMirrorMethodKnob,
+    kFilterTapsKnob,    kRoughRaysKnob,     kGlassRefractionModelKnob,
+    kIndirectLightKnob, kLightProbesKnob,   kAmbientOcclusionKnob,
+    kShadowKnob,        kShadowMapEdgeKnob, kSoftShadowKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 

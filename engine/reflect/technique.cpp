@@ -62,6 +62,10 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
     const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
     choice.update_shared_knobs_from_settings();
+    check(!choice.shared.occludes_environment || choice.shared.light_probes == 0, Failure::usage,
+          "technique '", text,
+          "': ao=screen hides the environment's light, which light probes (indirect=captures) "
+          "replace; wanted one of the two knobs");
     return choice;
 }
 

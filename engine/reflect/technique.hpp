@@ -92,7 +92,8 @@ struct KnobsSharedByTechniques {
         return rough == RoughMirrorLookup::prefilter || rough == RoughMirrorLookup::fast;
     }
     std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
-    std::uint32_t light_probes = 0; ///< most light probes of the grid; 0: ambient light
+    std::uint32_t light_probes = 0;    ///< most light probes of the grid; 0: ambient light
+    bool occludes_environment = false; ///< ao=screen
     /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
     /// `capture=none`, or the technique has no such knob.
     std::optional<std::uint32_t> capture;

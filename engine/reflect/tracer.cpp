@@ -107,13 +107,19 @@ graph::BufferHandle add_counters_with_reset(graph::Graph& graph, const std::stri
     return counters;
 }
 
+/// Returns whether the tracer completes pixels of a view in which the visible share of the
+/// environment is known.
+bool reads_ambient_occlusion(const TracerSettings& tracer, bool listed) {
+    return listed && tracer.lighting.ambient_occlusion;
+}
+
 gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
                                             const render::GpuScene& scene, bool listed) {
     std::string build;
     for (const auto& [wanted, name] :
          {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"}})
         if (wanted) build += (build.empty() ? "#" : "_") + std::string(name);
-    return {
+    gpu::ComputePipelineState state{
         "raytrace.comp" + build,
         {{"max_depth", tracer.depth},
          {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
@@ -128,6 +134,9 @@ gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
          {"without", tracer.without},
          {"fixed_offset", scene.scene_units().world_to_scene_length(kSeedReportRayOffset)}},
         scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))};
+    if (reads_ambient_occlusion(tracer, listed))
+        state.constants.emplace_back("has_ambient_occlusion", 1u);
+    return state;
 }
 
 /// Binds the resources of a tracing pass.

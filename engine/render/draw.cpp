@@ -110,6 +110,7 @@ gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
     if (drawing.lighting.probes) features.emplace_back("has_light_probes", 1u);
     if (drawing.lighting.has_soft_shadows) features.emplace_back("soft_shadows", 1u);
+    if (drawing.lighting.ambient_occlusion) features.emplace_back("has_ambient_occlusion", 1u);
     return features;
 }
 
@@ -192,6 +193,9 @@ void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting)
         commands.bind_resource("shadow_depths", *lighting.shadow_map, TextureFilter::nearest);
     if (lighting.shadow_map && lighting.glass_depths)
         commands.bind_resource("glass_depths", *lighting.glass_depths, TextureFilter::nearest);
+    if (lighting.ambient_occlusion)
+        commands.bind_resource("ambient_occlusion", *lighting.ambient_occlusion,
+                               TextureFilter::nearest);
     if (!lighting.probes) return;
     commands.bind_resource("probe_grid", lighting.probes->grid);
     commands.bind_resource("probe_light", lighting.probes->light, TextureFilter::linear);
@@ -312,11 +316,14 @@ void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
                            std::span<const std::uint8_t> shown) {
     if (!scene.has_blended_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled)
         return;
+    // The visible share of the environment is that of the opaque surface behind.
+    SceneDrawSettings unoccluded = drawing;
+    unoccluded.lighting.ambient_occlusion.reset();
     scene.bind(commands);
-    bind_lighting_images(commands, drawing.lighting);
+    bind_lighting_images(commands, unoccluded.lighting);
     draw_blended_objects(commands, scene,
                          {"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
-                          make_fragment_shader_constants(scene, drawing)},
+                          make_fragment_shader_constants(scene, unoccluded)},
                          drawing, wanted, {nullptr, shown});
 }
 

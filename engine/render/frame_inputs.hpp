@@ -35,6 +35,9 @@ struct ShadingLights {
     /// Whether shadows of lamps are soft (shaders/lib/soft_shadow.glsl). Only set with a shadow
     /// map, in frames that called GpuScene::request_lamp_extents.
     bool has_soft_shadows = false;
+    /// Visible share of the environment in each pixel of the camera's view, r32f
+    /// (render/ambient_occlusion.hpp); none: the whole environment is visible from all surfaces.
+    std::optional<graph::ImageHandle> ambient_occlusion = {};
     friend bool operator==(const ShadingLights&, const ShadingLights&) = default;
 };
 

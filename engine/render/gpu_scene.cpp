@@ -302,6 +302,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
 }
 
 void GpuScene::fill_frame_uniforms(double ambient) {
+    ambient_ = ambient;
     frame_.set_device_list_contents(
         std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});

@@ -129,6 +129,8 @@ public:
     bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return environment_.shader_environment_kind() != 0; }
+    /// Returns whether an environment or ambient light lights diffuse surfaces.
+    bool has_environment_light() const { return has_sky() || ambient_ > 0; }
 
     /// Returns the number of rays from each traced surface to the environment (option
     /// --environment-shadows); 0: objects do not hide it.
@@ -248,6 +250,7 @@ private:
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
+    double ambient_ = 0;    ///< ambient light of the last update
     bool complete_ = false; ///< the last update finished without an exception
     bool has_object_spaces_ = false;
     mutable bool has_lamp_table_ = false;    ///< the lamp table is that of the current scene

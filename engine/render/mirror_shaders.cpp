@@ -43,6 +43,7 @@ void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lightin
     PassReadDeclarations reads{pass};
     if (lighting.shadow_map) reads.add_image(*lighting.shadow_map);
     if (lighting.shadow_map && lighting.glass_depths) reads.add_image(*lighting.glass_depths);
+    if (lighting.ambient_occlusion) reads.add_image(*lighting.ambient_occlusion);
     if (lighting.probes) {
         reads.add_image(lighting.probes->grid);
         reads.add_image(lighting.probes->light);

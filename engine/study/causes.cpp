@@ -288,12 +288,16 @@ void check_reference_is_default(const std::string& reference) {
 }
 
 /// Throws `usage` for techniques with light between surfaces, because the rays that replace removed
-/// causes have no such light.
+/// causes have no such light, and for techniques that hide the environment from surfaces.
 void check_light_is_ambient(const CompareRequest& request) {
-    for (const std::string& text : request.base.techniques)
+    for (const std::string& text : request.base.techniques) {
         check(!read_technique_plan(text).uses_light_probes(), Failure::usage,
               "--causes: wanted rows without light probes, found '", text,
               "'; causes of error in their light are not known");
+        check(!read_technique_plan(text).occludes_environment(), Failure::usage,
+              "--causes: wanted rows without ambient occlusion, found '", text,
+              "'; the reference is lit by the whole environment");
+    }
 }
 
 /// Throws `usage` for rough mirrors of glass or with a clear coat, because the code that removes

@@ -317,6 +317,11 @@ private:
                 "'" + row.label +
                 "': its soft shadows count as an error beside this reference, whose lamps are "
                 "points; --truth paths has lamps as areas");
+        if (!has_paths && plan.occludes_environment())
+            row_warnings_[index].push_back(
+                "'" + row.label +
+                "': its shadow of the environment counts as an error beside this reference; "
+                "--truth paths has that shadow");
         if (!has_paths && plan.uses_light_probes())
             row_warnings_[index].push_back(
                 "'" + row.label +

@@ -7,9 +7,15 @@
 //   bool draw_environment_direction(uint i, vec3 normal, out vec3 direction, out vec3 radiance)
 // for the environment's light with shadows. `radiance` is the radiance from the drawn direction over the density of the
 // direction, times the cosine, over the count. The number of the light is then kEnvironmentLight.
+// A shader that defines OCCLUDES_ENVIRONMENT also defines the function
+//   float visible_share_of_environment_here()
+// that returns the visible share of the environment at the surface. Shading calls it only with has_ambient_occlusion.
 #ifndef CATOPTRIC_LIGHTING_GLSL
 #define CATOPTRIC_LIGHTING_GLSL
 
+#ifdef OCCLUDES_ENVIRONMENT
+#include "lib/ambient_occlusion.glsl"
+#endif
 #include "lib/bindings.glsl"
 #include "lib/environment.glsl"
 #include "lib/glass_shadow.glsl"
@@ -97,6 +103,14 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         ++light;
     } while ((one_light == 0u || environment_shadows != 0u) && light < end);
     bool has_ambient = traces_paths == 0u && has_light_probes == 0u;
+#ifdef OCCLUDES_ENVIRONMENT
+    if (has_ambient_occlusion != 0u && environment_shadows == 0u) {
+        has_ambient = false;
+        // The surfaces behind glass are seen instead of the glass, and share its pixels.
+        vec3 share = is_glass(surface.detail) ? vec3(1) : share_with_light_between_surfaces(visible_share_of_environment_here(), surface.albedo);
+        direct += share * (environment_irradiance(normal) + kPi * frame_ambient_light());
+    } else
+#endif
     if (has_light_probes != 0u && traces_paths == 0u) {
         if (surface.albedo != vec3(0)) direct += light_probe_irradiance(position, normal);
     } else if (environment_kind != kNoEnvironment && traces_paths == 0u && environment_shadows == 0u) {

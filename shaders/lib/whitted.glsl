@@ -473,7 +473,15 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
     }
     return is_hidden ? 0.0 : 1.0;
 }
+#ifdef LISTED
+#define OCCLUDES_ENVIRONMENT
+ivec2 occluded_pixel; // the pixel of the traced surface; (-1, -1) behind the first surface of the camera ray
+float visible_share_of_environment_here();
+#endif
 #include "lib/lighting.glsl"
+#ifdef LISTED
+float visible_share_of_environment_here() { return occluded_pixel.x < 0 ? 1.0 : visible_share_of_environment(occluded_pixel); }
+#endif
 
 View camera_view = views[0]; // the view is read before the lanes diverge
 // Returns the camera ray through a position, in pixels, of a picture of `size` pixels.
@@ -556,6 +564,9 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         bool is_inside = has_glass != 0u && is_passed && is_inside_glass(surface.detail, ray.direction, point.facet);
         // Glass reflects highlights on the side that is seen, but from inside a body it shows no light without a surface.
         if (has_glass != 0u && is_passed && dot(lit_normal, ray.direction) > 0.0) lit_normal = -lit_normal;
+#ifdef LISTED
+        if (bounce > 0u) occluded_pixel = ivec2(-1);
+#endif
         // All surfaces share this one call, because the driver's compiler inlines each call with the whole BVH walk of its
         // shadow ray.
         if (environment_shadows != 0u) path_bounce = bounce - first;

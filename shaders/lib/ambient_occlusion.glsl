@@ -1,0 +1,27 @@
+// The light of the environment that other surfaces leave to a drawn surface, in pictures of the camera's view (knob
+// `ao=screen`). engine/render/ambient_occlusion.cpp computes the visible share of each pixel.
+#ifndef CATOPTRIC_AMBIENT_OCCLUSION_GLSL
+#define CATOPTRIC_AMBIENT_OCCLUSION_GLSL
+
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+// 1: the visible share of the environment is known for the surface in each pixel.
+layout(constant_id = HAS_AMBIENT_OCCLUSION_CONSTANT) const uint has_ambient_occlusion = 0u;
+layout(set = 0, binding = AMBIENT_OCCLUSION_BINDING) uniform sampler2D ambient_occlusion;
+
+// Returns the visible share of the environment at the surface in a pixel, 0 to 1.
+float visible_share_of_environment(ivec2 pixel) {
+    count_work_once(kWorkTextureLookups);
+    return texelFetch(ambient_occlusion, pixel, 0).r;
+}
+
+// Returns the share of light that reaches a surface of which the share `visible` of the environment is visible. The
+// surfaces that hide the rest reflect light as well. If they have the same albedo and receive as much light, the share is
+// nearly this polynomial (Jimenez et al., "Practical Realtime Strategies for Accurate Indirect Occlusion", 2016, section 5).
+vec3 share_with_light_between_surfaces(float visible, vec3 albedo) {
+    vec3 cubic = 2.0404 * albedo - 0.3324, square = -4.7951 * albedo + 0.6417, linear = 2.7552 * albedo + 0.6903;
+    return clamp(((cubic * visible + square) * visible + linear) * visible, vec3(visible), vec3(1));
+}
+
+#endif
