@@ -186,7 +186,7 @@ def main():
             info = json.loads(subprocess.run([program, "info", scene, "--json", "--time", str(time), *options], check=True,
                                              stdout=subprocess.PIPE).stdout)
             if info["environment"] is not None:
-                print(f"pose.py: {scene} has an environment, which the pictures of other renderers lack", file=sys.stderr)
+                print(f"pose.py: {scene} has an environment, which the pictures of Blender and three.js lack", file=sys.stderr)
             instants[time] = name, [light for light in info["lights"] if light["kind"] == "mesh"]
         name, lamps = instants[time]
         listed.append({"name": view["name"], "camera": view["camera"], "scene": name, "lamps": lamps})
