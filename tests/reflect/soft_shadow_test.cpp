@@ -127,7 +127,7 @@ TEST(SoftShadow, ErrorIsSmallerThanThatOfHardShadows) {
     const double of_hard = test::rmse_of_pictures(hard, truth),
                  of_soft = test::rmse_of_pictures(soft, truth);
     std::cout << "[ MEASURED ] rmse of hard shadows " << of_hard << ", of soft " << of_soft << '\n';
-    EXPECT_LT(of_soft, .6 * of_hard); // the rest is mostly light on surfaces near the lamp
+    EXPECT_LT(of_soft, .6 * of_hard);
 }
 
 /// Returns the half-hidden lamp with a mirror on the floor's left side that faces the penumbra.
