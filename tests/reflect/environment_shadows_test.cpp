@@ -136,7 +136,7 @@ TEST(EnvironmentShadows, ConvexObjectAloneIsLitAsWithoutShadows) {
     for (std::size_t i = 0; i < shadowed.pixels.size(); ++i) {
         EXPECT_NEAR(shadowed.pixels[i].x, 1, 1e-5) << i;
         // The coefficients of the unshadowed light are sums over the few texels of the map.
-        EXPECT_NEAR(shadowed.pixels[i].x, unshadowed.pixels[i].x, 4e-3) << i;
+        EXPECT_NEAR(shadowed.pixels[i].x, unshadowed.pixels[i].x, 6e-3) << i;
     }
 }
 
