@@ -23,9 +23,8 @@ CATOPTRIC_API std::string to_markdown(const Comparison& comparison);
 /// Returns report.html: one self-contained page with tables, pictures (data: URIs) and a comparer.
 CATOPTRIC_API std::string to_html(const Comparison& comparison);
 
-/// Makes `folder` with its parents. Existing folders are accepted. Call it before long work, so
-/// that the results have a place. Throws `cannot_create` if it is a file or if no file can be made
-/// in it.
+/// Makes `folder` with its parents, or accepts it, so that results of long work have a place.
+/// Throws `cannot_create` if it is a file or if no file can be made in it.
 CATOPTRIC_API void create_folder(const std::filesystem::path& folder);
 
 /// Writes all files that Writer (report/writer.hpp) puts into a folder, once.
