@@ -52,20 +52,23 @@ const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFl
 
 // The factors of a material, one row each: FACTOR(name, extension, key, gltf_default, largest). scene::Material has a
 // member of this name. glTF keeps the value in the extension's JSON object, or in pbrMetallicRoughness, under this key.
-// Without the key the value is gltf_default. Values range from 0 to largest.
+// Without the key the value is gltf_default. Values range from 0 to largest. A new factor is a row of
+// FURTHER_MATERIAL_FACTORS, and a member of scene::Material after `dispersion`, in the order of the rows.
+#define FURTHER_MATERIAL_FACTORS(FACTOR)
 #define MATERIAL_FACTORS(FACTOR)                                                                                       \
     /* share of the surface that is metal */                                                                           \
     FACTOR(metallic, pbrMetallicRoughness, metallicFactor, 1.0f, 1.0f)                                                 \
     /* root of the lobe's alpha */                                                                                     \
     FACTOR(roughness, pbrMetallicRoughness, roughnessFactor, 1.0f, 1.0f)                                               \
+    /* share of light not reflected that passes through */                                                             \
+    FACTOR(transmission, KHR_materials_transmission, transmissionFactor, 0.0f, 1.0f)                                   \
+    /* of glass: 20 divided by the Abbe number; 0: all colours bend alike */                                           \
+    FACTOR(dispersion, KHR_materials_dispersion, dispersion, 0.0f, 3.4e38f)                                            \
     /* share of the surface under a clear coat */                                                                      \
     FACTOR(clearcoat, KHR_materials_clearcoat, clearcoatFactor, 0.0f, 1.0f)                                            \
     /* glTF roughness of the coat */                                                                                   \
     FACTOR(clearcoat_roughness, KHR_materials_clearcoat, clearcoatRoughnessFactor, 0.0f, 1.0f)                         \
-    /* share of light not reflected that passes through */                                                             \
-    FACTOR(transmission, KHR_materials_transmission, transmissionFactor, 0.0f, 1.0f)                                   \
-    /* of glass: 20 divided by the Abbe number; 0: all colours bend alike */                                           \
-    FACTOR(dispersion, KHR_materials_dispersion, dispersion, 0.0f, 3.4e38f)
+    FURTHER_MATERIAL_FACTORS(FACTOR)
 
 // The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
 struct IN_QUADS MaterialParameters {
@@ -219,7 +222,7 @@ struct Sky {
     uint level_width[SKY_LEVEL_COUNT]; // texels of each level along a row; a level has half as many rows
     // Cells of the environment map that are brighter than its mean, for drawing directions (lib/environment.glsl): index of
     // the first cell's texel, number of cells (0: none), the mean (sum of the channels, without scale), and the factor of
-    // environment_cell_density.
+    // environment_radiance_and_density.
     uint cell_first, cell_count;
     float cell_threshold, cell_density;
 };

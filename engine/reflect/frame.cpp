@@ -34,12 +34,12 @@ declare_opaque_picture_of_techniques(graph::Graph& graph, const render::FrameInp
 }
 
 /// The shadow map that a pass reads, and how.
-struct ShadowMapWish {
+struct ShadowMapRequest {
     std::optional<std::uint32_t> edge; ///< texels; none: the pass needs no shadow map
     bool is_soft = false;              ///< whether lamps cast soft shadows
 };
 
-ShadowMapWish choose_shadow_map(const KnobsSharedByTechniques& knobs) {
+ShadowMapRequest choose_shadow_map(const KnobsSharedByTechniques& knobs) {
     if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return {};
     return {knobs.shadow_map, knobs.has_soft_shadows};
 }
@@ -53,7 +53,7 @@ public:
                const std::optional<render::LightProbeImages>& probes)
         : frame_graph_(graph), shadow_frame_inputs_(inputs), model_(model), probes_(probes) {}
 
-    render::ShadingLights find_or_add_shadow_map(const ShadowMapWish& wanted) {
+    render::ShadingLights find_or_add_shadow_map(const ShadowMapRequest& wanted) {
         if (!wanted.edge) return {.probes = probes_};
         render::ShadingLights lighting = find_or_add_shadow_map_of_edge(*wanted.edge);
         const render::GpuScene& scene = shadow_frame_inputs_.scene;
@@ -96,10 +96,10 @@ bool is_view_drawn_by_tracer_after_raster(const std::vector<TechniqueChoice>& ch
 /// Returns the view's shadow map: the finest that a technique asks for, read softly if one
 /// technique asks for it. `is_drawn`: the view is rasterised although a technique traces shadow
 /// rays, so it needs a shadow map.
-ShadowMapWish choose_shadow_map_for_view(const std::vector<TechniqueChoice>& choices,
-                                         bool is_drawn) {
+ShadowMapRequest choose_shadow_map_for_view(const std::vector<TechniqueChoice>& choices,
+                                            bool is_drawn) {
     if (!is_drawn) return choose_shadow_map(choices.front().shared);
-    ShadowMapWish wanted;
+    ShadowMapRequest wanted;
     for (const TechniqueChoice& choice : choices) {
         if (choice.shared.shadow == KnobsSharedByTechniques::ShadowMethod::none) continue;
         wanted.edge = std::max(wanted.edge.value_or(1), choice.shared.shadow_map);

@@ -64,8 +64,8 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
     choice.update_shared_knobs_from_settings();
     check(!choice.shared.occludes_environment || choice.shared.light_probes == 0, Failure::usage,
           "technique '", text,
-          "': ao=screen hides the environment's light, which light probes (indirect=captures) "
-          "replace; wanted one of the two knobs");
+          "': wanted ao=none or indirect=ambient, because light probes replace the light that "
+          "ao=screen hides; found ao=screen and indirect=captures");
     return choice;
 }
 

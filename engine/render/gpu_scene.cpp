@@ -121,16 +121,22 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     if (changes.has_shape_changes()) fill_instance_placement_table();
     known_layouts_ = vertices_.geometry_set_count();
     if (changes.has_shape_changes() || changes.lights) fill_light_table(now, changes.lights);
-    if (changes.has_shape_changes() || changes.lights) {
+    const auto environment_rays = now.environment
+                                      ? static_cast<std::uint32_t>(now.environment_shadows)
+                                      : 0;
+    if (changes.has_shape_changes() || changes.lights ||
+        (environment_rays > 0) != (environment_shadow_rays_ > 0)) {
         backdrops_.clear();
         for (const shared::Light& light : lights_)
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
-        tracing_->set_backdrop_objects(intersect_object_flag_lists(backdrops_));
+        // Objects behind which no light lies still hide the environment.
+        tracing_->set_backdrop_objects(environment_rays > 0
+                                           ? decltype(intersect_object_flag_lists(backdrops_)){}
+                                           : intersect_object_flag_lists(backdrops_));
     }
     environment_.set_environment(now.environment, material_details_.has_lobe_surfaces(),
                                  now.environment_shadows > 0);
-    environment_shadow_rays_ = now.environment ? static_cast<std::uint32_t>(now.environment_shadows)
-                                               : 0;
+    environment_shadow_rays_ = environment_rays;
     if (changes.has_shape_changes() || changes.lights || changes.materials)
         fill_mirror_probe_table(now, changes);
     if (changes.has_shape_changes() || changes.lights || !are_cameras_equal(camera_, camera) ||

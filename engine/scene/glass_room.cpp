@@ -59,9 +59,9 @@ Scene make_glass_room() {
         return add_material(scene, {.name = name,
                                     .albedo = vec3(1),
                                     .roughness = 0,
-                                    .transmission = 1,
                                     .dielectric_f0 = vec3(root * root),
                                     .dielectric_f90 = vec3(1),
+                                    .transmission = 1,
                                     .ior = ior,
                                     .solid = true,
                                     .absorption = absorption});

@@ -124,16 +124,19 @@ void set_two_sided_axes(PointLight& light, const LampComponentSums& sums) {
 
 /// Returns PointLight::half_axes. An even spread over [-a, a] has the variance a^2 / 3.
 dmat3 find_half_axes_of_lamp(const LampComponentSums& sums) {
-    // A ball shows a disc, and a quarter of r^2 is the disc's variance. The sphere's is a third.
-    const double shown_share_of_variance = sums.closed ? .75 : 1;
-    dmat3 variances = shown_share_of_variance / sums.area * sums.moments, axes(1);
+    dmat3 variances = sums.moments / sums.area, axes(1);
     diagonalise_matrix(variances, axes);
     std::array<int, 3> order{0, 1, 2};
     std::ranges::stable_sort(order, std::ranges::greater(),
                              [&](int axis) { return variances[axis][axis]; });
+    // A closed lamp shows an outline. A sphere of radius r has the variance r^2 / 3 along each
+    // axis, and its outline r^2 / 4. A thin box has the variances of its outline.
+    const double smallest = variances[order[2]][order[2]],
+                 hidden = sums.closed ? .25 * std::max(smallest, 0.0) : 0;
     dmat3 half_axes(0);
     for (int i = 0; i < 3; ++i)
-        half_axes[i] = axes[order[i]] * std::sqrt(3 * std::max(variances[order[i]][order[i]], 0.0));
+        half_axes[i] = axes[order[i]] *
+                       std::sqrt(3 * std::max(variances[order[i]][order[i]] - hidden, 0.0));
     return half_axes;
 }
 

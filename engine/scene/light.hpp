@@ -22,8 +22,8 @@ struct PointLight {
     dmat3 axes{0};
     dvec3 cosines{0};
     /// Of a lamp: orthogonal half axes of a box, longest first, world units. Points spread evenly
-    /// in the box have the same second moments about `position` as the area that the lamp shows.
-    /// Zero for a light without a surface.
+    /// in the box of an open lamp have the second moments of its area about `position`; those of a
+    /// closed lamp, less a quarter of its smallest. Zero for a light without a surface.
     dmat3 half_axes{0};
     vec3 emission{0}; ///< radiance of a lamp; intensity or illuminance of a light without a surface
     dvec3 axis{0}; ///< unit direction in which a spot or directional light shines; zero: all around

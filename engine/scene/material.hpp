@@ -50,11 +50,11 @@ struct Material {
     bool two_sided = false;  ///< the normal turns to the viewer; an open lamp shines both ways
     bool front_only = false; ///< back invisible to camera and reflected rays; not for mirrors
     bool unlit = false;      ///< shows its albedo in any light (KHR_materials_unlit)
-    // Factors, as in the rows of MATERIAL_FACTORS (shaders/shared.h).
     float metallic = 0, roughness = 1, clearcoat = 0, clearcoat_roughness = 0;
-    float transmission = 0, dispersion = 0;   ///< share that passes through; 20 / Abbe number
-    vec3 dielectric_f0{0}, dielectric_f90{0}; ///< no metal: head-on, grazing; 0: Lambertian
-    float ior = 1.5f;                         ///< index of refraction of what transmits light
+    vec3 dielectric_f0{0};  ///< reflectance of the part that is no metal, seen head-on; glass: .04
+    vec3 dielectric_f90{0}; ///< that at grazing angle; 0 for both: a Lambertian surface
+    float transmission = 0; ///< share of light not reflected that passes through, 0 to 1
+    float ior = 1.5f, dispersion = 0; ///< of what transmits light; dispersion: 20 / Abbe number
     bool solid = false; ///< closed meshes are bodies that refract and absorb, else thin sheets
     vec3 absorption{0}; ///< in solid bodies, per world unit: light falls by e^-absorption
     float alpha = 1, alpha_cutoff = 0; ///< parts with less alpha than the cutoff are cut out

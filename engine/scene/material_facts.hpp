@@ -31,23 +31,25 @@ inline constexpr MaterialFactor kMaterialFactors[] = {
 /// takes for dielectrics. At grazing angle the reflectance is 1.
 inline constexpr float kUsualDielectricF0 = .04f;
 
-/// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
-/// this list; a member that is missing here and in MATERIAL_FACTORS does not compile.
+/// Calls `visit` with each member of a material. Hashes follow from the order of the calls. A
+/// member that is missing here and in FURTHER_MATERIAL_FACTORS does not compile.
 template <typename Visit>
 inline void visit_material_members(const Material& material, Visit&& visit) {
 #define NAME_FACTOR(name, extension, key, gltf_default, largest) name,
 #define VISIT_FACTOR(name, extension, key, gltf_default, largest) visit(name);
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
-                 MATERIAL_FACTORS(NAME_FACTOR) dielectric_f0, dielectric_f90, ior, solid,
+                 metallic, roughness, clearcoat, clearcoat_roughness, dielectric_f0, dielectric_f90,
+                 transmission, ior, dispersion, FURTHER_MATERIAL_FACTORS(NAME_FACTOR) solid,
                  absorption, alpha, alpha_cutoff, blended, albedo_texture, emission_texture,
                  roughness_texture, normal_texture, normal_scale, light] = material;
     visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
-    visit(two_sided), visit(front_only), visit(unlit);
-    MATERIAL_FACTORS(VISIT_FACTOR)
-    visit(dielectric_f0), visit(dielectric_f90), visit(ior), visit(solid);
+    visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
+    visit(clearcoat), visit(clearcoat_roughness), visit(dielectric_f0), visit(dielectric_f90);
+    visit(transmission), visit(ior), visit(dispersion), visit(solid);
     visit(absorption), visit(alpha), visit(alpha_cutoff), visit(blended);
     visit(albedo_texture), visit(emission_texture), visit(roughness_texture);
     visit(normal_texture), visit(normal_scale), visit(light);
+    FURTHER_MATERIAL_FACTORS(VISIT_FACTOR)
 #undef NAME_FACTOR
 #undef VISIT_FACTOR
 }

@@ -290,6 +290,10 @@ void check_reference_is_default(const std::string& reference) {
 /// Throws `usage` for techniques with light between surfaces, because the rays that replace removed
 /// causes have no such light, and for techniques that hide the environment from surfaces.
 void check_light_is_ambient(const CompareRequest& request) {
+    check(request.base.scene.environment_shadows == 0, Failure::usage,
+          "--causes: wanted --environment-shadows 0, found ",
+          request.base.scene.environment_shadows,
+          "; the rays that replace removed causes are lit by the whole environment");
     for (const std::string& text : request.base.techniques) {
         check(!read_technique_plan(text).uses_light_probes(), Failure::usage,
               "--causes: wanted rows without light probes, found '", text,

@@ -312,12 +312,17 @@ private:
         const reflect::TechniquePlan plan = read_technique_plan(
             compare_request_.base.techniques[index]);
         if (!has_paths && plan.uses_soft_shadows() &&
-            compare_request_.base.scene.light_samples == 1)
+            compare_request_.base.scene.light_samples == 1 &&
+            std::ranges::any_of(scene::list_lights(compare_request_.base.scene),
+                                &scene::PointLight::is_lamp))
             row_warnings_[index].push_back(
                 "'" + row.label +
                 "': its soft shadows count as an error beside this reference, whose lamps are "
                 "points; --truth paths has lamps as areas");
-        if (!has_paths && plan.occludes_environment())
+        const scene::Scene& scene = compare_request_.base.scene;
+        const bool has_hidden_environment = scene.environment && scene.environment_shadows > 0;
+        if (!has_paths && plan.occludes_environment() && !has_hidden_environment &&
+            (scene.environment || compare_request_.base.ambient > 0))
             row_warnings_[index].push_back(
                 "'" + row.label +
                 "': its shadow of the environment counts as an error beside this reference; "

@@ -111,9 +111,11 @@ private:
 
 /// The distance of a reference to the path-traced one over the pixels of a mask.
 struct ChainDistance {
-    double squared_error = 0; ///< free of noise: mean of (X - A)(Y - B) over the halves
-    double deviation = 0;     ///< standard deviation of the squared error by the noise
-    double flip = 0;          ///< mean of the FLIP of X and A, and of Y and B
+    /// Mean of (X - A)(Y - B) over the halves, after values are clamped to 0..1 as on a display.
+    /// The noise of the halves adds nothing, except where it crosses 0 or 1.
+    double squared_error = 0;
+    double deviation = 0; ///< standard deviation of the squared error by the noise
+    double flip = 0;      ///< mean of the FLIP of X and A, and of Y and B
 };
 
 /// Two halves of a picture, after exposure, and as displayed.
@@ -142,7 +144,8 @@ ChainDistance measure_chain_distance(const ShownHalves& x, const ShownHalves& tr
         const dvec3 product = error[0] * error[1],
                     noise = (error[0] + error[1]) / 2.0 * (error[0] - error[1]);
         sum += product.x + product.y + product.z;
-        squares += glm::dot(noise, noise);
+        const double total = noise.x + noise.y + noise.z; // the channels share their paths
+        squares += total * total;
         values += 3;
     }
     ChainDistance distance{sum / values, std::sqrt(squares) / values};
@@ -231,7 +234,7 @@ void split_distance_to_path_tracing(const StudyInput& input) {
     double seconds = 0;
     do {
         report_row_to_watcher(input.request.watcher,
-                              "references with more light, " +
+                              "references of the truth causes, " +
                                   std::to_string(chain.back()->frame_count()) + " frames a half",
                               std::min(static_cast<std::size_t>(seconds), most), most);
         for (const std::unique_ptr<ChainPictures>& pictures : chain) pictures->add_frames(seeds);
@@ -257,14 +260,15 @@ report::ReportTable make_truth_cause_table(const report::Comparison& comparison,
                                            const std::string& title, const std::string& prefix) {
     report::ReportTable table{
         title,
-        {report::make_text_column("Cause"), "Share, %", "Squared error", "Without the cause",
-         "Deviation", "FLIP", "Without the cause"},
-        "The usual ray tracing, against path tracing. Each line removes one more cause from the "
-        "references, in this order. Squared error: of the reference that has the cause, free of "
-        "noise by two halves. Deviation: its standard deviation by noise. Share: the squared "
-        "error that the line removes, of that in the first line; 0 if all is noise. FLIP includes "
-        "noise; in the last cell it is the noise of path tracing. Light between surfaces includes "
-        "caustics."};
+        {report::make_text_column("Cause"), "Share, %", "Squared error",
+         "Squared error without the cause", "Deviation", "FLIP", "FLIP without the cause"},
+        "The table compares the usual ray tracing with path tracing. Each line removes one more "
+        "cause of the difference, in this order. Share: the squared error that the line removes, "
+        "in percent of the squared error in the first line. All shares are 0 if that squared "
+        "error is below three deviations. Squared errors use two halves of each reference, so "
+        "noise adds nothing unless it crosses 0 or 1. Deviation: standard deviation of the "
+        "squared error by noise. FLIP includes noise; the last cell is the noise of path tracing. "
+        "Light between surfaces includes caustics and the error of --ambient."};
     if (comparison.rows.empty()) return table;
     const measure::MetricValue value = measure::find_row_metric_of_study(comparison.rows.front(),
                                                                          kTruthCausesMetricName);

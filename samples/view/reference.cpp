@@ -3,7 +3,7 @@
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
-#include "scene/rough_reflectors.hpp"
+#include "study/reference_cache.hpp"
 
 namespace catoptric::view {
 
@@ -34,7 +34,7 @@ void ProgressiveReference::add_pass(const measure::Picture& picture, double expo
         mean.pixels[i] = sum_.pixels[i] / static_cast<float>(summed_);
     }
     display_ = std::make_shared<measure::Picture>(measure::to_display(mean, exposure));
-    if (is_rough_) judged_ = std::move(mean);
+    if (has_noise_) judged_ = std::move(mean);
 }
 
 bool ProgressiveReference::render_one_pass(app::Session& session, const app::FrameSpec& spec) {
@@ -43,13 +43,13 @@ bool ProgressiveReference::render_one_pass(app::Session& session, const app::Fra
     if (passes_++ > 0) {
         // A row with random rays has the seed 0 unless the user sets a seed, so the reference takes
         // other seeds.
-        const std::string technique = is_rough_ ? "raytrace:depth=16,rays=16,seed=" +
-                                                      std::to_string(kFirstReferenceSeed + pass)
-                                                : "raytrace:depth=16,samples=2";
+        const std::string technique = has_noise_ ? "raytrace:depth=16,rays=16,seed=" +
+                                                       std::to_string(kFirstReferenceSeed + pass)
+                                                 : "raytrace:depth=16,samples=2";
         add_pass(render_ray_traced(session, spec, technique, pass).hdr, spec.exposure);
         return true;
     }
-    is_rough_ = scene::has_rough_reflector(session.scene());
+    has_noise_ = app::does_reference_have_noise("raytrace:depth=16,rays=16", session.scene());
     app::TechniqueResult part = render_ray_traced(session, spec, "raytrace:depth=16", spec.seed);
     hits_ = std::move(part.hits);
     judged_ = std::move(part.hdr);

@@ -23,7 +23,7 @@ public:
     bool render_one_pass(app::Session& session, const app::FrameSpec& spec);
     int rendered_pass_count() const { return passes_; }
     /// Returns whether errors can be measured: after a pass, or after 16 if passes have noise.
-    bool can_measure_errors() const { return is_rough_ ? passes_ > 16 : passes_ > 0; }
+    bool can_measure_errors() const { return has_noise_ ? passes_ > 16 : passes_ > 0; }
     /// Returns the picture as the screen shows it; null before the first pass.
     std::shared_ptr<const measure::Picture> displayed_picture() const { return display_; }
     /// Returns the errors of a live picture over mirror pixels. Needs can_measure_errors().
@@ -34,7 +34,7 @@ private:
     void add_pass(const measure::Picture& picture, double exposure);
 
     int passes_ = 0;
-    bool is_rough_ = false;   ///< whether passes draw rays from lobes
+    bool has_noise_ = false;   ///< whether passes draw random rays
     measure::Picture judged_; ///< the picture against which errors are measured
     measure::Picture sum_;    ///< sum of the passes after the first
     int summed_ = 0;          ///< number of pictures in `sum_`

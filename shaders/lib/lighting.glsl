@@ -68,7 +68,7 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
     }
     uint light = 0u, end = count;
     if (environment_shadows != 0u && surface.albedo != vec3(0)) end += environment_direction_count();
-    if (count_work != 0u) add_to_work_count(kWorkLightEvaluations, count);
+    if (count_work != 0u) add_to_work_count(kWorkLightEvaluations, end);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
@@ -104,11 +104,11 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
     } while ((one_light == 0u || environment_shadows != 0u) && light < end);
     bool has_ambient = traces_paths == 0u && has_light_probes == 0u;
 #ifdef OCCLUDES_ENVIRONMENT
-    if (has_ambient_occlusion != 0u && environment_shadows == 0u) {
+    if (has_ambient_occlusion != 0u) {
         has_ambient = false;
         // The surfaces behind glass are seen instead of the glass, and share its pixels.
         vec3 share = is_glass(surface.detail) ? vec3(1) : share_with_light_between_surfaces(visible_share_of_environment_here(), surface.albedo);
-        direct += share * (environment_irradiance(normal) + kPi * frame_ambient_light());
+        direct += share * ((environment_shadows == 0u ? environment_irradiance(normal) : vec3(0)) + kPi * frame_ambient_light());
     } else
 #endif
     if (has_light_probes != 0u && traces_paths == 0u) {

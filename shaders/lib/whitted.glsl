@@ -475,12 +475,13 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
 }
 #ifdef LISTED
 #define OCCLUDES_ENVIRONMENT
-ivec2 occluded_pixel; // the pixel of the traced surface; (-1, -1) behind the first surface of the camera ray
+ivec2 occluded_pixel; // the pixel of the camera ray
+bool is_surface_of_pixel; // whether the shaded surface is the opaque one that the camera ray meets first
 float visible_share_of_environment_here();
 #endif
 #include "lib/lighting.glsl"
 #ifdef LISTED
-float visible_share_of_environment_here() { return occluded_pixel.x < 0 ? 1.0 : visible_share_of_environment(occluded_pixel); }
+float visible_share_of_environment_here() { return is_surface_of_pixel ? visible_share_of_environment(occluded_pixel) : 1.0; }
 #endif
 
 View camera_view = views[0]; // the view is read before the lanes diverge
@@ -565,7 +566,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         // Glass reflects highlights on the side that is seen, but from inside a body it shows no light without a surface.
         if (has_glass != 0u && is_passed && dot(lit_normal, ray.direction) > 0.0) lit_normal = -lit_normal;
 #ifdef LISTED
-        if (bounce > 0u) occluded_pixel = ivec2(-1);
+        is_surface_of_pixel = bounce == 0u && !is_see_through;
 #endif
         // All surfaces share this one call, because the driver's compiler inlines each call with the whole BVH walk of its
         // shadow ray.

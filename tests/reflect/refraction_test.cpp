@@ -26,9 +26,9 @@ scene::Material make_tinted_glass(bool solid = true) {
     return {.name = "glass",
             .albedo = {.95f, .9f, .8f},
             .roughness = 0,
-            .transmission = 1,
             .dielectric_f0 = vec3(.04f),
             .dielectric_f90 = vec3(1),
+            .transmission = 1,
             .ior = 1.5f,
             .solid = solid,
             .absorption = {.05f, .2f, .4f}};
@@ -265,9 +265,9 @@ TEST(Refraction, ScreenShowsEachPixelThroughAPaneThatDoesNotBend) {
                             test::add_material(room, {.name = "index 1",
                                                       .albedo = vec3(1),
                                                       .roughness = 0,
-                                                      .transmission = 1,
                                                       .dielectric_f0 = vec3(0),
                                                       .dielectric_f90 = vec3(1),
+                                                      .transmission = 1,
                                                       .ior = 1,
                                                       .solid = true}));
             scene::find_mirrors(room);

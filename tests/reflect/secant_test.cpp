@@ -11,9 +11,9 @@ TEST(Secant, WithoutStepsEqualsParallax) {
     scene.materials.push_back({.name = "glass",
                                .albedo = vec3(1),
                                .roughness = 0,
-                               .transmission = 1,
                                .dielectric_f0 = vec3(.04f),
                                .dielectric_f90 = vec3(1),
+                               .transmission = 1,
                                .solid = true});
     const std::size_t first = scene::mirrors(scene)[0];
     scene.objects[first].material = scene.materials.size() - 1;

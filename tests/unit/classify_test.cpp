@@ -98,9 +98,9 @@ TEST(Classify, LargestObjectsOfGlassAreMirrors) {
     const Material glass{.name = "glass",
                          .albedo = vec3(1),
                          .roughness = 0,
-                         .transmission = 1,
                          .dielectric_f0 = vec3(.04f),
-                         .dielectric_f90 = vec3(1)};
+                         .dielectric_f90 = vec3(1),
+                         .transmission = 1};
     Scene scene = make_panel_scene(glass);
     find_mirrors(scene);
     EXPECT_TRUE(scene.objects[0].mirror);
