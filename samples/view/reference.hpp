@@ -34,7 +34,7 @@ private:
     void add_pass(const measure::Picture& picture, double exposure);
 
     int passes_ = 0;
-    bool has_noise_ = false;   ///< whether passes draw random rays
+    bool has_noise_ = false;  ///< whether passes draw random rays
     measure::Picture judged_; ///< the picture against which errors are measured
     measure::Picture sum_;    ///< sum of the passes after the first
     int summed_ = 0;          ///< number of pictures in `sum_`

@@ -7,6 +7,8 @@
 #include "support/lit.hpp"
 #include "support/special_values.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <array>
 #include <cmath>
 #include <iostream>
