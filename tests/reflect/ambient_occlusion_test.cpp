@@ -108,7 +108,9 @@ TEST(AmbientOcclusion, FloorBesideAWallHasTheShareOfTheFormula) {
             ASSERT_GT(count, 100);
             std::cout << "[ MEASURED ] " << edge << " pixels: mean error " << sum / count
                       << ", largest " << most << '\n';
-            EXPECT_NEAR(sum / count, 0, .06);
+            // Six steps miss the wall's upper edge. With 32 steps the mean is .015, the largest
+            // .03.
+            EXPECT_NEAR(sum / count, .043, .01);
             EXPECT_LT(most, .1);
         }
 }
@@ -138,12 +140,14 @@ TEST(AmbientOcclusion, HidesAmbientLightAndNoDirectLight) {
         return app::run(test::get_test_engine(), asked).parts.front().hdr;
     };
     const measure::Picture below_sky = render("reuse:ao=screen", 0);
-    const double whole = measure_unoccluded_share();
+    const measure::Picture whole = render("reuse", 0);
     scene.environment = nullptr;
     const measure::Picture in_ambient = render("reuse:ao=screen", 1);
     for (std::size_t i = 0; i < in_ambient.pixels.size(); ++i)
         if (below_sky.pixels[i].y < 2 * kDarkAlbedo) { // a surface
-            EXPECT_NEAR(in_ambient.pixels[i].y, below_sky.pixels[i].y / whole, 5e-3 * kDarkAlbedo);
+            EXPECT_NEAR(in_ambient.pixels[i].y,
+                        below_sky.pixels[i].y * kDarkAlbedo / whole.pixels[i].y,
+                        5e-3 * kDarkAlbedo);
         }
     scene.environment = make_grey_environment(0);
     scene::PunctualLight lamp{.name = "lamp", .intensity = vec3(50)};
