@@ -186,9 +186,8 @@ inline constexpr TechniqueKnob kIndirectLightKnob{
 inline constexpr std::array<std::string_view, 2> kAmbientOcclusionChoices{"none", "screen"};
 inline constexpr TechniqueKnob kAmbientOcclusionKnob{
     .name = "ao",
-    .help = "surfaces that hide the environment and --ambient from diffuse surfaces: none, or "
-            "screen (those that the camera's view shows nearby; not in captures and mirrored "
-            "views; judge it by --truth paths)",
+    .help = "what hides the environment and --ambient from diffuse surfaces: none, or screen (near "
+            "surfaces in the camera's view; captures and mirrored views are not occluded)",
     .high = 1,
     .choices = kAmbientOcclusionChoices};
 inline constexpr TechniqueKnob kLightProbesKnob{

@@ -205,7 +205,7 @@ declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInput
 
 /// Returns whether surfaces of the camera's view hide the environment from each other: some
 /// technique asks for it, and diffuse surfaces are lit by it. Light probes know what hides it. Adds
-/// a note if a technique's wish has no effect.
+/// a note if `ao=screen` has no effect.
 bool is_environment_occluded(const render::FrameInputs& inputs,
                              const std::vector<TechniqueChoice>& choices,
                              std::vector<std::string>& notes) {

@@ -131,7 +131,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
         // Objects behind which no light lies still hide the environment.
         tracing_->set_backdrop_objects(environment_rays > 0
-                                           ? decltype(intersect_object_flag_lists(backdrops_)){}
+                                           ? std::vector<std::uint8_t>()
                                            : intersect_object_flag_lists(backdrops_));
     }
     environment_.set_environment(now.environment, material_details_.has_lobe_surfaces(),

@@ -13,6 +13,9 @@ layout(push_constant, scalar) uniform Push { float radius; }; // farther surface
 const uint kSlices = 2u, kSteps = 6u;
 // Part of the radius within which surfaces count fully.
 const float kFullRadius = 0.5;
+// A slice whose plane is this close to orthogonal to the normal (sine of the angle) has no share in the sum that a picture
+// could show, and the angle of its normal is lost in rounding.
+const float kMinNormalPart = 1e-4;
 // Distances from the eye are interpolated with an error of this share (lib/surface.glsl, fragment_position_error).
 const float kDistanceError = 1.0 / 16384.0;
 
@@ -88,7 +91,7 @@ void main() {
             Slice slice;
             slice.normal_part = length(projected);
             slice.pixels = pixels_per_unit * radius;
-            if (!(slice.normal_part > 1e-4 && pixels_per_unit > 0.0)) continue;
+            if (!(slice.normal_part > kMinNormalPart && pixels_per_unit > 0.0)) continue;
             float cosine = dot(projected, to_viewer) / slice.normal_part, sine = dot(projected, direction) / slice.normal_part;
             float normal_angle = atan(sine, cosine);
             slice.on_screen = moved / pixels_per_unit;
