@@ -1,6 +1,6 @@
 """Draws mutants of C++ and GLSL code with universalmutator, builds each, runs the tests, and reports the share killed.
 
-mutate.py drawn [--count N] [--seed S] [--folder F...] [--out FILE]
+mutate.py drawn [--count N] [--seed S] [--folder F...] [--test-seconds T] [--out FILE]
 
 Each folder of code gets a share of the N mutants by its lines, but at least kLeast. A draw chooses a file (weighted by
 lines of code), a line of the file, and one mutant of the line. Mutants that do not compile, or that change no
@@ -24,7 +24,7 @@ import checkout
 
 kLeast = 6            # smallest number of mutants of a folder
 kMostTries = 12       # largest number of draws per counted mutant of a folder
-kTestSeconds = 900    # time limit of a stage
+kStageTests = 3       # time limit of a stage, in multiples of the limit of a test
 NOT_RUN = "^(long|clone|fuzz|limits-all)$"
 # Stages of tests, cheap and general ones first: the target to build, the tests to run, and the tests to leave out.
 STAGES = [("unit_test", "^unit$", "^$"), ("gpu_test", "^gpu/", "^$"), ("reflect_test", "^reflect/", "^$"),
@@ -106,8 +106,10 @@ class Objects:
         return any(now[path] != value for path, value in self.baseline.items())
 
 
-def judge(record, objects):
-    """Builds the mutant in the checkout and runs the tests until one fails. Adds "outcome" and "by" to the record."""
+def judge(record, objects, test_seconds):
+    """Builds the mutant in the checkout and runs the tests until one fails. Adds "outcome" and "by" to the record.
+
+    A test that takes longer than test_seconds fails."""
     first = True
     for target, tests, left_out in STAGES:
         targets = [target, "catoptric_cli", "catoptric-view"] if record["file"].startswith("samples/") else [target]
@@ -118,7 +120,8 @@ def judge(record, objects):
             return record.update(outcome="same code")
         first = False
         code, output = checkout.run(["nice", "ctest", "--test-dir", checkout.BUILD, "-j2", "--stop-on-failure", "--timeout",
-                                     "300", "-R", tests, "-E", left_out, "-LE", NOT_RUN], kTestSeconds)
+                                     str(test_seconds), "-R", tests, "-E", left_out, "-LE", NOT_RUN],
+                                    kStageTests * test_seconds)
         if code != 0:
             failed = re.search(r"(\S+) \.+\s*\**(Failed|Timeout|Exception|Subprocess|Not Run)", output)
             return record.update(outcome="killed", by=failed[1] if failed else f"{tests} ended with {code}")
@@ -148,6 +151,7 @@ def main(arguments):
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", default="1")
     parser.add_argument("--folder", nargs="+", help="only these, for example engine/bvh shaders")
+    parser.add_argument("--test-seconds", type=int, default=300, help="time limit of a test; more on a busy machine")
     parser.add_argument("--out")
     chosen = parser.parse_args(arguments)
     store = chosen.out or f"out/mutants/seed-{chosen.seed}.json"
@@ -178,7 +182,7 @@ def main(arguments):
                 lines = open(record["file"], encoding="utf-8").read().splitlines(keepends=True)
                 lines[record["line"] - 1] = after
                 with checkout.replaced({record["file"]: "".join(lines)}):
-                    judge(record, objects)
+                    judge(record, objects, chosen.test_seconds)
                 record.update(folder=folder, draw=number, seconds=round(time.monotonic() - begin))
                 records.append(record)
                 json.dump(records, open(store + ".new", "w"), indent=1)
