@@ -194,6 +194,9 @@ struct LightProbeGrid {
     uvec3 counts;
 };
 const uint kLightProbeFace = 16u; // edge of a light probe's capture, texels
+// Values of the constant has_light_probes. Light probes hold the light of surfaces and environment, or the light of the
+// environment that surfaces leave visible.
+const uint kLightProbesOfSurfaces = 1u, kLightProbesOfEnvironment = 2u;
 
 // A projection of the vector v = position - eye.
 // Perspective: clip = (dot(right, v), dot(down, v), near, dot(forward, v)). Depth is reversed and has no far plane:

@@ -58,10 +58,13 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
     if (settings.has_knob_named(kGlassRefractionModelKnob))
         knobs.refract = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kGlassRefractionModelKnob));
-    if (settings.has_knob_named(kLightProbesKnob) &&
-        has_second_choice_of_knob(settings, kIndirectLightKnob))
-        knobs.light_probes = *find_knob_number(settings, kLightProbesKnob);
-    knobs.occludes_environment = has_second_choice_of_knob(settings, kAmbientOcclusionKnob);
+    if (settings.has_knob_named(kLightProbesKnob)) {
+        knobs.indirect = settings.knob_value_as_enum<KnobsSharedByTechniques::LightBetweenSurfaces>(
+            kIndirectLightKnob);
+        knobs.occlusion = settings.knob_value_as_enum<KnobsSharedByTechniques::AmbientOcclusion>(
+            kAmbientOcclusionKnob);
+        knobs.most_light_probes = *find_knob_number(settings, kLightProbesKnob);
+    }
     knobs.capture = find_knob_number(settings, kCaptureContentCacheKnob);
     knobs.is_black_in_others = settings.has_knob_named(kCaptureContentCacheKnob) && !knobs.capture;
     return knobs;

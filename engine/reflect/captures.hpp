@@ -183,16 +183,18 @@ inline constexpr TechniqueKnob kIndirectLightKnob{
             "paths)",
     .high = 1,
     .choices = kIndirectLightChoices};
-inline constexpr std::array<std::string_view, 2> kAmbientOcclusionChoices{"none", "screen"};
+inline constexpr std::array<std::string_view, 3> kAmbientOcclusionChoices{"none", "screen",
+                                                                          "captures"};
 inline constexpr TechniqueKnob kAmbientOcclusionKnob{
     .name = "ao",
-    .help = "what hides the environment and --ambient from diffuse surfaces: none, or screen (near "
-            "surfaces in the camera's view; captures and mirrored views are not occluded)",
-    .high = 1,
+    .help = "what hides the environment and --ambient from diffuse surfaces: none, screen (near "
+            "surfaces in the camera's view; captures and mirrored views are not occluded), or "
+            "captures (light probes, in all views)",
+    .high = 2,
     .choices = kAmbientOcclusionChoices};
 inline constexpr TechniqueKnob kLightProbesKnob{
     .name = "probes",
-    .help = "most light probes of the grid, for indirect=captures",
+    .help = "most light probes of the grid, for indirect=captures and ao=captures",
     .low = 27,
     .high = 4096,
     .value = 64};

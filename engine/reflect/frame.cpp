@@ -193,35 +193,50 @@ struct MutualMirrorCaptures {
 };
 
 /// Declares the light probes of the frame if some technique needs them. If techniques ask for
-/// different numbers of light probes, the largest number is used.
+/// different numbers of light probes, the largest number is used. If some technique has light
+/// between surfaces, the light probes hold it for all techniques.
 std::optional<render::LightProbes>
 declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const std::vector<TechniqueChoice>& choices) {
-    std::uint32_t most = 0;
-    for (const TechniqueChoice& choice : choices) most = std::max(most, choice.shared.light_probes);
+    std::uint32_t most = 0, content = shared::kLightProbesOfEnvironment;
+    for (const TechniqueChoice& choice : choices) {
+        if (choice.shared.has_light_between_surfaces()) content = shared::kLightProbesOfSurfaces;
+        if (choice.shared.has_light_between_surfaces() ||
+            (choice.shared.uses_light_probes() && inputs.scene.has_environment_light()))
+            most = std::max(most, choice.shared.most_light_probes);
+    }
     if (most == 0) return std::nullopt;
-    return render::declare_light_probes(graph, inputs, most);
+    return render::declare_light_probes(graph, inputs, most, content);
 }
 
 /// Returns whether surfaces of the camera's view hide the environment from each other: some
 /// technique asks for it, and diffuse surfaces are lit by it. Light probes know what hides it. Adds
-/// a note if `ao=screen` has no effect.
-bool is_environment_occluded(const render::FrameInputs& inputs,
-                             const std::vector<TechniqueChoice>& choices,
-                             std::vector<std::string>& notes) {
-    const auto occludes = [](const TechniqueChoice& choice) {
-        return choice.shared.occludes_environment;
+/// a note if a value of `ao` has no effect.
+bool is_environment_occluded_by_camera_view(const render::FrameInputs& inputs,
+                                            const std::vector<TechniqueChoice>& choices,
+                                            std::vector<std::string>& notes) {
+    using Occlusion = KnobsSharedByTechniques::AmbientOcclusion;
+    const auto is_some = [&](Occlusion occlusion) {
+        return std::ranges::any_of(choices, [=](const TechniqueChoice& choice) {
+            return choice.shared.occlusion == occlusion;
+        });
     };
-    const auto has_probes = [](const TechniqueChoice& choice) {
-        return choice.shared.light_probes > 0;
-    };
-    if (!std::ranges::any_of(choices, occludes)) return false;
-    if (std::ranges::any_of(choices, has_probes)) {
-        notes.push_back("ao=screen has no effect beside indirect=captures, whose light probes know "
-                        "what hides the environment");
+    const bool asks_screen = is_some(Occlusion::screen),
+               asks_captures = is_some(Occlusion::captures);
+    const bool has_light = std::ranges::any_of(choices, [](const TechniqueChoice& choice) {
+        return choice.shared.has_light_between_surfaces();
+    });
+    for (const auto& [asks, name] :
+         {std::pair{asks_screen, "ao=screen"}, std::pair{asks_captures, "ao=captures"}})
+        if (asks && has_light)
+            notes.push_back(std::string(name) +
+                            " has no effect beside indirect=captures, whose light probes know what "
+                            "hides the environment");
+    if (asks_screen && asks_captures && !has_light)
+        notes.emplace_back("ao=screen has no effect beside ao=captures, whose light probes know "
+                           "what hides the environment");
+    if (!asks_screen || asks_captures || has_light || !inputs.scene.has_environment_light())
         return false;
-    }
-    if (!inputs.scene.has_environment_light()) return false;
     char note[96];
     std::snprintf(note, sizeof note,
                   "ao=screen: surfaces up to %.3g world units away hide the environment",
@@ -330,7 +345,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     }
     TechniqueOutputs outputs;
     render::ShadingLights view_lighting = lighting;
-    if (is_environment_occluded(inputs, choices, outputs.notes))
+    if (is_environment_occluded_by_camera_view(inputs, choices, outputs.notes))
         view_lighting.ambient_occlusion = render::add_ambient_occlusion_passes(graph, inputs);
     const MutualMirrorCaptures feedback = add_capture_passes_with_feedback(
         graph, inputs, assignment, keeping, maps, lighting, probes);

@@ -121,9 +121,10 @@ bool TechniquePlan::is_same_plan_as(const TechniquePlan& other) const {
         });
 }
 
-bool TechniquePlan::uses_light_probes() const {
-    return std::ranges::any_of(
-        rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.light_probes > 0; });
+bool TechniquePlan::has_light_between_surfaces() const {
+    return std::ranges::any_of(rules, [](const TechniquePlanRule& rule) {
+        return rule.choice.shared.has_light_between_surfaces();
+    });
 }
 
 bool TechniquePlan::uses_soft_shadows() const {
@@ -133,7 +134,7 @@ bool TechniquePlan::uses_soft_shadows() const {
 
 bool TechniquePlan::occludes_environment() const {
     return std::ranges::any_of(rules, [](const TechniquePlanRule& rule) {
-        return rule.choice.shared.occludes_environment;
+        return rule.choice.shared.occlusion != KnobsSharedByTechniques::AmbientOcclusion::none;
     });
 }
 

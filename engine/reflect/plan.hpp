@@ -32,7 +32,7 @@ struct TechniquePlan {
     /// spelling of the labels does not matter.
     bool is_same_plan_as(const TechniquePlan& other) const;
     /// Returns whether some technique of the plan takes light between surfaces from light probes.
-    bool uses_light_probes() const;
+    bool has_light_between_surfaces() const;
     /// Returns whether some rule draws soft shadows of lamps (soft=pcss).
     bool uses_soft_shadows() const;
     /// Returns whether some technique of the plan hides the environment from diffuse surfaces.

@@ -92,8 +92,19 @@ struct KnobsSharedByTechniques {
         return rough == RoughMirrorLookup::prefilter || rough == RoughMirrorLookup::fast;
     }
     std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
-    std::uint32_t light_probes = 0;    ///< most light probes of the grid; 0: ambient light
-    bool occludes_environment = false; ///< ao=screen
+    /// How light between surfaces is computed. Numbered as the choices of `indirect`.
+    enum class LightBetweenSurfaces : std::uint32_t { ambient, captures };
+    LightBetweenSurfaces indirect = LightBetweenSurfaces::ambient;
+    /// What hides the environment and ambient light. Numbered as the choices of `ao`.
+    enum class AmbientOcclusion : std::uint32_t { none, screen, captures };
+    AmbientOcclusion occlusion = AmbientOcclusion::none;
+    std::uint32_t most_light_probes = 0; ///< of the grid, if there is one
+    /// Returns whether light probes hold the light between surfaces.
+    bool has_light_between_surfaces() const { return indirect == LightBetweenSurfaces::captures; }
+    /// Returns whether the technique needs light probes.
+    bool uses_light_probes() const {
+        return has_light_between_surfaces() || occlusion == AmbientOcclusion::captures;
+    }
     /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
     /// `capture=none`, or the technique has no such knob.
     std::optional<std::uint32_t> capture;

@@ -22,11 +22,14 @@ struct FrameInputs {
 /// The images of light probes (shaders/lib/light_probes.glsl).
 struct LightProbeImages {
     graph::ImageHandle grid, light, distances;
+    /// What the light probes hold: shared::kLightProbesOfSurfaces or kLightProbesOfEnvironment.
+    std::uint32_t content = shared::kLightProbesOfSurfaces;
     friend bool operator==(const LightProbeImages&, const LightProbeImages&) = default;
 };
 
 /// The lighting of captures and views. Without a shadow map, light casts no shadows. Without light
-/// probes, ambient light and the whole environment light all surfaces.
+/// probes, ambient light and the whole environment light all surfaces. Light probes of surfaces
+/// replace both; light probes of the environment hide the part that surfaces hide.
 struct ShadingLights {
     std::optional<graph::ImageHandle> shadow_map;
     std::optional<LightProbeImages> probes = {};

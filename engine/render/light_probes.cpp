@@ -1,6 +1,7 @@
 #include "render/light_probes.hpp"
 
 #include "core/half.hpp"
+#include "render/ambient_occlusion.hpp"
 #include "render/draw.hpp"
 #include "render/pass_faces.hpp"
 #include "render/shown_faces.hpp"
@@ -60,30 +61,31 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                 graph::ClearValue{nothing, 0, 0, 0})
         .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .set_pass_layer_count(6)
-        .record(
-            [&scene = inputs.scene, drawing = SceneDrawSettings{
-                                        .first_view = first_view,
-                                        .layers = 6,
-                                        .lighting = lighting,
-                                        .looks = looks,
-                                        .store = {{"distance_scale", 1.0f},
-                                                  {"largest_colour", kLargestFiniteHalfFloatValue}},
-                                        .peeled = {}}](graph::PassCommands& commands) {
-                const auto is_wanted = [&](std::size_t object) {
-                    return is_shown_by_probes(scene.list_draw_ranges()[object]);
-                };
-                const std::vector<std::uint8_t> shown = find_faces_showing_objects(
-                    std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
-                    {shared::kLightProbeFace,
-                     scene.scene_device().vulkan_limits().subPixelPrecisionBits},
-                    scene.list_draw_ranges(), {}, is_wanted);
-                const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
-                draw_scene(commands, scene, drawing, is_shown, shown);
-                gpu::ShaderConstantValues of_sky = drawing.store;
-                of_sky.emplace_back("blurs_sky", 1u);
-                draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
-                draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
-            });
+        .record([&scene = inputs.scene,
+                 shows_surfaces = probes.images.content == shared::kLightProbesOfSurfaces,
+                 drawing = SceneDrawSettings{
+                     .first_view = first_view,
+                     .layers = 6,
+                     .lighting = lighting,
+                     .looks = looks,
+                     .store = {{"distance_scale", 1.0f},
+                               {"largest_colour", kLargestFiniteHalfFloatValue}},
+                     .peeled = {}}](graph::PassCommands& commands) {
+            const auto is_wanted = [&](std::size_t object) {
+                return is_shown_by_probes(scene.list_draw_ranges()[object]);
+            };
+            const std::vector<std::uint8_t> shown = find_faces_showing_objects(
+                std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
+                {shared::kLightProbeFace,
+                 scene.scene_device().vulkan_limits().subPixelPrecisionBits},
+                scene.list_draw_ranges(), {}, is_wanted);
+            const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
+            draw_scene(commands, scene, drawing, is_shown, shown);
+            gpu::ShaderConstantValues of_sky = drawing.store;
+            of_sky.emplace_back("blurs_sky", 1u);
+            draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
+            if (shows_surfaces) draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
+        });
 }
 
 } // namespace
@@ -110,11 +112,12 @@ shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::s
     }
 }
 
-LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
-                                 std::uint32_t most) {
+LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t most,
+                                 std::uint32_t content) {
     Bounds<float> bounds;
     for (const ObjectDrawRange& range : inputs.scene.list_draw_ranges()) bounds.add(range.bounds);
     LightProbes probes;
+    probes.images.content = content;
     const std::size_t limit = inputs.scene.max_cube_count();
     probes.grid = make_light_probe_grid(bounds, std::min<std::size_t>(most, limit),
                                         inputs.scene.has_sky());
@@ -138,9 +141,14 @@ void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
                             const LightProbes& probes, ShadingLights lighting,
                             ShaderOfEachMirror looks) {
     const LightProbeImages& now = probes.images;
-    lighting.probes = LightProbeImages{graph.previous_contents(now.grid),
-                                       graph.previous_contents(now.light),
-                                       graph.previous_contents(now.distances)};
+    if (now.content == shared::kLightProbesOfEnvironment) {
+        lighting = {};
+        looks = use_same_shader_for_mirrors(inputs.scene, {});
+    } else {
+        lighting.probes = LightProbeImages{graph.previous_contents(now.grid),
+                                           graph.previous_contents(now.light),
+                                           graph.previous_contents(now.distances)};
+    }
     const auto shared_looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
     for (std::uint32_t probe = 0; probe < probes.count(); ++probe)
         add_light_probe_capture(graph, inputs, probes, probe, lighting, shared_looks);
@@ -150,14 +158,21 @@ void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
         .writes(probes.images.grid, ResourceUse::storage_write)
         .writes(probes.images.light, ResourceUse::storage_write)
         .writes(probes.images.distances, ResourceUse::storage_write)
-        .record([probes](graph::PassCommands& commands) {
+        .record([probes,
+                 radius = inputs.scene.scene_units().world_to_scene_length(
+                     find_ambient_occlusion_radius(inputs.scene))](graph::PassCommands& commands) {
             commands.bind_resource("captured", probes.colours);
             commands.bind_resource("captured_distances", probes.depths);
             commands.bind_resource("grid_texels", probes.images.grid);
             commands.bind_resource("light", probes.images.light);
             commands.bind_resource("distances", probes.images.distances);
-            commands.bind_pipeline(gpu::ComputePipelineState{"probes/light.comp", {}});
-            commands.push_constants(probes.grid);
+            commands.bind_pipeline(gpu::ComputePipelineState{
+                "probes/light.comp", {{"has_light_probes", probes.images.content}}});
+            const struct {
+                shared::LightProbeGrid grid;
+                float radius;
+            } pushed{probes.grid, radius};
+            commands.push_constants(pushed);
             commands.dispatch(probes.count(), 1);
         });
 }

@@ -2,7 +2,7 @@
 
 #include "render/passes.hpp"
 
-/// Functions that compute light between surfaces by light probes: small captures at the points of a
+/// Functions that compute light on surfaces by light probes: small captures at the points of a
 /// grid, each of which gives the irradiance at its point (shaders/lib/light_probes.glsl).
 namespace catoptric::render {
 
@@ -24,16 +24,18 @@ struct LightProbes {
     std::uint32_t count() const { return grid.counts.x * grid.counts.y * grid.counts.z; }
 };
 
-/// Declares the images of at most `most` light probes.
-LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
-                                 std::uint32_t most);
+/// Declares the images of at most `most` light probes. `content`: shared::kLightProbesOfSurfaces or
+/// kLightProbesOfEnvironment.
+LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t most,
+                                 std::uint32_t content);
 
 /// Declares two kinds of passes. For each light probe, one pass draws the scene around the probe
 /// without lamps and glass. One further pass computes LightProbes::images. Lamps are left out,
 /// because they light surfaces as points and would count twice. The captures are lit by `lighting`
 /// and by the light probes of the previous frame, so frame k shows k reflections between diffuse
-/// surfaces. `looks`: shaders of mirrors. The captures have kLightProbeFace texels an edge. Takes
-/// O(probes * objects) on the host.
+/// surfaces. Light probes of the environment hold no light of surfaces: their captures are unlit,
+/// and blended surfaces hide nothing. `looks`: shaders of mirrors. The captures have
+/// kLightProbeFace texels an edge. Takes O(probes * objects) on the host.
 void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
                             const LightProbes& probes, ShadingLights lighting,
                             ShaderOfEachMirror looks);

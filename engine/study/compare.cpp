@@ -327,7 +327,7 @@ private:
                 "'" + row.label +
                 "': its shadow of the environment counts as an error beside this reference; "
                 "--truth paths has that shadow");
-        if (!has_paths && plan.uses_light_probes())
+        if (!has_paths && plan.has_light_between_surfaces())
             row_warnings_[index].push_back(
                 "'" + row.label +
                 "': its light between surfaces counts as an error beside this reference; --truth "

@@ -16,12 +16,4 @@ float visible_share_of_environment(ivec2 pixel) {
     return texelFetch(ambient_occlusion, pixel, 0).r;
 }
 
-// Returns the share of light that reaches a surface of which the share `visible` of the environment is visible. The
-// surfaces that hide the rest reflect light as well. If they have the same albedo and receive as much light, the share is
-// nearly this polynomial (Jimenez et al., "Practical Realtime Strategies for Accurate Indirect Occlusion", 2016, section 5).
-vec3 share_with_light_between_surfaces(float visible, vec3 albedo) {
-    vec3 cubic = 2.0404 * albedo - 0.3324, square = -4.7951 * albedo + 0.6417, linear = 2.7552 * albedo + 0.6903;
-    return clamp(((cubic * visible + square) * visible + linear) * visible, vec3(visible), vec3(1));
-}
-
 #endif

@@ -1,4 +1,4 @@
-// Light between surfaces, looked up in light probes: small captures at the points of a grid, each of which gives the
+// Light on surfaces, looked up in light probes: small captures at the points of a grid, each of which gives the
 // irradiance at its place (Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001).
 // A surface takes the mean of the eight probes around it, weighted by distance, by the side of the surface on which they
 // lie, and by whether they see it (Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
@@ -9,12 +9,12 @@
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-// 1: light probes replace the ambient light and the environment's unoccluded light.
+// What light probes show: 0 (there are none), kLightProbesOfSurfaces or kLightProbesOfEnvironment.
 layout(constant_id = HAS_LIGHT_PROBES_CONSTANT) const uint has_light_probes = 0u;
 // The grid of light probes, a LightProbeGrid. All values are 0 in the first frame, in which no probe has been drawn
 // yet.
 layout(set = 0, binding = 34) uniform sampler2D probe_grid;
-layout(set = 0, binding = 35) uniform samplerCubeArray probe_light;     // irradiance at each probe, by the surface's normal
+layout(set = 0, binding = 35) uniform samplerCubeArray probe_light;     // by the surface's normal: irradiance at each probe; visible share
 layout(set = 0, binding = 36) uniform samplerCubeArray probe_distances; // 1 / distance from each probe, scene units; 0: sky
 
 LightProbeGrid read_light_probe_grid() {
@@ -24,9 +24,9 @@ LightProbeGrid read_light_probe_grid() {
 
 uint light_probe_index(LightProbeGrid grid, uvec3 place) { return place.x + grid.counts.x * (place.y + grid.counts.y * place.z); }
 
-vec3 irradiance_at_light_probe(uint probe, vec3 normal) {
+vec4 light_at_light_probe(uint probe, vec3 normal) {
     count_work_once(kWorkColourLookups);
-    return textureLod(probe_light, vec4(normal, float(probe)), 0.0).rgb;
+    return textureLod(probe_light, vec4(normal, float(probe)), 0.0);
 }
 
 // Returns how well the probe at `centre` sees the surface point, 0 to 1, times the cosine between the normal and the
@@ -43,16 +43,17 @@ float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     return cosine * (1.0 - smoothstep(1.0 + kSlack, 1.0 + 2.0 * kSlack, nearness));
 }
 
-// Returns the irradiance from other surfaces and the environment at a surface point with the unit normal `normal`. If
-// none of the eight probes around the point sees the point, all probes are asked, and nearer probes count more. Returns
-// 0 if no probe sees the point.
-vec3 light_probe_irradiance(vec3 position, vec3 normal) {
+// Returns the irradiance at a surface point with the unit normal `normal`: from other surfaces and the environment, or from
+// the environment alone. Returns in w the visible share of the environment (kLightProbesOfEnvironment only). If none of the
+// eight probes around the point sees the point, all probes are asked, and nearer probes count more. Returns 0 if no probe
+// sees the point.
+vec4 interpolate_light_probes(vec3 position, vec3 normal) {
     LightProbeGrid grid = read_light_probe_grid();
-    if (grid.counts.x == 0u) return vec3(0);
+    if (grid.counts.x == 0u) return vec4(0);
     vec3 cell = (position - grid.first) / grid.step;
     vec3 low = clamp(floor(cell), vec3(0), vec3(grid.counts) - 2.0);
     vec3 within = clamp(cell - low, vec3(0), vec3(1));
-    vec3 sum = vec3(0);
+    vec4 sum = vec4(0);
     float weights = 0.0;
     uint corner = 0u;
     do {
@@ -63,7 +64,7 @@ vec3 light_probe_irradiance(vec3 position, vec3 normal) {
         float weight = near.x * near.y * near.z;
         if (weight > 0.0) weight *= light_probe_sight(probe, grid.first + vec3(place) * grid.step, position, normal);
         if (weight > 0.0) {
-            sum += weight * irradiance_at_light_probe(probe, normal);
+            sum += weight * light_at_light_probe(probe, normal);
             weights += weight;
         }
     } while (++corner < 8u);
@@ -78,11 +79,11 @@ vec3 light_probe_irradiance(vec3 position, vec3 normal) {
         float weight = light_probe_sight(probe, centre, position, normal);
         if (weight > 0.0) {
             weight /= dot(away, away) * dot(away, away);
-            sum += weight * irradiance_at_light_probe(probe, normal);
+            sum += weight * light_at_light_probe(probe, normal);
             weights += weight;
         }
     } while (++probe < count);
-    return weights > 0.0 ? sum / weights : vec3(0);
+    return weights > 0.0 ? sum / weights : vec4(0);
 }
 
 #endif

@@ -38,10 +38,27 @@ vec3 to_viewer_in_tangent_space(vec3 normal, vec3 tangent, vec3 bitangent, vec3 
     return normalize(vec3(dot(tangent, to_viewer), dot(bitangent, to_viewer), max(abs(dot(normal, to_viewer)), kMinViewCosine)));
 }
 
+// Returns the share of light that reaches a surface of which the share `visible` of the environment is visible. The
+// surfaces that hide the rest reflect light as well. If they have the same albedo and receive as much light, the share is
+// nearly this polynomial (Jimenez et al., "Practical Realtime Strategies for Accurate Indirect Occlusion", 2016, section 5).
+vec3 share_with_light_between_surfaces(vec3 visible, vec3 albedo) {
+    vec3 cubic = 2.0404 * albedo - 0.3324, square = -4.7951 * albedo + 0.6417, linear = 2.7552 * albedo + 0.6903;
+    return clamp(((cubic * visible + square) * visible + linear) * visible, visible, vec3(1));
+}
+
+// Returns the irradiance of the environment and the ambient light at a surface, as far as light probes see them.
+vec3 irradiance_of_seen_environment(vec3 position, vec3 normal, vec3 albedo) {
+    const float kLeast = 1e-6; // irradiance that counts as none
+    vec4 seen = interpolate_light_probes(position, normal);
+    vec3 whole = environment_irradiance(normal), visible = clamp(seen.rgb / max(whole, vec3(kLeast)), vec3(0), vec3(1));
+    return whole * share_with_light_between_surfaces(visible, albedo) +
+           kPi * frame_ambient_light() * share_with_light_between_surfaces(vec3(seen.w), albedo);
+}
+
 // Returns the mean light of the environment and the ambient light that arrives in a lobe of that roughness. Objects do not
 // occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
 vec3 mean_environment_light_in_lobe(float roughness, vec3 normal, vec3 to_viewer) {
-    vec3 light = vec3(has_light_probes != 0u ? 0.0 : frame_ambient_light());
+    vec3 light = vec3(has_light_probes == kLightProbesOfSurfaces ? 0.0 : frame_ambient_light());
     if (environment_kind != kNoEnvironment) light += environment_lobe_radiance(reflect(-to_viewer, normal), roughness);
     return light;
 }
@@ -107,12 +124,14 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
     if (has_ambient_occlusion != 0u) {
         has_ambient = false;
         // The surfaces behind glass are seen instead of the glass, and share its pixels.
-        vec3 share = is_glass(surface.detail) ? vec3(1) : share_with_light_between_surfaces(visible_share_of_environment_here(), surface.albedo);
+        vec3 share = is_glass(surface.detail) ? vec3(1) : share_with_light_between_surfaces(vec3(visible_share_of_environment_here()), surface.albedo);
         direct += share * ((environment_shadows == 0u ? environment_irradiance(normal) : vec3(0)) + kPi * frame_ambient_light());
     } else
 #endif
     if (has_light_probes != 0u && traces_paths == 0u) {
-        if (surface.albedo != vec3(0)) direct += light_probe_irradiance(position, normal);
+        if (surface.albedo != vec3(0))
+            direct += has_light_probes == kLightProbesOfEnvironment ? irradiance_of_seen_environment(position, normal, surface.albedo)
+                                                                    : interpolate_light_probes(position, normal).rgb;
     } else if (environment_kind != kNoEnvironment && traces_paths == 0u && environment_shadows == 0u) {
         direct += environment_irradiance(normal);
     }

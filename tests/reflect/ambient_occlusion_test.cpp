@@ -1,11 +1,13 @@
-// Tests of the knob `ao=screen`, which hides the environment from diffuse surfaces by what the
-// camera's view shows. In a white environment of radiance 1, a dark surface shows its albedo times
-// the visible share of the environment.
+// Tests of the knob `ao`, which hides the environment from diffuse surfaces: by what the camera's
+// view shows (`screen`), or by light probes (`captures`). In a white environment of radiance 1, a
+// dark surface shows its albedo times the visible share of the environment.
 #include "scene/classify.hpp"
 #include "support/lit.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
 #include "support/smooth_environment.hpp"
+
+#include <fmt/format.h>
 
 #include <iostream>
 
@@ -115,6 +117,51 @@ TEST(AmbientOcclusion, FloorBesideAWallHasTheShareOfTheFormula) {
         }
 }
 
+/// Light probes see the wall from afar, so only the mean of the share over many places is known.
+TEST(AmbientOcclusion, LightProbesGiveAFloorBesideAWallTheShareOfTheFormula) {
+    constexpr double kHeight = 4;
+    scene::Scene scene = make_floor_below_sky();
+    test::add_mesh(scene, scene::box("wall", {-.2, 0, -8}, {0, kHeight, 8}), 0);
+    const scene::Camera camera{.eye = {8, 7, 0}, .target = {3, 0, 0}, .vertical_fov_degrees = 40};
+    double sum = 0, most = 0;
+    int count = 0;
+    visit_floor_pixels(render_occluded(scene, camera, 48, "reuse:ao=captures,probes=1000"), camera,
+                       48, [&](const dvec3& place, double share) {
+                           if (place.x < .3 || place.x > 6 || std::abs(place.z) > 1) return;
+                           const double off = share -
+                                              .5 * (1 + place.x / std::hypot(place.x, kHeight));
+                           sum += off, ++count;
+                           most = std::max(most, std::abs(off));
+                       });
+    ASSERT_GT(count, 100);
+    std::cout << "[ MEASURED ] mean error " << sum / count << ", largest " << most << '\n';
+    // Nine coefficients of spherical harmonics blur the wall's edge.
+    EXPECT_NEAR(sum / count, .034, .01);
+    EXPECT_LT(most, .08);
+}
+
+/// Without a wall nothing hides the environment, and in a closed box everything does.
+TEST(AmbientOcclusion, LightProbesKnowOpenFloorsAndClosedBoxes) {
+    scene::Scene scene = make_floor_below_sky();
+    const scene::Camera camera{.eye = {1, 3, 1}, .target = {0, 0, 0}};
+    const double whole = measure_unoccluded_share();
+    for (const vec3& pixel : render_occluded(scene, camera, 12, "reuse:ao=captures").pixels)
+        EXPECT_NEAR(pixel.y / kDarkAlbedo, whole, .03);
+    test::add_mesh(scene, scene::box("box", {-9, -1, -9}, {9, 9, 9}), 0);
+    for (const char* technique : {"reuse:ao=captures", "reuse:ao=captures,probes=27"})
+        for (const vec3& pixel : render_occluded(scene, camera, 12, technique).pixels)
+            EXPECT_LT(pixel.y / kDarkAlbedo, .01) << technique;
+    scene.environment = nullptr; // ambient light is hidden by near surfaces only
+    scene.cameras = {camera};
+    app::Request asked = test::make_test_request(scene, {"reuse:ao=captures"}, {12, 12});
+    asked.ambient = 1;
+    double sum = 0;
+    for (const vec3& pixel : app::run(test::get_test_engine(), asked).parts.front().hdr.pixels)
+        sum += pixel.y / kDarkAlbedo / 144;
+    EXPECT_GT(sum, .5);
+    EXPECT_LT(sum, 1.001);
+}
+
 /// A ball far in front of a wall hides no environment from the wall, so no halo lies around it.
 TEST(AmbientOcclusion, FarForegroundMakesNoHalo) {
     scene::Scene scene = make_floor_below_sky(); // the floor is the wall behind, seen from above
@@ -169,26 +216,35 @@ TEST(AmbientOcclusion, DefaultAndScenesWithoutEnvironmentKeepTheirBytes) {
     EXPECT_FALSE(test::have_equal_pixel_bytes(
         whole, test::render_without_ambient(yard, "secant:ao=screen", size).hdr));
     yard.environment = nullptr;
-    EXPECT_TRUE(test::have_equal_pixel_bytes(
-        test::render_without_ambient(yard, "secant", size).hdr,
-        test::render_without_ambient(yard, "secant:ao=screen", size).hdr));
+    for (const char* technique : {"secant:ao=screen", "secant:ao=captures"})
+        EXPECT_TRUE(
+            test::have_equal_pixel_bytes(test::render_without_ambient(yard, "secant", size).hdr,
+                                         test::render_without_ambient(yard, technique, size).hdr))
+            << technique;
 }
 
 /// Light probes know themselves what hides the environment.
 TEST(AmbientOcclusion, IsRefusedWithLightProbesAndNotedInPlans) {
     scene::Scene room = test::make_lit_room(2, 1);
     scene::find_mirrors(room);
-    test::expect_error(
-        [&] {
-            test::render_technique(room, "secant:ao=screen,indirect=captures", {8, 8});
-        },
-        Failure::usage,
-        {"wanted ao=none or indirect=ambient", "found ao=screen and indirect=captures"});
-    const app::TechniqueResult mixed = test::render_technique(
-        room, "1=secant:indirect=captures,face=16 *=secant:ao=screen,face=16", {8, 8});
-    EXPECT_TRUE(std::ranges::any_of(mixed.notes, [](const std::string& note) {
-        return note.find("ao=screen has no effect beside indirect=captures") != std::string::npos;
-    }));
+    for (const std::string ao : {"ao=screen", "ao=captures"})
+        test::expect_error(
+            [&] {
+                test::render_technique(room, "secant:indirect=captures," + ao, {8, 8});
+            },
+            Failure::usage,
+            {"wanted ao=none or indirect=ambient", "found " + ao + " and indirect=captures"});
+    for (const auto& [first, second] : {std::pair{"indirect=captures", "ao=screen"},
+                                        {"indirect=captures", "ao=captures"},
+                                        {"ao=captures", "ao=screen"}}) {
+        const std::string plan = fmt::format("1=secant:{},face=16 *=secant:{},face=16", first,
+                                             second),
+                          wanted = fmt::format("{} has no effect beside {}", second, first);
+        const app::TechniqueResult mixed = test::render_technique(room, plan, {8, 8});
+        EXPECT_TRUE(std::ranges::any_of(mixed.notes, [&](const std::string& note) {
+            return note.find(wanted) != std::string::npos;
+        })) << wanted;
+    }
 }
 
 /// A pixel that rays complete shows the same surface, and the same share of the environment.
@@ -204,13 +260,16 @@ TEST(AmbientOcclusion, TracedPixelsAreOccludedToo) {
     const auto render = [&](const char* technique) {
         return render_occluded(scene, camera, 32, technique);
     };
-    const measure::Picture searched = render("secant:ao=screen"),
-                           traced = render("hybrid:force=unknown,ao=screen"),
-                           whole = render("hybrid:force=unknown");
-    const double near = test::rmse_of_pictures(searched, traced),
-                 far = test::rmse_of_pictures(whole, traced);
-    std::cout << "[ MEASURED ] rmse to searched " << near << ", without occlusion " << far << '\n';
-    EXPECT_LT(near, .5 * far);
+    const measure::Picture whole = render("hybrid:force=unknown");
+    for (const std::string ao : {"ao=screen", "ao=captures"}) {
+        const measure::Picture searched = render(("secant:" + ao).c_str()),
+                               traced = render(("hybrid:force=unknown," + ao).c_str());
+        const double near = test::rmse_of_pictures(searched, traced),
+                     far = test::rmse_of_pictures(whole, traced);
+        std::cout << "[ MEASURED ] " << ao << ": rmse to searched " << near
+                  << ", without occlusion " << far << '\n';
+        EXPECT_LT(near, .5 * far) << ao;
+    }
 }
 
 } // namespace
