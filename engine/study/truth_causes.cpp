@@ -1,6 +1,8 @@
-// The study `truth-causes`: the distance of the usual ray tracing to path tracing, by cause. A
-// chain of references removes one simplification of the light after the other, until the last is
-// path traced. Each step of the chain counts by the squared error that it removes.
+// The study `truth-causes`: the distance of simple ray tracing to path tracing, by cause. Simple
+// ray tracing draws glass as a diffuse surface and rough surfaces as if they were sharp. A chain of
+// references removes one simplification after the other: first those of surfaces, which gives the
+// usual reference, then those of light, until the last reference is path traced. Each step of the
+// chain counts by the squared error that it removes.
 #include "measure/display.hpp"
 #include "measure/masks.hpp"
 #include "measure/metric.hpp"
@@ -8,6 +10,7 @@
 #include "measure/pixel_error.hpp"
 #include "report/text.hpp"
 #include "scene/light.hpp"
+#include "scene/material_facts.hpp"
 #include "session/session.hpp"
 #include "shared.h"
 #include "study/study.hpp"
@@ -50,19 +53,35 @@ int choose_points_of_lamp(const scene::Scene& scene) {
     return static_cast<int>(std::clamp<std::size_t>(most, 1, kPointsOfLamp));
 }
 
-/// Returns the chain from the usual model of light to path tracing. Steps that change nothing in
-/// this scene are left out.
+/// Returns the scene with diffuse surfaces in place of glass. They have the glass's base colour.
+scene::Scene replace_glass_by_diffuse_surfaces(scene::Scene scene) {
+    for (scene::Object& object : scene.objects)
+        if (scene::is_glass(scene.materials[object.material])) object.mirror = false;
+    for (scene::Material& material : scene.materials)
+        if (scene::is_glass(material)) material.transmission = 0;
+    return scene;
+}
+
+/// Returns the chain from simple ray tracing to path tracing. Steps that change nothing in this
+/// scene are left out.
 std::vector<ChainReference> make_reference_chain(scene::Scene scene) {
     scene.light_samples = 1, scene.environment_shadows = 0;
-    std::vector<ChainReference> chain{{"", scene, choose_reference("", scene)}};
+    const std::string usual = choose_reference("", scene);
+    std::vector<ChainReference> chain;
+    const bool has_glass = std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
+        return scene::is_glass(scene.materials[object.material]);
+    });
+    if (has_glass) chain.push_back({"", replace_glass_by_diffuse_surfaces(scene), kReference});
+    chain.push_back({has_glass ? "glass" : "", scene, kReference});
+    if (usual != kReference) chain.push_back({"rough lobes", scene, usual});
     scene::Scene refined = scene;
     if (const int points = choose_points_of_lamp(scene); points > 1) {
         refined.light_samples = points;
-        chain.push_back({"light as a point", refined, chain.front().technique});
+        chain.push_back({"light as a point", refined, usual});
     }
     if (scene.environment) {
         refined.environment_shadows = kRaysToEnvironment;
-        chain.push_back({"occlusion of the environment", refined, chain.front().technique});
+        chain.push_back({"occlusion of the environment", refined, usual});
     }
     chain.push_back({"light between surfaces", std::move(scene), kPathReference});
     return chain;
@@ -262,8 +281,11 @@ report::ReportTable make_truth_cause_table(const report::Comparison& comparison,
         title,
         {report::make_text_column("Cause"), "Share, %", "Squared error",
          "Squared error without the cause", "Deviation", "FLIP", "FLIP without the cause"},
-        "The table compares the usual ray tracing with path tracing. Each line removes one more "
-        "cause of the difference, in this order. Share: the squared error that the line removes, "
+        "The table compares simple ray tracing with path tracing. Each line removes one more cause "
+        "of the difference, in this order. Glass: simple ray tracing draws it as a diffuse "
+        "surface. Rough lobes: simple ray tracing draws rough mirrors as sharp, and other rough "
+        "surfaces without their lobe. The usual reference lacks neither, so the first further line "
+        "has its distance to path tracing. Share: the squared error that the line removes, "
         "in percent of the squared error in the first line. All shares are 0 if that squared "
         "error is below three deviations. Squared errors use two halves of each reference, so "
         "noise adds nothing unless it crosses 0 or 1. Deviation: standard deviation of the "
@@ -296,12 +318,13 @@ std::vector<report::ReportTable> make_truth_cause_tables(const report::Compariso
 
 const RegisteredStudy kTruthCausesStudy{
     {.name = "truth-causes",
-     .help = "also split the distance of ray tracing to path tracing into lamps as points, "
-             "occlusion of the environment, and light between surfaces; takes --reference-seconds",
+     .help = "also split the distance of simple ray tracing to path tracing into glass, rough "
+             "lobes, lamps as points, occlusion of the environment, and light between surfaces; "
+             "takes --reference-seconds",
      .order = 60,
      .run = split_distance_to_path_tracing,
      .metrics = {{.name = kTruthCausesMetricName,
-                  .help = "distance of the usual ray tracing to path tracing, by cause; the same "
+                  .help = "distance of simple ray tracing to path tracing, by cause; the same "
                           "in each row",
                   .order = 795,
                   .get = measure::Metric::IsMetricOfStudy{}}},

@@ -5,6 +5,7 @@
 #include "report/writer.hpp"
 #include "scene/classify.hpp"
 #include "support/rendering.hpp"
+#include "support/smooth_environment.hpp"
 
 #include <gmock/gmock.h>
 
@@ -85,6 +86,37 @@ TEST(TruthCauses, HalfHiddenSquareLampIsWrongAsAPointOnly) {
     EXPECT_EQ(causes[0].first, "light as a point");
     EXPECT_NEAR(causes[0].second.at("share"), 1, .03);
     EXPECT_NEAR(causes[1].second.at("share"), 0, .03);
+}
+
+/// Half of the floor is seen through a tinted pane. The lamp is below the pane, so no light of the
+/// lamp passes glass on its way to the floor.
+TEST(TruthCauses, PaneOfGlassIsWrongAsADiffuseSurfaceOnly) {
+    scene::Scene scene = make_floor_with_flat_mirror();
+    const std::size_t pane = test::add_material(
+        scene, {.name = "pane", .albedo = vec3(.5f), .roughness = 0, .transmission = 1});
+    test::add_quad(scene, "pane", pane, {-.3, .4, .3}, {.3, .4, .3}, {.3, .4, .1}, {-.3, .4, .1});
+    scene.punctual.push_back({.intensity = vec3(.1f)});
+    scene.punctual.back().world_from_light[3] = dvec4(.3, .3, .5, 1);
+    const auto causes = list_truth_causes(compare_with_truth_causes(scene, 24));
+    ASSERT_EQ(causes.size(), 2u);
+    EXPECT_EQ(causes[0].first, "glass");
+    EXPECT_GT(causes[0].second.at("squared_error"), 1e-4);
+    EXPECT_NEAR(causes[0].second.at("share"), 1, .02);
+}
+
+/// Nothing hides the sky from a metal floor, and no light goes from the floor to itself.
+TEST(TruthCauses, RoughMetalBelowASkyIsWrongAsASharpMirrorOnly) {
+    scene::Scene scene{.name = "floor"};
+    const std::size_t metal = test::add_material(
+        scene, {.name = "metal", .albedo = vec3(.9f), .metallic = 1, .roughness = .4f});
+    test::add_quad(scene, "floor", metal, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
+    scene.environment = test::make_smooth_environment();
+    scene.cameras.push_back({.eye = {0, 3, 5}, .target = {0, 0, 0}, .vertical_fov_degrees = 30});
+    const auto causes = list_truth_causes(compare_with_truth_causes(scene, 16));
+    ASSERT_EQ(causes.size(), 3u);
+    EXPECT_EQ(causes[0].first, "rough lobes");
+    EXPECT_GT(causes[0].second.at("squared_error"), 1e-4);
+    EXPECT_NEAR(causes[0].second.at("share"), 1, .05);
 }
 
 TEST(TruthCauses, SharesAddUpAndStandInEveryReport) {
