@@ -228,6 +228,10 @@ ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOpt
     apply_light_samples(wanted);
     wanted.scene.environment_shadows = wanted.overrides.environment_shadows.value_or(0);
     apply_environment_overrides(wanted, options.overrides);
+    if (wanted.scene.environment_shadows > 0 && !wanted.scene.environment)
+        wanted.said.emplace_back(
+            "--environment-shadows has no effect: the scene has no environment "
+            "(--environment adds one)");
     scene::sort_unsupported_features(wanted.scene);
     warn_of_scene_with_many_mirrors(wanted.scene);
     return wanted;

@@ -21,6 +21,7 @@
 #include "study/compare_checks.hpp"
 #include "study/compare_row.hpp"
 #include "study/compare_to_target.hpp"
+#include "study/light_model_warnings.hpp"
 #include "study/picture_rows.hpp"
 #include "study/plan_certificate.hpp"
 #include "study/reference_cache.hpp"
@@ -30,6 +31,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <new>
@@ -304,34 +306,10 @@ private:
                                         int number) {
         row_warnings_[index] = judge_.fill_row_errors_and_picture(
             comparison_.rows[index], compare_request_.base.techniques[index], part, number);
-        const report::Row& row = comparison_.rows[index];
-        const bool has_paths = std::ranges::any_of(
-            comparison_.reference_settings, [](const Setting& setting) {
-                return setting.name == "indirect" && setting.text == "paths";
-            });
-        const reflect::TechniquePlan plan = read_technique_plan(
-            compare_request_.base.techniques[index]);
-        if (!has_paths && plan.uses_soft_shadows() &&
-            compare_request_.base.scene.light_samples == 1 &&
-            std::ranges::any_of(scene::list_lights(compare_request_.base.scene),
-                                &scene::PointLight::is_lamp))
-            row_warnings_[index].push_back(
-                "'" + row.label +
-                "': its soft shadows count as an error beside this reference, whose lamps are "
-                "points; --truth paths has lamps as areas");
-        const scene::Scene& scene = compare_request_.base.scene;
-        const bool has_hidden_environment = scene.environment && scene.environment_shadows > 0;
-        if (!has_paths && plan.occludes_environment() && !has_hidden_environment &&
-            (scene.environment || compare_request_.base.ambient > 0))
-            row_warnings_[index].push_back(
-                "'" + row.label +
-                "': its shadow of the environment counts as an error beside this reference; "
-                "--truth paths has that shadow");
-        if (!has_paths && plan.has_light_between_surfaces())
-            row_warnings_[index].push_back(
-                "'" + row.label +
-                "': its light between surfaces counts as an error beside this reference; --truth "
-                "paths has that light");
+        std::ranges::move(list_warnings_of_light_models(
+                              compare_request_, compare_request_.base.techniques[index],
+                              comparison_.rows[index].label, comparison_.reference_settings),
+                          std::back_inserter(row_warnings_[index]));
     }
 
     void add_comparison_row(const std::string& text, const TechniqueResult& part) {

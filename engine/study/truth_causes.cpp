@@ -31,6 +31,9 @@ namespace {
 constexpr const char* kTruthCausesMetricName = "truth_causes";
 /// Points of each lamp in the reference with large lamps, unless the scene has too many lamps.
 constexpr std::size_t kPointsOfLamp = 64;
+/// Most lights in a scene with glass, in which rays branch: each ray goes to all lights, and an
+/// invocation may take kMaxTraceSteps steps only.
+constexpr std::size_t kMostLightsBesideGlass = 16;
 /// Rays to the environment from each surface in a frame of the reference with its shadows.
 constexpr int kRaysToEnvironment = 64;
 /// A squared error below this number of standard deviations of its noise counts as 0.
@@ -45,11 +48,19 @@ struct ChainReference {
     std::string technique;
 };
 
+bool has_glass(const scene::Scene& scene) {
+    return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
+        return scene::is_glass(scene.materials[object.material]);
+    });
+}
+
 /// Returns how many points each lamp gets; 1 if no lamp has an area, or no more points fit.
 int choose_points_of_lamp(const scene::Scene& scene) {
-    const std::size_t others = scene.punctual.size(), all = scene::list_lights(scene).size();
-    if (all <= others || others >= shared::kMaxLights) return 1;
-    const std::size_t lamps = all - others, most = (shared::kMaxLights - others) / lamps;
+    const std::size_t others = scene.punctual.size(), all = scene::list_lights(scene).size(),
+                      limit = has_glass(scene) ? kMostLightsBesideGlass
+                                               : std::size_t{shared::kMaxLights};
+    if (all <= others || others >= limit) return 1;
+    const std::size_t lamps = all - others, most = (limit - others) / lamps;
     return static_cast<int>(std::clamp<std::size_t>(most, 1, kPointsOfLamp));
 }
 
@@ -68,11 +79,9 @@ std::vector<ChainReference> make_reference_chain(scene::Scene scene) {
     scene.light_samples = 1, scene.environment_shadows = 0;
     const std::string usual = choose_reference("", scene);
     std::vector<ChainReference> chain;
-    const bool has_glass = std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
-        return scene::is_glass(scene.materials[object.material]);
-    });
-    if (has_glass) chain.push_back({"", replace_glass_by_diffuse_surfaces(scene), kReference});
-    chain.push_back({has_glass ? "glass" : "", scene, kReference});
+    const bool shows_glass = has_glass(scene);
+    if (shows_glass) chain.push_back({"", replace_glass_by_diffuse_surfaces(scene), kReference});
+    chain.push_back({shows_glass ? "glass" : "", scene, kReference});
     if (usual != kReference) chain.push_back({"rough lobes", scene, usual});
     scene::Scene refined = scene;
     if (const int points = choose_points_of_lamp(scene); points > 1) {

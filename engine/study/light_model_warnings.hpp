@@ -1,0 +1,18 @@
+#pragma once
+
+#include "compare.hpp"
+
+#include <string>
+#include <vector>
+
+namespace catoptric::app {
+
+/// Returns warnings about light that the row and the reference compute by different models, one
+/// sentence each. Such light counts as an error of the row. `technique`: text of the row's
+/// technique or plan. `reference`: settings of the reference.
+std::vector<std::string> list_warnings_of_light_models(const CompareRequest& request,
+                                                       const std::string& technique,
+                                                       const std::string& label,
+                                                       const std::vector<Setting>& reference);
+
+} // namespace catoptric::app
