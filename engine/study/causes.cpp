@@ -123,6 +123,7 @@ Request make_history_request(const Request& base, const HistorySourceFrames& his
     }
     request.frames = 1;
     request.warmup = history.is_settled ? kSettlingFrames : base.total() - 1;
+    request.until_settled = !request.animate; // once the history repeats, it stays the same
     request.techniques = {history.technique};
     request.model = RenderedWork::required; // gives the same pictures, and their times are not used
     return request;
