@@ -30,12 +30,13 @@ public:
         measure::PictureMean means[2];
         for (int i = 0; i < 2 * kFramesPerHalf; ++i)
             means[i % 2].add_picture(
-                render(std::string(app::kRoughReference) + ",seed=" + std::to_string(i + 1)).hdr);
+                render(std::string(app::kRoughReference) + ",seed=" + std::to_string(i + 1), 0)
+                    .hdr);
         halves_ = measure::make_noisy_reference_halves(means[0].mean(), means[1].mean(), exposure);
         measure::PictureMean both;
         for (const measure::PictureMean& mean : means) both.add_picture(mean.mean());
         truth_ = both.mean();
-        hits_ = render("raytrace:depth=1").hits;
+        hits_ = render("raytrace:depth=1", 0).hits;
     }
 
     /// Returns the causes of a row's error. Expects that they add up.
