@@ -154,7 +154,7 @@ void expect_radiance_by_closed_form(const scene::Scene& scene, const std::string
                                     double share = .01,
                                     decltype(radiance_of_body)* radiance = radiance_of_body) {
     const measure::Picture found =
-        test::render_technique(scene, technique, {kRefractionEdge, kRefractionEdge}, 2).hdr;
+        test::render_technique(scene, technique, {kRefractionEdge, kRefractionEdge}).hdr;
     int compared = 0, off = 0;
     double largest = 0;
     const scene::Camera& camera = scene.cameras.front();
