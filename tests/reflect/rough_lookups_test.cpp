@@ -117,7 +117,7 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
               "secant:face=32,rough=prefilter,law=cone", "secant:face=256,rough=fast",
               "pyramid:face=32,rough=rays,rays=256"}) {
             const measure::Picture picture =
-                test::render_technique(scene, technique, kBallPictureSize, 3).hdr;
+                test::render_technique(scene, technique, kBallPictureSize).hdr;
             for (std::size_t k = 0; k < pixels.size(); ++k)
                 EXPECT_NEAR(picture.at(pixels[k].x, pixels[k].y).x, albedos[k], .01)
                     << technique << ", roughness " << roughness << " at " << pixels[k].x << ", "
@@ -136,7 +136,7 @@ void expect_levels_show_filtered_surroundings(const std::string& technique,
                      roughness = std::sqrt(alpha);
         const scene::Scene scene = make_ball_below_sky(float(roughness));
         const measure::Picture picture =
-            test::render_technique(scene, technique, kBallPictureSize, 3).hdr;
+            test::render_technique(scene, technique, kBallPictureSize).hdr;
         double largest = 0;
         test::RandomNumbers numbers(7);
         const std::vector<BallPixel> pixels = list_ball_pixels(scene, .3);
@@ -172,10 +172,8 @@ TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
 /// give the same light as traced rays.
 TEST(RoughLookups, SearchesAlongTheLobeFindWhatRaysFind) {
     const scene::Scene scene = make_ball_below_sky(.35f);
-    const measure::Picture searched = test::render_technique(scene,
-                                                             "reuse:face=256,rough=rays,rays=512",
-                                                             kBallPictureSize, 3)
-                                          .hdr;
+    const measure::Picture searched =
+        test::render_technique(scene, "reuse:face=256,rough=rays,rays=512", kBallPictureSize).hdr;
     const measure::Picture traced =
         test::render_technique(scene, "raytrace:rays=512", kBallPictureSize).hdr;
     double largest = 0;
