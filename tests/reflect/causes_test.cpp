@@ -70,9 +70,9 @@ ErrorCauseSplit split_error_by_causes(const scene::Scene& scene, const std::stri
 double mean_squared_mirror_error(const scene::Scene& scene, const std::string& technique) {
     const app::TechniqueResult truth = test::render_technique(scene, app::kReference,
                                                               kCausesPictureSize);
-    const app::RunResult row = app::run(
-        test::get_test_engine(),
-        make_request_of_settled_picture(scene, technique, kCausesPictureSize));
+    app::Request request = make_request_of_settled_picture(scene, technique, kCausesPictureSize);
+    request.until_settled = true;
+    const app::RunResult row = app::run(test::get_test_engine(), request);
     return std::pow(test::rmse_of_pictures(row.parts.front().hdr, truth.hdr,
                                            measure::mask_mirror_pixels(truth.hits)),
                     2);
