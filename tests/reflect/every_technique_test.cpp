@@ -53,48 +53,53 @@ TEST_P(EveryTechniqueTest, MirrorInAFurnaceShowsTheFurnace) {
 
 /// Returns the share of pixels that are darker than the furnace. Fails if a pixel is brighter than
 /// 1.002 times the furnace.
-double dark_pixel_share(const scene::Scene& furnace, const std::string& technique, int frames) {
-    app::Request request = test::make_test_request(furnace, {technique},
-                                                   kEveryTechniquePictureSize);
-    request.warmup = frames - 1;
-    request.ambient = 0;
-    const measure::Picture picture = app::run(test::get_test_engine(), request).parts.front().hdr;
+double dark_pixel_share(const measure::Picture& picture, const std::string& what) {
     std::size_t dark = 0, bright = 0;
     for (const vec3& pixel : picture.pixels) {
         dark += !glm::all(
             glm::greaterThanEqual(pixel, test::kFurnaceWallRadiance * (1 - kFurnaceTolerance)));
         bright += !glm::all(glm::lessThanEqual(pixel, test::kFurnaceWallRadiance * 1.002f));
     }
-    EXPECT_EQ(bright, 0u) << technique << ", frame " << frames;
+    EXPECT_EQ(bright, 0u) << what;
     return static_cast<double>(dark) / static_cast<double>(picture.pixels.size());
 }
 
 TEST_P(EveryTechniqueTest, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
-    const scene::Scene furnace = test::make_furnace_scene(2);
-    const auto expect_falling_share = [&](const std::string& what,
-                                          const std::function<double(int)>& share_at) {
+    app::Request request = test::make_test_request(test::make_furnace_scene(2), {},
+                                                   kEveryTechniquePictureSize);
+    request.ambient = 0;
+    app::Session session(test::get_test_engine(), request.scene);
+    /// Renders the next frame of the session.
+    const auto render = [&](const std::string& technique) {
+        request.techniques = {technique};
+        return session.frame(request).hdr();
+    };
+    const auto expect_falling_share = [&](const std::string& name,
+                                          const std::function<measure::Picture(int)>& picture_at) {
         double last = 1;
         for (int i = 0; i <= 4; ++i) {
-            const double share = share_at(i);
-            EXPECT_LE(share, last) << GetParam().name << " at " << what << " " << i;
+            const std::string what = GetParam().name + " at " + name + " " + std::to_string(i);
+            const double share = dark_pixel_share(picture_at(i), what);
+            EXPECT_LE(share, last) << what;
             last = share;
         }
         EXPECT_LT(last, .1) << GetParam().name << ": most of the picture is box";
     };
-    expect_falling_share("frame", [&](int i) {
-        return dark_pixel_share(furnace, technique_with_small_captures(), i + 1);
-    });
+    expect_falling_share("frame", [&](int) { return render(technique_with_small_captures()); });
     for (const std::string knob : {"bounces", "depth"})
         if (std::ranges::find(GetParam().knobs, knob, &app::KnobInfo::name) !=
             GetParam().knobs.end())
             expect_falling_share(knob, [&](int i) {
-                return dark_pixel_share(
-                    furnace, technique_with_small_captures({{knob, std::to_string(i)}}), 1);
+                session.forget();
+                return render(technique_with_small_captures({{knob, std::to_string(i)}}));
             });
 }
 
 TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
-    for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}})
+    for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}}) {
+        app::Request asked = test::make_test_request(test::make_lit_room(mirrors, lights), {},
+                                                     {16, 16});
+        app::Session session(test::get_test_engine(), asked.scene);
         for (const app::KnobInfo& knob : GetParam().knobs) {
             // Test each choice of a knob, and a number between its limits, because the number of
             // scene passes may depend on any of them.
@@ -118,9 +123,7 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                             reflect::parse_plan(text), std::vector<std::string>(balls, "ball")),
                         std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
-                const app::Request asked = test::make_test_request(
-                    test::make_lit_room(mirrors, lights), {text}, {16, 16});
-                app::Session session(test::get_test_engine(), asked.scene);
+                asked.techniques = {text};
                 const auto plan = nlohmann::json::parse(
                     app::Access::format_frame_plan(session, asked, app::GraphPlanFormat::json));
                 EXPECT_EQ(plan.at("scene_passes"),
@@ -128,6 +131,7 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
             }
         }
+    }
 }
 
 /// Returns the lowest and highest value of a knob, or smaller ones if these would take too much
