@@ -1,6 +1,7 @@
 #include "scene/classify.hpp"
 
 #include "scene/mirror_shape.hpp"
+#include "scene/nested_glass.hpp"
 
 #include "scene/json.hpp"
 #include "scene/material_facts.hpp"
@@ -24,6 +25,7 @@ constexpr std::size_t kMaterialSampleCount = 4096;
 constexpr const char* kIndirectGapId = "indirect-left-out";
 constexpr const char* kGlassAsDiffuseGapId = "glass-as-diffuse";
 constexpr const char* kUnshadowedGapId = "environment-unshadowed";
+constexpr const char* kNestedGlassGapId = "nested-glass";
 
 /// The values of a material at one point of a surface.
 struct SampledMaterialValues {
@@ -254,7 +256,8 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
 void sort_unsupported_features(Scene& scene) {
     std::set<std::size_t> diffuse; // materials
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
-        return gap.id == kIndirectGapId || gap.id == kUnshadowedGapId;
+        return gap.id == kIndirectGapId || gap.id == kUnshadowedGapId ||
+               gap.id == kNestedGlassGapId;
     });
     for (const Object& object : scene.objects)
         if (has_diffuse_part(scene.materials[object.material])) diffuse.insert(object.material);
@@ -263,6 +266,7 @@ void sort_unsupported_features(Scene& scene) {
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
     if (has_any_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);
+    add_unsupported_materials(scene, kNestedGlassGapId, find_nested_glass_materials(scene));
     scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());
 }
 
