@@ -32,6 +32,7 @@ class Shading:
     diffuse: str = "rest"
     shadowing: str = "correlated" # Smith's shadowing and masking: "correlated", or "separable" as in appendix B
     tests_facets: bool = True     # whether the diffuse part gets no light from below the facet
+    takes_plain_bsdfs: bool = False # whether Lambertian surfaces and sharp mirrors get Mitsuba's own BSDFs
 
 
 class Texture:
@@ -375,10 +376,32 @@ class Loader:
                 for index, parts in self.parts.items()]
 
 
+def make_plain_bsdf(material):
+    """Returns Mitsuba's own BSDF of a Lambertian surface or a sharp mirror, and None for other materials. It is black behind."""
+    if material.transmission or material.blended or material.cutoff is not None or set(material.textures) - {"colour", "emission"}:
+        return None
+    if material.metallic == 0 and max(*material.f0, material.f90) == 0:
+        bsdf = {"type": "diffuse", "reflectance": {"type": "rgb", "value": material.colour}}
+        if "colour" in material.textures:
+            map_ = material.textures["colour"].map
+            if map_.wrap_mode() != dr.WrapMode.Repeat or material.textures["colour"].rows != [[1, 0, 0], [0, 1, 0]]:
+                return None
+            texels = np.array(map_.tensor())[..., :3] * np.array(material.colour, np.float32)
+            kind = "nearest" if map_.filter_mode() == dr.FilterMode.Nearest else "bilinear"
+            bsdf["reflectance"] = {"type": "bitmap", "bitmap": mi.Bitmap(np.ascontiguousarray(texels, np.float32)), "raw": True,
+                                   "filter_type": kind}
+    elif material.metallic == 1 and material.roughness == 0 and not material.textures:
+        bsdf = {"type": "conductor", "material": "none", "specular_reflectance": {"type": "rgb", "value": material.colour}}
+    else:
+        return None
+    return mi.load_dict({"type": "twosided", "bsdf": bsdf} if material.two_sided else bsdf)
+
+
 def make_mesh(shading, albedo, material, points, normals, uv):
     NUMBERED.append((material, shading, albedo))
     props = mi.Properties()
-    props["mesh_bsdf"] = mi.load_dict({"type": "gltf", "number": len(NUMBERED) - 1})
+    plain = make_plain_bsdf(material) if shading.takes_plain_bsdfs else None
+    props["mesh_bsdf"] = plain or mi.load_dict({"type": "gltf", "number": len(NUMBERED) - 1})
     if max(material.emission) > 0:
         light = {"type": "rgb", "value": material.emission}
         if "emission" in material.textures:
@@ -394,8 +417,10 @@ def make_mesh(shading, albedo, material, points, normals, uv):
 
 
 def make_scene(parts, environment, shading):
-    """Returns a scene of Mitsuba. `environment`: file of an equirectangular picture, +y up, -z in the middle."""
+    """Returns a scene of Mitsuba. `environment`: file of an equirectangular picture, +y up, -z in the middle, or None."""
     albedo = make_albedo_table(shading.shadowing)
-    sky = {"type": "envmap", "filename": str(environment), "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 180)}
-    meshes = {f"part {i}": make_mesh(shading, albedo, *part) for i, part in enumerate(parts)}
-    return mi.load_dict({"type": "scene", "sky": sky} | meshes)
+    scene = {"type": "scene"} | {f"part {i}": make_mesh(shading, albedo, *part) for i, part in enumerate(parts)}
+    if environment:
+        turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180)
+        scene["sky"] = {"type": "envmap", "filename": str(environment), "to_world": turn}
+    return mi.load_dict(scene)

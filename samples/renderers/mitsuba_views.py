@@ -1,9 +1,9 @@
 """Draws the views of a folder of pose.py that show one of its scenes, by the path tracer Mitsuba:
 
-python3 -B mitsuba_views.py FOLDER SCENE.glb OUT --environment SKY.exr [OPTION...]
+python3 -B mitsuba_views.py FOLDER SCENE.glb OUT [--environment SKY.exr] [OPTION...]
 
 Writes OUT/view-000.exr, OUT/view-001.exr and so on, with linear light in 32-bit floats. The environment and surfaces that
-emit are the only light. Tested with Mitsuba 3.9.1 (pip install mitsuba==3.9.1) and libLLVM 19 (Debian's package libllvm19, or
+emit are the only light. Without an environment the integrator is Mitsuba's own ("path"), which draws points on lamps. Tested with Mitsuba 3.9.1 (pip install mitsuba==3.9.1) and libLLVM 19 (Debian's package libllvm19, or
 the variable DRJIT_LIBLLVM_PATH).
 """
 
@@ -28,7 +28,7 @@ def read_options():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("scene", help="name of a file in the folder")
     parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--environment", type=pathlib.Path, required=True, help="equirectangular picture, +y up, -z in the middle")
+    parser.add_argument("--environment", type=pathlib.Path, help="equirectangular picture, +y up, -z in the middle (none)")
     parser.add_argument("--samples", type=int, default=256, help="paths per pixel")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--light", choices=("direct", "full"), default="direct",
@@ -41,9 +41,17 @@ def read_options():
                         help="Smith's shadowing: separable is that of glTF's appendix B")
     parser.add_argument("--pixel", choices=("centre", "area"), default="centre",
                         help="what a pixel shows: the point at its centre, or the mean over its area")
-    parser.add_argument("--integrator", choices=("own", "path"), default="own",
-                        help="path: Mitsuba's integrator of this name, which counts back faces as surfaces")
-    return parser.parse_args()
+    parser.add_argument("--integrator", choices=("own", "path"),
+                        help="path: Mitsuba's integrator of this name, which counts back faces as surfaces (own; path without an "
+                             "environment)")
+    parser.add_argument("--bsdf", choices=("gltf", "plain"), default="gltf",
+                        help="plain: Mitsuba's own BSDFs for Lambertian surfaces and sharp mirrors, which are faster, and black behind")
+    options = parser.parse_args()
+    options.integrator = options.integrator or ("own" if options.environment else "path")
+    if not options.environment and (options.integrator, options.light) != ("path", "full"):
+        parser.error("wanted --light full and no --integrator own without --environment, because the integrator of this file draws no "
+                     "points on lamps")
+    return options
 
 
 def camera_rays(camera, width, height, lane, jitter):
@@ -143,7 +151,7 @@ def draw(scene, options, camera, width, height):
         jitter = sampler.next_2d() if options.pixel == "area" else mi.Point2f(.5)
         ray = camera_rays(camera, width, height, lane, jitter)
         if options.integrator == "path":
-            integrator = mi.load_dict({"type": "path", "max_depth": options.depth + 1, "rr_depth": 1000})
+            integrator = mi.load_dict({"type": "path", "max_depth": options.depth + 1, "rr_depth": 5})
             light = integrator.sample(scene, sampler, mi.RayDifferential3f(ray))[0]
         else:
             light = trace(scene, sampler, ray, options.depth, options.light == "direct")
@@ -159,7 +167,7 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     shutil.copy(options.folder / "views.json", options.out) # 'compare --row' checks that its views are these
     parts = mitsuba_gltf.Loader(pose.Gltf(options.folder / options.scene)).all_parts()
-    shading = mitsuba_gltf.Shading(options.diffuse, options.shadowing, tests_facets=options.light == "full")
+    shading = mitsuba_gltf.Shading(options.diffuse, options.shadowing, options.light == "full", options.bsdf == "plain")
     scene = mitsuba_gltf.make_scene(parts, options.environment, shading)
     for view in posed["views"]:
         if view["scene"] == options.scene:

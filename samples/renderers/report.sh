@@ -9,6 +9,7 @@ Writes OUT/report/report.html, where pictures of other renderers stand beside ou
 Replaces the folders OUT/views, OUT/cycles, OUT/eevee, OUT/three and OUT/mitsuba.
   --rows LIST         other renderers, of cycles, eevee and three (all three, separated by commas), or mitsuba
   --environment FILE  picture that lights the scene, for the row mitsuba, whose other light is surfaces that emit
+                      (none: only these emit, and --light is full)
   --count N           drawn views beside the scene's own: 1 (none) or at least 6 (6)
   --size WxH          size of the pictures (256x256)
   --camera C, --time T, --seed N
@@ -57,8 +58,8 @@ if [[ $light == full ]]; then
     truth=paths
 fi
 if [[ $rows == mitsuba ]]; then
-    [[ -n $environment ]] || die "--rows mitsuba: wanted --environment FILE, found none"
-    view_options+=(--environment "$environment")
+    [[ -n $environment || $light == full ]] || die "--rows mitsuba: wanted --environment FILE or --light full, found neither"
+    [[ -z $environment ]] || view_options+=(--environment "$environment")
 elif [[ ,$rows, == *,mitsuba,* || -n $environment ]]; then
     die "--rows: wanted mitsuba alone, because the other rows have no --environment, found '$rows'"
 fi
@@ -91,10 +92,11 @@ draw_by_three() {
 }
 
 draw_by_mitsuba() {
-    local file
+    local file light_options=(--bsdf plain)
+    [[ -z $environment ]] || light_options=(--environment "$environment")
     for file in "$out"/views/scene-*.glb; do
         "${CATOPTRIC_MITSUBA_PYTHON:-/usr/bin/python3}" -B "$here/mitsuba_views.py" "$out/views" "${file##*/}" "$out/mitsuba" \
-            --environment "$environment" --light "$light" --pixel "$pixel" --samples "$samples"
+            "${light_options[@]}" --light "$light" --pixel "$pixel" --samples "$samples"
     done
 }
 
