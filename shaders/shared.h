@@ -194,7 +194,7 @@ struct LightProbeGrid {
     uvec3 counts;
 };
 const uint kLightProbeFace = 16u; // edge of a light probe's capture, texels
-// Values of the constant has_light_probes. Light probes hold the light of surfaces and environment, or the light of the
+// Values of the constant light_probe_content. Light probes hold the light of surfaces and environment, or the light of the
 // environment that surfaces leave visible.
 const uint kLightProbesOfSurfaces = 1u, kLightProbesOfEnvironment = 2u;
 

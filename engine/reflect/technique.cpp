@@ -62,15 +62,13 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
     const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
     choice.update_shared_knobs_from_settings();
-    if (choice.shared.occlusion != KnobsSharedByTechniques::AmbientOcclusion::none &&
-        choice.shared.has_light_between_surfaces()) {
-        const std::string ao = choice.settings.format_current_knob_value(kAmbientOcclusionKnob);
-        throw Error(Failure::usage,
-                    "technique '" + std::string(text) +
-                        "': wanted ao=none or indirect=ambient, because light probes replace the "
-                        "light that ao=" +
-                        ao + " hides; found ao=" + ao + " and indirect=captures");
-    }
+    const std::string ao = choice.settings.has_knob_named(kAmbientOcclusionKnob)
+                               ? choice.settings.format_current_knob_value(kAmbientOcclusionKnob)
+                               : "none";
+    check(ao == "none" || !choice.shared.has_light_between_surfaces(), Failure::usage,
+          "technique '", text,
+          "': wanted ao=none or indirect=ambient, because light probes replace the light that ao=",
+          ao, " hides; found ao=", ao, " and indirect=captures");
     return choice;
 }
 

@@ -109,7 +109,7 @@ gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
     if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
     if (drawing.lighting.probes)
-        features.emplace_back("has_light_probes", drawing.lighting.probes->content);
+        features.emplace_back("light_probe_content", drawing.lighting.probes->content);
     if (drawing.lighting.has_soft_shadows) features.emplace_back("soft_shadows", 1u);
     if (drawing.lighting.ambient_occlusion) features.emplace_back("has_ambient_occlusion", 1u);
     return features;

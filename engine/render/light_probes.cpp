@@ -167,7 +167,7 @@ void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
             commands.bind_resource("light", probes.images.light);
             commands.bind_resource("distances", probes.images.distances);
             commands.bind_pipeline(gpu::ComputePipelineState{
-                "probes/light.comp", {{"has_light_probes", probes.images.content}}});
+                "probes/light.comp", {{"light_probe_content", probes.images.content}}});
             const struct {
                 shared::LightProbeGrid grid;
                 float radius;

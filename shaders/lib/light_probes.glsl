@@ -10,7 +10,7 @@
 #include "lib/constants.glsl"
 
 // What light probes show: 0 (there are none), kLightProbesOfSurfaces or kLightProbesOfEnvironment.
-layout(constant_id = HAS_LIGHT_PROBES_CONSTANT) const uint has_light_probes = 0u;
+layout(constant_id = LIGHT_PROBE_CONTENT_CONSTANT) const uint light_probe_content = 0u;
 // The grid of light probes, a LightProbeGrid. All values are 0 in the first frame, in which no probe has been drawn
 // yet.
 layout(set = 0, binding = 34) uniform sampler2D probe_grid;

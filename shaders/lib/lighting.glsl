@@ -48,9 +48,10 @@ vec3 share_with_light_between_surfaces(vec3 visible, vec3 albedo) {
 
 // Returns the irradiance of the environment and the ambient light at a surface, as far as light probes see them.
 vec3 irradiance_of_seen_environment(vec3 position, vec3 normal, vec3 albedo) {
-    const float kLeast = 1e-6; // irradiance that counts as none
+    // Smallest positive 16-bit float, 2^-24. The images of light probes hold no smaller irradiance.
+    const float kSmallestHalf = 5.9604644775390625e-8;
     vec4 seen = interpolate_light_probes(position, normal);
-    vec3 whole = environment_irradiance(normal), visible = clamp(seen.rgb / max(whole, vec3(kLeast)), vec3(0), vec3(1));
+    vec3 whole = environment_irradiance(normal), visible = clamp(seen.rgb / max(whole, vec3(kSmallestHalf)), vec3(0), vec3(1));
     return whole * share_with_light_between_surfaces(visible, albedo) +
            kPi * frame_ambient_light() * share_with_light_between_surfaces(vec3(seen.w), albedo);
 }
@@ -58,7 +59,7 @@ vec3 irradiance_of_seen_environment(vec3 position, vec3 normal, vec3 albedo) {
 // Returns the mean light of the environment and the ambient light that arrives in a lobe of that roughness. Objects do not
 // occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
 vec3 mean_environment_light_in_lobe(float roughness, vec3 normal, vec3 to_viewer) {
-    vec3 light = vec3(has_light_probes == kLightProbesOfSurfaces ? 0.0 : frame_ambient_light());
+    vec3 light = vec3(light_probe_content == kLightProbesOfSurfaces ? 0.0 : frame_ambient_light());
     if (environment_kind != kNoEnvironment) light += environment_lobe_radiance(reflect(-to_viewer, normal), roughness);
     return light;
 }
@@ -119,7 +120,7 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         }
         ++light;
     } while ((one_light == 0u || environment_shadows != 0u) && light < end);
-    bool has_ambient = traces_paths == 0u && has_light_probes == 0u;
+    bool has_ambient = traces_paths == 0u && light_probe_content == 0u;
 #ifdef OCCLUDES_ENVIRONMENT
     if (has_ambient_occlusion != 0u) {
         has_ambient = false;
@@ -128,9 +129,9 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         direct += share * ((environment_shadows == 0u ? environment_irradiance(normal) : vec3(0)) + kPi * frame_ambient_light());
     } else
 #endif
-    if (has_light_probes != 0u && traces_paths == 0u) {
+    if (light_probe_content != 0u && traces_paths == 0u) {
         if (surface.albedo != vec3(0))
-            direct += has_light_probes == kLightProbesOfEnvironment ? irradiance_of_seen_environment(position, normal, surface.albedo)
+            direct += light_probe_content == kLightProbesOfEnvironment ? irradiance_of_seen_environment(position, normal, surface.albedo)
                                                                     : interpolate_light_probes(position, normal).rgb;
     } else if (environment_kind != kNoEnvironment && traces_paths == 0u && environment_shadows == 0u) {
         direct += environment_irradiance(normal);

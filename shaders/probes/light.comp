@@ -8,7 +8,7 @@
 
 layout(local_size_x = 32) in;
 // kLightProbesOfSurfaces or kLightProbesOfEnvironment.
-layout(constant_id = HAS_LIGHT_PROBES_CONSTANT) const uint has_light_probes = kLightProbesOfSurfaces;
+layout(constant_id = LIGHT_PROBE_CONTENT_CONSTANT) const uint light_probe_content = kLightProbesOfSurfaces;
 layout(push_constant, scalar) uniform Push {
     LightProbeGrid grid;
     float radius; // surfaces farther from a probe hide no ambient light, scene units
@@ -44,7 +44,7 @@ void main() {
         float solid_angle = pow(1.0 + dot(place, place), -1.5);
         float distance = texelFetch(captured_distances, at, 0).r;
         vec4 radiance = solid_angle * vec4(texelFetch(captured, at, 0).rgb, 1);
-        if (has_light_probes == kLightProbesOfEnvironment) {
+        if (light_probe_content == kLightProbesOfEnvironment) {
             if (distance < kLargestFloat) radiance.rgb = vec3(0);
             radiance.w *= clamp((distance / radius - kFullRadius) / (1.0 - kFullRadius), 0.0, 1.0);
         }
@@ -80,7 +80,7 @@ void main() {
         vec2 place = (vec2(x, y) + 0.5) * (2.0 / float(edge)) - 1.0;
         vec3 normal = normalize(cube_direction(face, vec3(place, 1.0))), irradiance = irradiance_from_harmonics(of_light, normal);
         float share = 1.0;
-        if (has_light_probes == kLightProbesOfEnvironment) share = min(irradiance_from_harmonics(of_share, normal).r / kPi, 1.0);
+        if (light_probe_content == kLightProbesOfEnvironment) share = min(irradiance_from_harmonics(of_share, normal).r / kPi, 1.0);
         imageStore(light, ivec3(x, y, 6 * int(probe) + face), vec4(min(irradiance, vec3(kLargestHalf)), share));
         texel += 32u;
     } while (texel < texels);
