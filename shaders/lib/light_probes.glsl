@@ -8,6 +8,7 @@
 
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/environment.glsl"
 
 // What light probes show: 0 (there are none), kLightProbesOfSurfaces or kLightProbesOfEnvironment.
 layout(constant_id = LIGHT_PROBE_CONTENT_CONSTANT) const uint light_probe_content = 0u;
@@ -43,47 +44,69 @@ float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     return cosine * (1.0 - smoothstep(1.0 + kSlack, 1.0 + 2.0 * kSlack, nearness));
 }
 
+// Returns whether the probe is of the layer around the scene's bounds (make_light_probe_grid).
+bool is_outer_light_probe(LightProbeGrid grid, uvec3 place) {
+    return environment_kind != kNoEnvironment && (any(equal(place, uvec3(0))) || any(equal(place, grid.counts - 1u)));
+}
+
+// A weighted sum of the light at light probes that see a surface point.
+struct LightProbeSum {
+    vec4 light;
+    float weight;
+};
+
+// Adds the light of a probe, weighted by `weight` and by how well the probe sees the surface point.
+void add_light_of_probe(inout LightProbeSum sum, LightProbeGrid grid, uvec3 place, float weight, vec3 position, vec3 normal) {
+    if (!(weight > 0.0)) return;
+    uint probe = light_probe_index(grid, place);
+    weight *= light_probe_sight(probe, grid.first + vec3(place) * grid.step, position, normal);
+    if (!(weight > 0.0)) return;
+    sum.light += weight * light_at_light_probe(probe, normal);
+    sum.weight += weight;
+}
+
 // Returns the irradiance at a surface point with the unit normal `normal`: from other surfaces and the environment, or from
 // the environment alone. Returns in w the visible share of the environment (kLightProbesOfEnvironment only). If none of the
-// eight probes around the point sees the point, all probes are asked, and nearer probes count more. Returns 0 if no probe
-// sees the point.
+// eight probes around the point sees the point, all probes are asked, and nearer probes count more. Outer probes count only
+// if no other probe sees the point: where a wall and a ceiling meet, an outer probe is too near to the far side of the wall
+// for its captured distances to tell the two sides apart, and would light a closed room. Returns 0 if no probe sees the point.
 vec4 interpolate_light_probes(vec3 position, vec3 normal) {
     LightProbeGrid grid = read_light_probe_grid();
     if (grid.counts.x == 0u) return vec4(0);
     vec3 cell = (position - grid.first) / grid.step;
     vec3 low = clamp(floor(cell), vec3(0), vec3(grid.counts) - 2.0);
     vec3 within = clamp(cell - low, vec3(0), vec3(1));
-    vec4 sum = vec4(0);
-    float weights = 0.0;
+    LightProbeSum inner = LightProbeSum(vec4(0), 0.0), outer = inner;
     uint corner = 0u;
     do {
         uvec3 offset = uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
         uvec3 place = uvec3(low) + offset;
         vec3 near = mix(1.0 - within, within, vec3(offset));
-        uint probe = light_probe_index(grid, place);
         float weight = near.x * near.y * near.z;
-        if (weight > 0.0) weight *= light_probe_sight(probe, grid.first + vec3(place) * grid.step, position, normal);
-        if (weight > 0.0) {
-            sum += weight * light_at_light_probe(probe, normal);
-            weights += weight;
-        }
+        if (is_outer_light_probe(grid, place))
+            add_light_of_probe(outer, grid, place, weight, position, normal);
+        else
+            add_light_of_probe(inner, grid, place, weight, position, normal);
     } while (++corner < 8u);
     // Share of the weights that all eight probes have if they see the surface head-on. Below this share, single texels
     // at the outlines of objects would decide the result.
     const float kLeastWeight = 1e-3;
-    if (weights > kLeastWeight) return sum / weights;
+    if (inner.weight > kLeastWeight) return inner.light / inner.weight;
+    LightProbeSum far_outer = LightProbeSum(vec4(0), 0.0);
     uint probe = 0u, count = grid.counts.x * grid.counts.y * grid.counts.z;
     do {
         uvec3 place = uvec3(probe % grid.counts.x, probe / grid.counts.x % grid.counts.y, probe / (grid.counts.x * grid.counts.y));
-        vec3 centre = grid.first + vec3(place) * grid.step, away = (position - centre) / grid.step;
-        float weight = light_probe_sight(probe, centre, position, normal);
-        if (weight > 0.0) {
-            weight /= dot(away, away) * dot(away, away);
-            sum += weight * light_at_light_probe(probe, normal);
-            weights += weight;
-        }
+        vec3 away = (position - grid.first) / grid.step - vec3(place);
+        const float kLeastSquare = 1e-6; // probes nearer than a thousandth of a cell count alike
+        float square = max(dot(away, away), kLeastSquare), weight = 1.0 / (square * square);
+        if (is_outer_light_probe(grid, place))
+            add_light_of_probe(far_outer, grid, place, weight, position, normal);
+        else
+            add_light_of_probe(inner, grid, place, weight, position, normal);
     } while (++probe < count);
-    return weights > 0.0 ? sum / weights : vec4(0);
+    if (inner.weight > 0.0) return inner.light / inner.weight;
+    if (outer.weight > kLeastWeight) return outer.light / outer.weight;
+    return far_outer.weight > 0.0 ? far_outer.light / far_outer.weight : vec4(0);
 }
 
 #endif

@@ -151,6 +151,17 @@ TEST(AmbientOcclusion, LightProbesKnowOpenFloorsAndClosedBoxes) {
     for (const char* technique : {"reuse:ao=captures", "reuse:ao=captures,probes=27"})
         for (const vec3& pixel : render_occluded(scene, camera, 12, technique).pixels)
             EXPECT_LT(pixel.y / kDarkAlbedo, .01) << technique;
+    // Walls without thickness: probes outside stand close behind the edges and corners of the room.
+    scene::Scene room = make_floor_below_sky();
+    room.objects.clear();
+    room.meshes.clear();
+    test::add_mesh(room, scene::box("room", {4, 3, 4}, {-4, 0, -4}), 0);
+    for (const dvec3 target : {dvec3(-4, 3, 0), dvec3(-4, 3, -4), dvec3(0, 0, -4)})
+        for (const char* technique : {"reuse:ao=captures", "reuse:indirect=captures"})
+            for (const vec3& pixel :
+                 render_occluded(room, {.eye = {1, 1.4, 1.2}, .target = target}, 24, technique)
+                     .pixels)
+                EXPECT_LT(pixel.y / kDarkAlbedo, .01) << technique << ' ' << target.x;
     scene.environment = nullptr; // ambient light is hidden by near surfaces only
     scene.cameras = {camera};
     app::Request asked = test::make_test_request(scene, {"reuse:ao=captures"}, {12, 12});
