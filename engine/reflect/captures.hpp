@@ -188,8 +188,8 @@ inline constexpr std::array<std::string_view, 3> kAmbientOcclusionChoices{"none"
 inline constexpr TechniqueKnob kAmbientOcclusionKnob{
     .name = "ao",
     .help = "what hides the environment and --ambient from diffuse surfaces: none, screen (near "
-            "surfaces in the camera's view; captures and mirrored views are not occluded), or "
-            "captures (light probes, in all views)",
+            "surfaces in the camera's view, which also hide light of indirect=captures; captures "
+            "and mirrored views are not occluded), or captures (light probes, in all views)",
     .high = 2,
     .choices = kAmbientOcclusionChoices};
 inline constexpr TechniqueKnob kLightProbesKnob{

@@ -209,12 +209,12 @@ declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInput
     return render::declare_light_probes(graph, inputs, most, content);
 }
 
-/// Returns whether surfaces of the camera's view hide the environment from each other: some
-/// technique asks for it, and diffuse surfaces are lit by it. Light probes know what hides it. Adds
-/// a note if a value of `ao` has no effect.
-bool is_environment_occluded_by_camera_view(const render::FrameInputs& inputs,
-                                            const std::vector<TechniqueChoice>& choices,
-                                            std::vector<std::string>& notes) {
+/// Returns whether surfaces of the camera's view hide light from each other: some technique has
+/// ao=screen, and the environment, ambient light or light probes light diffuse surfaces. Light
+/// probes of ao=captures already know what hides the light. Adds a note on the effect of `ao`.
+bool is_light_occluded_by_camera_view(const render::FrameInputs& inputs,
+                                      const std::vector<TechniqueChoice>& choices,
+                                      std::vector<std::string>& notes) {
     using Occlusion = KnobsSharedByTechniques::AmbientOcclusion;
     const auto is_some = [&](Occlusion occlusion) {
         return std::ranges::any_of(choices, [=](const TechniqueChoice& choice) {
@@ -226,21 +226,19 @@ bool is_environment_occluded_by_camera_view(const render::FrameInputs& inputs,
     const bool has_light = std::ranges::any_of(choices, [](const TechniqueChoice& choice) {
         return choice.shared.has_light_between_surfaces();
     });
-    for (const auto& [asks, name] :
-         {std::pair{asks_screen, "ao=screen"}, std::pair{asks_captures, "ao=captures"}})
-        if (asks && has_light)
-            notes.push_back(std::string(name) +
-                            " has no effect beside indirect=captures, whose light probes know what "
-                            "hides the environment");
+    if (asks_captures && has_light)
+        notes.emplace_back("ao=captures has no effect beside indirect=captures, whose light probes "
+                           "know what hides the environment");
     if (asks_screen && asks_captures && !has_light)
         notes.emplace_back("ao=screen has no effect beside ao=captures, whose light probes know "
                            "what hides the environment");
-    if (!asks_screen || asks_captures || has_light || !inputs.scene.has_environment_light())
+    if (!asks_screen || (asks_captures && !has_light) ||
+        !(has_light || inputs.scene.has_environment_light()))
         return false;
     char note[96];
-    std::snprintf(note, sizeof note,
-                  "ao=screen: surfaces up to %.3g world units away hide the environment",
-                  render::find_ambient_occlusion_radius(inputs.scene));
+    std::snprintf(note, sizeof note, "ao=screen: surfaces up to %.3g world units away hide the %s",
+                  render::find_ambient_occlusion_radius(inputs.scene),
+                  has_light ? "light of light probes" : "environment");
     notes.emplace_back(note);
     return true;
 }
@@ -345,7 +343,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     }
     TechniqueOutputs outputs;
     render::ShadingLights view_lighting = lighting;
-    if (is_environment_occluded_by_camera_view(inputs, choices, outputs.notes))
+    if (is_light_occluded_by_camera_view(inputs, choices, outputs.notes))
         view_lighting.ambient_occlusion = render::add_ambient_occlusion_passes(graph, inputs);
     const MutualMirrorCaptures feedback = add_capture_passes_with_feedback(
         graph, inputs, assignment, keeping, maps, lighting, probes);

@@ -62,13 +62,11 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
     const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
     choice.update_shared_knobs_from_settings();
-    const std::string ao = choice.settings.has_knob_named(kAmbientOcclusionKnob)
-                               ? choice.settings.format_current_knob_value(kAmbientOcclusionKnob)
-                               : "none";
-    check(ao == "none" || !choice.shared.has_light_between_surfaces(), Failure::usage,
-          "technique '", text,
-          "': wanted ao=none or indirect=ambient, because light probes replace the light that ao=",
-          ao, " hides; found ao=", ao, " and indirect=captures");
+    check(!choice.shared.has_light_between_surfaces() ||
+              choice.shared.occlusion != KnobsSharedByTechniques::AmbientOcclusion::captures,
+          Failure::usage, "technique '", text,
+          "': wanted ao=none or ao=screen beside indirect=captures, because the light probes of "
+          "indirect=captures know what hides the environment; found ao=captures");
     return choice;
 }
 

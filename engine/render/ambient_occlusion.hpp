@@ -3,7 +3,8 @@
 #include "render/frame_inputs.hpp"
 
 /// Functions that find the share of the environment that is visible from surfaces in the camera's
-/// view (knob `ao=screen`).
+/// view (knob `ao=screen`). The same share of ambient light and of the light of light probes
+/// reaches the surfaces.
 namespace catoptric::render {
 
 /// Returns the distance up to which surfaces hide the environment from other surfaces, in world

@@ -38,8 +38,9 @@ struct ShadingLights {
     /// Whether shadows of lamps are soft (shaders/lib/soft_shadow.glsl). Only set with a shadow
     /// map, in frames that called GpuScene::request_lamp_extents.
     bool has_soft_shadows = false;
-    /// Visible share of the environment in each pixel of the camera's view, r32f
-    /// (render/ambient_occlusion.hpp); none: the whole environment is visible from all surfaces.
+    /// Share of the environment, of ambient light or of the light of light probes that near
+    /// surfaces leave to the surface in each pixel of the camera's view, r32f
+    /// (render/ambient_occlusion.hpp); none: near surfaces hide nothing.
     std::optional<graph::ImageHandle> ambient_occlusion = {};
     friend bool operator==(const ShadingLights&, const ShadingLights&) = default;
 };

@@ -1,5 +1,5 @@
-// The light of the environment that other surfaces leave to a drawn surface, in pictures of the camera's view (knob
-// `ao=screen`). engine/render/ambient_occlusion.cpp computes the visible share of each pixel.
+// The share of the light of the environment, or of light probes, that near surfaces leave to a drawn surface, in pictures of
+// the camera's view (knob `ao=screen`). engine/render/ambient_occlusion.cpp computes the visible share of each pixel.
 #ifndef CATOPTRIC_AMBIENT_OCCLUSION_GLSL
 #define CATOPTRIC_AMBIENT_OCCLUSION_GLSL
 

@@ -121,18 +121,22 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         ++light;
     } while ((one_light == 0u || environment_shadows != 0u) && light < end);
     bool has_ambient = traces_paths == 0u && light_probe_content == 0u;
+    vec3 share = vec3(1);
+    bool is_occluded = false;
 #ifdef OCCLUDES_ENVIRONMENT
     if (has_ambient_occlusion != 0u) {
-        has_ambient = false;
+        is_occluded = true;
         // The surfaces behind glass are seen instead of the glass, and share its pixels.
-        vec3 share = is_glass(surface.detail) ? vec3(1) : share_with_light_between_surfaces(vec3(visible_share_of_environment_here()), surface.albedo);
-        direct += share * ((environment_shadows == 0u ? environment_irradiance(normal) : vec3(0)) + kPi * frame_ambient_light());
-    } else
+        if (!is_glass(surface.detail)) share = share_with_light_between_surfaces(vec3(visible_share_of_environment_here()), surface.albedo);
+    }
 #endif
     if (light_probe_content != 0u && traces_paths == 0u) {
         if (surface.albedo != vec3(0))
-            direct += light_probe_content == kLightProbesOfEnvironment ? irradiance_of_seen_environment(position, normal, surface.albedo)
-                                                                    : interpolate_light_probes(position, normal).rgb;
+            direct += share * (light_probe_content == kLightProbesOfEnvironment ? irradiance_of_seen_environment(position, normal, surface.albedo)
+                                                                               : interpolate_light_probes(position, normal).rgb);
+    } else if (is_occluded) {
+        has_ambient = false;
+        direct += share * ((environment_shadows == 0u ? environment_irradiance(normal) : vec3(0)) + kPi * frame_ambient_light());
     } else if (environment_kind != kNoEnvironment && traces_paths == 0u && environment_shadows == 0u) {
         direct += environment_irradiance(normal);
     }
