@@ -27,10 +27,13 @@ std::size_t count_probes(const uvec3& counts) {
     return std::size_t{counts.x} * counts.y * counts.z;
 }
 
-/// Returns whether captures of light probes show the object. They leave out lamps, which already
-/// light surfaces as points, and glass, which would hide surfaces that light reaches through the
-/// glass.
-bool is_shown_by_probes(const ObjectDrawRange& range) { return range.casts_shadow; }
+/// Returns whether captures of light probes show the object. They leave out glass, which would hide
+/// surfaces that light reaches through the glass.
+bool is_shown_by_probes(const ObjectDrawRange& range) { return !range.glass; }
+
+/// Returns whether the object is a lamp, whose emission is left out, because lamps already light
+/// surfaces as points.
+bool is_lamp(const ObjectDrawRange& range) { return !range.casts_shadow && !range.glass; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
 void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
@@ -80,7 +83,20 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                  scene.scene_device().vulkan_limits().subPixelPrecisionBits},
                 scene.list_draw_ranges(), {}, is_wanted);
             const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
-            draw_scene(commands, scene, drawing, is_shown, shown);
+            const auto draw_lamps_or_others = [&](const SceneDrawSettings& settings, bool lamps) {
+                draw_scene(
+                    commands, scene, settings,
+                    [&](std::size_t object) {
+                        return is_shown(object) &&
+                               is_lamp(scene.list_draw_ranges()[object]) == lamps;
+                    },
+                    shown);
+            };
+            draw_lamps_or_others(drawing, false);
+            SceneDrawSettings of_lamps = drawing;
+            of_lamps.store.emplace_back("leaves_out_emission", 1u);
+            if (std::ranges::any_of(scene.list_draw_ranges(), is_lamp))
+                draw_lamps_or_others(of_lamps, true);
             gpu::ShaderConstantValues of_sky = drawing.store;
             of_sky.emplace_back("blurs_sky", 1u);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);

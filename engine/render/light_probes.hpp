@@ -30,11 +30,11 @@ LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
                                  std::uint32_t content);
 
 /// Declares two kinds of passes. For each light probe, one pass draws the scene around the probe
-/// without lamps and glass. One further pass computes LightProbes::images. Lamps are left out,
-/// because they light surfaces as points and would count twice. The captures are lit by `lighting`
-/// and by the light probes of the previous frame, so frame k shows k reflections between diffuse
-/// surfaces. Light probes of the environment hold no light of surfaces: their captures are unlit,
-/// and blended surfaces hide nothing. `looks`: shaders of mirrors. The captures have
+/// without glass. One further pass computes LightProbes::images. Lamps are drawn without their
+/// emission, because they light surfaces as points and would count twice. The captures are lit by
+/// `lighting` and by the light probes of the previous frame, so frame k shows k reflections between
+/// diffuse surfaces. Light probes of the environment hold no light of surfaces: their captures are
+/// unlit, and blended surfaces hide nothing. `looks`: shaders of mirrors. The captures have
 /// kLightProbeFace texels an edge. Takes O(probes * objects) on the host.
 void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
                             const LightProbes& probes, ShadingLights lighting,

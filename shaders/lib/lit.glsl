@@ -6,6 +6,9 @@
 
 #include "lib/shadow.glsl"
 
+// 1: the emission of surfaces is left out.
+layout(constant_id = LEAVES_OUT_EMISSION_CONSTANT) const uint leaves_out_emission = 0u;
+
 #ifdef FIRST_HIT
 bool shadow_is_open = false; // whether the shadow map could not tell whether some light reaches the surface
 #endif
@@ -33,6 +36,7 @@ float visible_share_of_environment_here() { return visible_share_of_environment(
 // Returns the radiance of the drawn surface without the reflections that captures show (shade_surface). `n` is the unit
 // shading normal, and `facet` points along the triangle's normal.
 vec3 shade_drawn_fragment(Surface surface, vec3 n, vec3 facet) {
+    if (leaves_out_emission != 0u) surface.emission = vec3(0);
     return shade_surface(surface, fragment_surface_position(), n, find_facet_normal_for_shading(surface.detail, facet),
                          -normalize(direction_from_viewer()), surface.reflectance != vec3(0));
 }

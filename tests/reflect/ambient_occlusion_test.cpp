@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <numbers>
 
 namespace {
 
@@ -175,6 +176,30 @@ TEST(AmbientOcclusion, LightProbesKnowOpenFloorsAndClosedBoxes) {
         sum += pixel.y / kDarkAlbedo / 144;
     EXPECT_GT(sum, .5);
     EXPECT_LT(sum, 1.001);
+}
+
+/// A dark lamp of half the edge e at the height h leaves the share 1 - 4 / pi x atan x visible at
+/// the floor below its middle, where x = e / sqrt(h^2 + e^2). Lamps light as points, and still hide
+/// what lies behind them.
+TEST(AmbientOcclusion, LampsHideTheEnvironmentFromLightProbes) {
+    scene::Scene scene = make_floor_below_sky();
+    const std::size_t lamp = test::add_material(
+        scene, {.name = "dark lamp", .albedo = vec3(0), .emission = vec3(1e-6f)});
+    constexpr double kHeight = 3, kHalfEdge = 8;
+    test::add_mesh(
+        scene,
+        scene::box("lamp", {-kHalfEdge, kHeight, -kHalfEdge}, {kHalfEdge, kHeight + .1, kHalfEdge}),
+        lamp);
+    const double x = kHalfEdge / std::hypot(kHeight, kHalfEdge),
+                 share = 1 - 4 / std::numbers::pi * x * std::atan(x);
+    const scene::Camera camera{.eye = {.2, 2, .2}, .target = {0, 0, 0}, .vertical_fov_degrees = 10};
+    for (const char* technique :
+         {"reuse:ao=captures,probes=300", "reuse:indirect=captures,probes=300"}) {
+        const measure::Picture floor = render_occluded(scene, camera, 4, technique);
+        const double found = floor.pixels.front().y / kDarkAlbedo;
+        std::cout << "[ MEASURED ] " << technique << ": " << found << " of " << share << '\n';
+        EXPECT_NEAR(found, share, .07) << technique; // nine coefficients err by .05
+    }
 }
 
 /// A ball far in front of a wall hides no environment from the wall, so no halo lies around it.
