@@ -187,9 +187,9 @@ inline constexpr std::array<std::string_view, 3> kAmbientOcclusionChoices{"none"
                                                                           "captures"};
 inline constexpr TechniqueKnob kAmbientOcclusionKnob{
     .name = "ao",
-    .help = "what hides the environment and --ambient from diffuse surfaces: none, screen (near "
-            "surfaces in the camera's view, which also hide light of indirect=captures; captures "
-            "and mirrored views are not occluded), or captures (light probes, in all views)",
+    .help = "what hides the environment, --ambient and light of indirect=captures from diffuse "
+            "surfaces: none, screen (near surfaces, only in the camera's view), or captures (light "
+            "probes, in all views; not with indirect=captures)",
     .high = 2,
     .choices = kAmbientOcclusionChoices};
 inline constexpr TechniqueKnob kLightProbesKnob{

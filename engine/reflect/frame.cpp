@@ -226,13 +226,14 @@ bool is_light_occluded_by_camera_view(const render::FrameInputs& inputs,
     const bool has_light = std::ranges::any_of(choices, [](const TechniqueChoice& choice) {
         return choice.shared.has_light_between_surfaces();
     });
+    const bool has_environment_probes = asks_captures && !has_light;
     if (asks_captures && has_light)
         notes.emplace_back("ao=captures has no effect beside indirect=captures, whose light probes "
                            "know what hides the environment");
-    if (asks_screen && asks_captures && !has_light)
+    if (asks_screen && has_environment_probes)
         notes.emplace_back("ao=screen has no effect beside ao=captures, whose light probes know "
                            "what hides the environment");
-    if (!asks_screen || (asks_captures && !has_light) ||
+    if (!asks_screen || has_environment_probes ||
         !(has_light || inputs.scene.has_environment_light()))
         return false;
     char note[96];

@@ -38,8 +38,8 @@ struct ShadingLights {
     /// Whether shadows of lamps are soft (shaders/lib/soft_shadow.glsl). Only set with a shadow
     /// map, in frames that called GpuScene::request_lamp_extents.
     bool has_soft_shadows = false;
-    /// Share of the environment, of ambient light or of the light of light probes that near
-    /// surfaces leave to the surface in each pixel of the camera's view, r32f
+    /// For each pixel of the camera's view, the share of the light of environment, ambient light
+    /// and light probes that near surfaces let through to the pixel's surface, 0 to 1, r32f
     /// (render/ambient_occlusion.hpp); none: near surfaces hide nothing.
     std::optional<graph::ImageHandle> ambient_occlusion = {};
     friend bool operator==(const ShadingLights&, const ShadingLights&) = default;

@@ -32,7 +32,8 @@ std::size_t count_probes(const uvec3& counts) {
 bool is_shown_by_probes(const ObjectDrawRange& range) { return !range.glass; }
 
 /// Returns whether the object is a lamp, whose emission is left out, because lamps already light
-/// surfaces as points.
+/// surfaces as points. Other surfaces with a texture of emission light surfaces only through light
+/// probes.
 bool is_lamp(const ObjectDrawRange& range) { return !range.casts_shadow && !range.glass; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
@@ -83,24 +84,23 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                  scene.scene_device().vulkan_limits().subPixelPrecisionBits},
                 scene.list_draw_ranges(), {}, is_wanted);
             const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
-            const auto draw_lamps_or_others = [&](const SceneDrawSettings& settings, bool lamps) {
-                draw_scene(
-                    commands, scene, settings,
-                    [&](std::size_t object) {
-                        return is_shown(object) &&
-                               is_lamp(scene.list_draw_ranges()[object]) == lamps;
-                    },
-                    shown);
+            const auto is_shown_lamp = [&](std::size_t object) {
+                return is_shown(object) && is_lamp(scene.list_draw_ranges()[object]);
             };
-            draw_lamps_or_others(drawing, false);
+            const auto is_other = [&](std::size_t object) {
+                return is_shown(object) && !is_lamp(scene.list_draw_ranges()[object]);
+            };
             SceneDrawSettings of_lamps = drawing;
             of_lamps.store.emplace_back("leaves_out_emission", 1u);
-            if (std::ranges::any_of(scene.list_draw_ranges(), is_lamp))
-                draw_lamps_or_others(of_lamps, true);
+            draw_scene(commands, scene, drawing, is_other, shown);
+            draw_scene(commands, scene, of_lamps, is_shown_lamp, shown);
             gpu::ShaderConstantValues of_sky = drawing.store;
             of_sky.emplace_back("blurs_sky", 1u);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
-            if (shows_surfaces) draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
+            if (!shows_surfaces) return;
+            // Few lamps are blended, so they may cover blended surfaces in front of them.
+            draw_blended_surfaces(commands, scene, drawing, is_other, shown);
+            draw_blended_surfaces(commands, scene, of_lamps, is_shown_lamp, shown);
         });
 }
 

@@ -46,7 +46,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define OPAQUE_PICTURE_BINDING 44 // the camera's view without glass (lib/opaque_picture.glsl)
 #define OPAQUE_LEVELS_BINDING 45  // its box-filtered levels
 #define LAMP_EXTENTS_BINDING 46   // a LampExtent for each light (lib/soft_shadow.glsl)
-#define AMBIENT_OCCLUSION_BINDING 47 // visible share of the environment in each pixel (lib/ambient_occlusion.glsl)
+#define AMBIENT_OCCLUSION_BINDING 47 // share of light that near surfaces let through (lib/ambient_occlusion.glsl)
 // Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
 // Reads the surface of an object.

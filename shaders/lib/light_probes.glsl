@@ -38,13 +38,15 @@ float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     if (!(height > 0.0)) return 0.0; // a probe in front of the surface also has a distance above 0
     float cosine = height / distance;
     // The inverse distance of a plane is the cosine of an angle, which is nearly linear between texels. At the outline of
-    // an object the mean of inverses is near the smaller distance, which keeps light out rather than in.
+    // an object the mean of inverses is near the smaller distance, which keeps light out rather than in. Beside the sky,
+    // whose inverse distance is 0, the mean lets light in.
     float nearness = distance * textureLod(probe_distances, vec4(to_point, float(probe)), 0.0).r;
     const float kSlack = 0.02; // ten times the error of the interpolation, (texel angle)^2 / 8
     return cosine * (1.0 - smoothstep(1.0 + kSlack, 1.0 + 2.0 * kSlack, nearness));
 }
 
-// Returns whether the probe is of the layer around the scene's bounds (make_light_probe_grid).
+// Returns whether the probe belongs to the layer around the scene's bounds, which only scenes with an environment have
+// (make_light_probe_grid).
 bool is_outer_light_probe(LightProbeGrid grid, uvec3 place) {
     return environment_kind != kNoEnvironment && (any(equal(place, uvec3(0))) || any(equal(place, grid.counts - 1u)));
 }
@@ -57,56 +59,65 @@ struct LightProbeSum {
 
 // Adds the light of a probe, weighted by `weight` and by how well the probe sees the surface point.
 void add_light_of_probe(inout LightProbeSum sum, LightProbeGrid grid, uvec3 place, float weight, vec3 position, vec3 normal) {
-    if (!(weight > 0.0)) return;
     uint probe = light_probe_index(grid, place);
-    weight *= light_probe_sight(probe, grid.first + vec3(place) * grid.step, position, normal);
-    if (!(weight > 0.0)) return;
-    sum.light += weight * light_at_light_probe(probe, normal);
-    sum.weight += weight;
+    float sight = light_probe_sight(probe, grid.first + vec3(place) * grid.step, position, normal);
+    const float kLeastSight = 1e-3; // of a probe that is seen 0.06 degrees above the surface; rounding decides below
+    if (!(sight > kLeastSight)) return;
+    sum.light += weight * sight * light_at_light_probe(probe, normal);
+    sum.weight += weight * sight;
+}
+
+// Returns the sum over the outer, or the other, of the eight probes around the point. Their weights are those of trilinear
+// interpolation.
+LightProbeSum sum_nearest_light_probes(LightProbeGrid grid, bool outer, vec3 position, vec3 normal) {
+    vec3 cell = (position - grid.first) / grid.step;
+    vec3 low = clamp(floor(cell), vec3(0), vec3(grid.counts) - 2.0);
+    vec3 within = clamp(cell - low, vec3(0), vec3(1));
+    LightProbeSum sum = LightProbeSum(vec4(0), 0.0);
+    uint corner = 0u;
+    do {
+        uvec3 offset = uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u), place = uvec3(low) + offset;
+        vec3 near = mix(1.0 - within, within, vec3(offset));
+        float weight = near.x * near.y * near.z;
+        if (weight > 0.0 && is_outer_light_probe(grid, place) == outer) add_light_of_probe(sum, grid, place, weight, position, normal);
+    } while (++corner < 8u);
+    return sum;
+}
+
+// Returns the sum over all outer, or all other, probes. Nearer probes count more.
+LightProbeSum sum_all_light_probes(LightProbeGrid grid, bool outer, vec3 position, vec3 normal) {
+    LightProbeSum sum = LightProbeSum(vec4(0), 0.0);
+    uint probe = 0u, count = grid.counts.x * grid.counts.y * grid.counts.z;
+    do {
+        uvec3 place = uvec3(probe % grid.counts.x, probe / grid.counts.x % grid.counts.y, probe / (grid.counts.x * grid.counts.y));
+        if (is_outer_light_probe(grid, place) != outer) continue;
+        vec3 away = (position - grid.first) / grid.step - vec3(place);
+        const float kLeastSquare = 1e-6; // probes nearer than a thousandth of a cell count alike
+        float square = max(dot(away, away), kLeastSquare);
+        add_light_of_probe(sum, grid, place, 1.0 / (square * square), position, normal);
+    } while (++probe < count);
+    return sum;
 }
 
 // Returns the irradiance at a surface point with the unit normal `normal`: from other surfaces and the environment, or from
 // the environment alone. Returns in w the visible share of the environment (kLightProbesOfEnvironment only). If none of the
-// eight probes around the point sees the point, all probes are asked, and nearer probes count more. Outer probes count only
-// if no other probe sees the point: where a wall and a ceiling meet, an outer probe is too near to the far side of the wall
-// for its captured distances to tell the two sides apart, and would light a closed room. Returns 0 if no probe sees the point.
+// eight probes around the point sees the point, all probes are asked. Outer probes count only if no other probe sees the
+// point. At the outline of a closed room, their captured distances are interpolated between the room and the sky behind it,
+// and walls inside the room then seem visible. Returns 0 if no probe sees the point.
 vec4 interpolate_light_probes(vec3 position, vec3 normal) {
     LightProbeGrid grid = read_light_probe_grid();
     if (grid.counts.x == 0u) return vec4(0);
-    vec3 cell = (position - grid.first) / grid.step;
-    vec3 low = clamp(floor(cell), vec3(0), vec3(grid.counts) - 2.0);
-    vec3 within = clamp(cell - low, vec3(0), vec3(1));
-    LightProbeSum inner = LightProbeSum(vec4(0), 0.0), outer = inner;
-    uint corner = 0u;
-    do {
-        uvec3 offset = uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
-        uvec3 place = uvec3(low) + offset;
-        vec3 near = mix(1.0 - within, within, vec3(offset));
-        float weight = near.x * near.y * near.z;
-        if (is_outer_light_probe(grid, place))
-            add_light_of_probe(outer, grid, place, weight, position, normal);
-        else
-            add_light_of_probe(inner, grid, place, weight, position, normal);
-    } while (++corner < 8u);
     // Share of the weights that all eight probes have if they see the surface head-on. Below this share, single texels
     // at the outlines of objects would decide the result.
     const float kLeastWeight = 1e-3;
-    if (inner.weight > kLeastWeight) return inner.light / inner.weight;
-    LightProbeSum far_outer = LightProbeSum(vec4(0), 0.0);
-    uint probe = 0u, count = grid.counts.x * grid.counts.y * grid.counts.z;
+    bool outer = false;
     do {
-        uvec3 place = uvec3(probe % grid.counts.x, probe / grid.counts.x % grid.counts.y, probe / (grid.counts.x * grid.counts.y));
-        vec3 away = (position - grid.first) / grid.step - vec3(place);
-        const float kLeastSquare = 1e-6; // probes nearer than a thousandth of a cell count alike
-        float square = max(dot(away, away), kLeastSquare), weight = 1.0 / (square * square);
-        if (is_outer_light_probe(grid, place))
-            add_light_of_probe(far_outer, grid, place, weight, position, normal);
-        else
-            add_light_of_probe(inner, grid, place, weight, position, normal);
-    } while (++probe < count);
-    if (inner.weight > 0.0) return inner.light / inner.weight;
-    if (outer.weight > kLeastWeight) return outer.light / outer.weight;
-    return far_outer.weight > 0.0 ? far_outer.light / far_outer.weight : vec4(0);
+        LightProbeSum sum = sum_nearest_light_probes(grid, outer, position, normal);
+        if (!(sum.weight > kLeastWeight)) sum = sum_all_light_probes(grid, outer, position, normal);
+        if (sum.weight > 0.0) return sum.light / sum.weight;
+        outer = !outer;
+    } while (outer && environment_kind != kNoEnvironment);
+    return vec4(0);
 }
 
 #endif

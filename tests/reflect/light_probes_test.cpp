@@ -74,17 +74,25 @@ TEST(LightProbes, ConvexBodyIsLitAsByTheWholeEnvironment) {
 }
 
 /// In a room with black walls, no light goes from surface to surface. Light probes must not add the
-/// light of the lamp again.
+/// light of the lamp again, whether the lamp is opaque or blended.
 TEST(LightProbes, BlackRoomHasTheDirectLightOfItsLampAlone) {
-    scene::Scene room = test::make_lit_room(0, 1);
-    for (scene::Material& material : room.materials)
-        if (material.emission == vec3(0)) material.albedo = vec3(0);
-    const std::size_t grey = test::add_material(room, {.name = "grey", .albedo = vec3(.5f)});
-    test::add_quad(room, "table", grey, {-1, -1.5, 1}, {1, -1.5, 1}, {1, -1.5, -1}, {-1, -1.5, -1});
-    const measure::Picture direct = render_by_probes(room, "reuse", {32, 24}),
-                           probes = render_by_probes(room, "reuse:indirect=captures", {32, 24});
-    ASSERT_GT(mean_green(direct), .003);
-    EXPECT_LT(rms_difference(direct, probes), 1e-3);
+    for (const bool is_blended : {false, true}) {
+        scene::Scene room = test::make_lit_room(0, 1);
+        for (scene::Material& material : room.materials)
+            if (material.emission == vec3(0)) {
+                material.albedo = vec3(0);
+            } else if (is_blended) {
+                material.blended = true;
+                material.alpha = .7f;
+            }
+        const std::size_t grey = test::add_material(room, {.name = "grey", .albedo = vec3(.5f)});
+        test::add_quad(room, "table", grey, {-1, -1.5, 1}, {1, -1.5, 1}, {1, -1.5, -1},
+                       {-1, -1.5, -1});
+        const measure::Picture direct = render_by_probes(room, "reuse", {32, 24}),
+                               probes = render_by_probes(room, "reuse:indirect=captures", {32, 24});
+        ASSERT_GT(mean_green(direct), .003);
+        EXPECT_LT(rms_difference(direct, probes), 1e-3) << is_blended;
+    }
 }
 
 /// In a closed room with a mirror, the picture with light probes must be far closer to path tracing

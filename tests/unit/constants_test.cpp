@@ -13,7 +13,7 @@ using namespace catoptric::gpu;
 
 TEST(Constants, SpecialisationConstantsHaveOneNumberInAllShaders) {
     // OWN_CONSTANTS of the shaders: each shader numbers its own constants from here on.
-    constexpr std::uint32_t kFirstOwnConstantId = 58;
+    constexpr std::uint32_t kFirstOwnConstantId = 62;
     std::map<std::string, std::set<std::uint32_t>> ids;
     std::map<std::uint32_t, std::set<std::string>> names;
     for (const EmbeddedShader& shader : embedded_shaders()) {
