@@ -38,7 +38,7 @@ std::vector<std::string> list_warnings_of_light_models(const CompareRequest& req
         std::ranges::any_of(scene::list_lights(scene), &scene::PointLight::is_lamp))
         warn("its soft shadows count as an error beside this reference, whose lamps are points; "
              "--truth paths has lamps as areas");
-    if (plan.occludes_environment() && !hides_environment &&
+    if (plan.occludes_environment() && !plan.has_light_between_surfaces() && !hides_environment &&
         (scene.environment || request.base.ambient > 0))
         warn("its shadow of the environment counts as an error beside this reference; --truth "
              "paths has that shadow");

@@ -11,19 +11,22 @@ TEST_F(CommandLineTest, RowsWithLightProbesSayWhichReferenceHasTheirLight) {
         const auto run = run_cli({"compare", "cornell-mirrors-closed", "-o", "out", "--size",
                                   "24x16", "--frames", "6", "--warmup", "1", "--truth", truth,
                                   "--reference-seconds", "1", "--quiet", "--techniques",
-                                  "reuse:face=16", "reuse:face=16,indirect=captures,probes=27"});
+                                  "reuse:face=16",
+                                  "reuse:face=16,indirect=captures,probes=27,ao=screen"});
         ASSERT_EQ(run.exit_code, 0) << run.err;
         const nlohmann::json report = nlohmann::json::parse(read_output_file("out/report.json"));
         std::string warnings;
         for (const std::string text : report["warnings"]) warnings += text;
         if (std::string_view(truth) == "centre")
             EXPECT_THAT(warnings,
-                        testing::HasSubstr("'reuse:face=16,indirect=captures,probes=27': its light "
-                                           "between surfaces counts as an error beside this "
-                                           "reference; --truth paths has that light"));
+                        testing::HasSubstr(
+                            "'reuse:face=16,indirect=captures,probes=27,ao=screen': its light "
+                            "between surfaces counts as an error beside this reference; --truth "
+                            "paths has that light"));
         else
             EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("light between surfaces")));
         EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("'reuse:face=16': its light")));
+        EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("its shadow of the environment")));
         EXPECT_NE(report["rows"][0]["error_all"]["mae"], report["rows"][1]["error_all"]["mae"]);
     }
 }
