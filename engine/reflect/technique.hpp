@@ -95,7 +95,8 @@ struct KnobsSharedByTechniques {
     /// How light between surfaces is computed. Numbered as the choices of `indirect`.
     enum class LightBetweenSurfaces : std::uint32_t { ambient, captures };
     LightBetweenSurfaces indirect = LightBetweenSurfaces::ambient;
-    /// What hides the environment and ambient light. Numbered as the choices of `ao`.
+    /// What hides light of the environment, ambient light and light of light probes. Numbered as
+    /// the choices of `ao`.
     enum class AmbientOcclusion : std::uint32_t { none, screen, captures };
     AmbientOcclusion occlusion = AmbientOcclusion::none;
     std::uint32_t most_light_probes = 0; ///< of the grid, if there is one

@@ -107,8 +107,8 @@ graph::BufferHandle add_counters_with_reset(graph::Graph& graph, const std::stri
     return counters;
 }
 
-/// Returns whether the tracer completes pixels of a view in which the visible share of the
-/// environment is known.
+/// Returns whether the tracer completes pixels of a view in which near surfaces hide light
+/// (render/ambient_occlusion.hpp).
 bool reads_ambient_occlusion(const TracerSettings& tracer, bool listed) {
     return listed && tracer.lighting.ambient_occlusion;
 }

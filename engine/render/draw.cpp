@@ -317,7 +317,7 @@ void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
                            std::span<const std::uint8_t> shown) {
     if (!scene.has_blended_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled)
         return;
-    // The visible share of the environment is that of the opaque surface behind.
+    // The ambient occlusion of these pixels is that of the opaque surface behind.
     SceneDrawSettings unoccluded = drawing;
     unoccluded.lighting.ambient_occlusion.reset();
     scene.bind(commands);

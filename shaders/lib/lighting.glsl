@@ -7,13 +7,14 @@
 //   bool draw_environment_direction(uint i, vec3 normal, out vec3 direction, out vec3 radiance)
 // for the environment's light with shadows. `radiance` is the radiance from the drawn direction over the density of the
 // direction, times the cosine, over the count. The number of the light is then kEnvironmentLight.
-// A shader that defines OCCLUDES_ENVIRONMENT also defines the function
-//   float visible_share_of_environment_here()
-// that returns the visible share of the environment at the surface. Shading calls it only with has_ambient_occlusion.
+// A shader that defines USES_AMBIENT_OCCLUSION also defines the function
+//   float visible_hemisphere_share_here()
+// that returns the share of the hemisphere above the surface that near surfaces leave visible, weighted by the cosine.
+// Shading calls it only with has_ambient_occlusion.
 #ifndef CATOPTRIC_LIGHTING_GLSL
 #define CATOPTRIC_LIGHTING_GLSL
 
-#ifdef OCCLUDES_ENVIRONMENT
+#ifdef USES_AMBIENT_OCCLUSION
 #include "lib/ambient_occlusion.glsl"
 #endif
 #include "lib/bindings.glsl"
@@ -123,11 +124,11 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
     bool has_ambient = traces_paths == 0u && light_probe_content == 0u;
     vec3 share = vec3(1);
     bool is_occluded = false;
-#ifdef OCCLUDES_ENVIRONMENT
+#ifdef USES_AMBIENT_OCCLUSION
     if (has_ambient_occlusion != 0u) {
         is_occluded = true;
         // The surfaces behind glass are seen instead of the glass, and share its pixels.
-        if (!is_glass(surface.detail)) share = share_with_light_between_surfaces(vec3(visible_share_of_environment_here()), surface.albedo);
+        if (!is_glass(surface.detail)) share = share_with_light_between_surfaces(vec3(visible_hemisphere_share_here()), surface.albedo);
     }
 #endif
     if (light_probe_content != 0u && traces_paths == 0u) {

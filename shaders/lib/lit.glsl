@@ -28,10 +28,10 @@ float visible_share_of_light(uint light, vec3 at, vec3 n, vec3 direction, float 
     return sample_hard_or_soft_shadow_map(light, at, n, fragment_facet, fragment_position_error(n));
 #endif
 }
-#define OCCLUDES_ENVIRONMENT
-float visible_share_of_environment_here();
+#define USES_AMBIENT_OCCLUSION
+float visible_hemisphere_share_here();
 #include "lib/lighting.glsl"
-float visible_share_of_environment_here() { return visible_share_of_environment(ivec2(gl_FragCoord.xy)); }
+float visible_hemisphere_share_here() { return visible_hemisphere_share(ivec2(gl_FragCoord.xy)); }
 
 // Returns the radiance of the drawn surface without the reflections that captures show (shade_surface). `n` is the unit
 // shading normal, and `facet` points along the triangle's normal.

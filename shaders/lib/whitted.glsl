@@ -441,14 +441,14 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
     return is_hidden ? 0.0 : 1.0;
 }
 #ifdef LISTED
-#define OCCLUDES_ENVIRONMENT
+#define USES_AMBIENT_OCCLUSION
 ivec2 occluded_pixel; // the pixel of the camera ray
 bool is_surface_of_pixel; // whether the shaded surface is the opaque one that the camera ray meets first
-float visible_share_of_environment_here();
+float visible_hemisphere_share_here();
 #endif
 #include "lib/lighting.glsl"
 #ifdef LISTED
-float visible_share_of_environment_here() { return is_surface_of_pixel ? visible_share_of_environment(occluded_pixel) : 1.0; }
+float visible_hemisphere_share_here() { return is_surface_of_pixel ? visible_hemisphere_share(occluded_pixel) : 1.0; }
 #endif
 
 View camera_view = views[0]; // the view is read before the lanes diverge
