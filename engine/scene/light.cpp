@@ -301,10 +301,9 @@ double van_der_corput(std::uint32_t i) {
 }
 
 /// Appends `count` lights that replace a lamp, each with an equal share of its area, and extents
-/// that are smaller by the root of `count`. They lie at
-/// stratified points (Hammersley) of its facets. Each shines to the facet's front, or to both sides
-/// if the lamp is open and two-sided. The front of a closed lamp is the side away from the mean of
-/// its vertices.
+/// that are smaller by the root of `count`. They lie at stratified points (Hammersley) of its
+/// facets. Each shines to the facet's front, or to both sides if the lamp is open and two-sided.
+/// The front of a closed lamp is the side away from the mean of its vertices.
 void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& lamp, bool two_sided,
                       int count, std::vector<PointLight>& lights) {
     double before = 0; // summed area of the facets before `facet`

@@ -331,6 +331,44 @@ TEST(GlassPane, SolidSlabAbsorbsByItsThickness) {
     EXPECT_NEAR(seen.z, .2 * passes(2), .002);
 }
 
+/// A ray leaves a slab in the direction in which it entered, so all light of a pixel comes from two
+/// directions of the environment. Between both faces, light is reflected again and again.
+TEST(GlassPane, SlabEqualsItsFormulaInDoublePrecision) {
+    scene::Material glass = make_glass(1.5f, true);
+    glass.absorption = {.1f, .3f, .8f};
+    scene::Scene scene{.name = "slab"};
+    constexpr double kThickness = .7;
+    test::add_mesh(scene, scene::box("slab", {-9, -9, -kThickness}, {9, 9, 0}),
+                   test::add_material(scene, glass));
+    scene.environment = test::make_smooth_environment();
+    scene.cameras.push_back({.eye = {1, .5, 2}, .target = {0, 0, 0}, .vertical_fov_degrees = 70});
+    const measure::Picture found =
+        test::render_technique(scene, "raytrace:depth=16", {kGlassEdge, kGlassEdge}).hdr;
+    int off = 0;
+    double largest = 0;
+    for (int y = 0; y < kGlassEdge; ++y)
+        for (int x = 0; x < kGlassEdge; ++x) {
+            const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                                    kGlassEdge);
+            double behind;
+            const double r = f64::fresnel_dielectric(-direction.z, glass.ior, behind);
+            const dvec3 a = glm::exp(-dvec3(glass.absorption) * (kThickness / behind)),
+                        series = (1 - r) * (1 - r) * a / (1. - r * r * a * a),
+                        wanted = series *
+                                     scene::environment_radiance(*scene.environment, direction) +
+                                 (r + r * a * series) *
+                                     scene::environment_radiance(*scene.environment,
+                                                                 direction * dvec3(1, 1, -1)),
+                        difference = glm::abs(dvec3(found.at(x, y)) - wanted);
+            const double error = std::max({difference.x, difference.y, difference.z});
+            off += error > .02;
+            largest = std::max(largest, error);
+        }
+    std::cout << "[ MEASURED ] " << off << " of " << kGlassEdge * kGlassEdge
+              << " pixels off by .02, largest difference " << largest << '\n';
+    EXPECT_LE(off, kGlassEdge * kGlassEdge / 500);
+}
+
 /// A pane of glass reflects a lamp. The path that passes the pane ends at a diffuse wall, where a
 /// ray goes to the lamp. The reflected path must add the light of the lamp in full, because no ray
 /// to the lamp belongs to the reflected path.
