@@ -62,32 +62,37 @@ scene::Scene make_glass_ball(const scene::Material& glass, int levels = 5) {
     return scene;
 }
 
+/// Expects that at most .2 % of the pixels differ by more than .02 from `wanted`, which returns the
+/// radiance in a direction from the camera.
+template <typename Wanted>
+void expect_few_pixels_off(const scene::Scene& scene, const char* technique, Wanted&& wanted) {
+    const measure::Picture found =
+        test::render_technique(scene, technique, {kGlassEdge, kGlassEdge}).hdr;
+    int off = 0;
+    double largest = 0;
+    for (int y = 0; y < kGlassEdge; ++y)
+        for (int x = 0; x < kGlassEdge; ++x) {
+            const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                                    kGlassEdge);
+            const dvec3 difference = glm::abs(dvec3(found.at(x, y)) - wanted(direction));
+            const double error = std::max({difference.x, difference.y, difference.z});
+            off += error > .02;
+            largest = std::max(largest, error);
+        }
+    std::cout << "[ MEASURED ] " << scene.name << ": " << off << " of " << kGlassEdge * kGlassEdge
+              << " pixels off by .02, largest difference " << largest << '\n';
+    EXPECT_LE(off, kGlassEdge * kGlassEdge / 500);
+}
+
 TEST(GlassBall, EqualsATracerInDoublePrecision) {
     scene::Material tinted = make_glass(1.5f, true);
     tinted.albedo = {.9f, .8f, .7f}, tinted.absorption = {.1f, .3f, .8f};
     for (const scene::Material& glass : {make_glass(1.5f, true), make_glass(1.1f, true), tinted}) {
         const scene::Scene scene = make_glass_ball(glass);
-        const measure::Picture found = test::render_technique(scene,
-                                                              "raytrace:depth=16,sphere=exact",
-                                                              {kGlassEdge, kGlassEdge})
-                                           .hdr;
-        int off = 0;
-        double largest = 0;
-        for (int y = 0; y < kGlassEdge; ++y)
-            for (int x = 0; x < kGlassEdge; ++x) {
-                const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
-                                                                        kGlassEdge);
-                const dvec3 wanted = trace_ray_through_glass_ball(scene, scene.cameras.front().eye,
-                                                                  direction, false, 1, 16);
-                const dvec3 difference = glm::abs(dvec3(found.at(x, y)) - wanted);
-                const double error = std::max({difference.x, difference.y, difference.z});
-                off += error > .02;
-                largest = std::max(largest, error);
-            }
-        std::cout << "[ MEASURED ] ior " << glass.ior << ": " << off << " of "
-                  << kGlassEdge * kGlassEdge << " pixels off by .02, largest difference " << largest
-                  << '\n';
-        EXPECT_LE(off, kGlassEdge * kGlassEdge / 500);
+        expect_few_pixels_off(scene, "raytrace:depth=16,sphere=exact", [&](const dvec3& direction) {
+            return trace_ray_through_glass_ball(scene, scene.cameras.front().eye, direction, false,
+                                                1, 16);
+        });
     }
 }
 
@@ -342,31 +347,15 @@ TEST(GlassPane, SlabEqualsItsFormulaInDoublePrecision) {
                    test::add_material(scene, glass));
     scene.environment = test::make_smooth_environment();
     scene.cameras.push_back({.eye = {1, .5, 2}, .target = {0, 0, 0}, .vertical_fov_degrees = 70});
-    const measure::Picture found =
-        test::render_technique(scene, "raytrace:depth=16", {kGlassEdge, kGlassEdge}).hdr;
-    int off = 0;
-    double largest = 0;
-    for (int y = 0; y < kGlassEdge; ++y)
-        for (int x = 0; x < kGlassEdge; ++x) {
-            const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
-                                                                    kGlassEdge);
-            double behind;
-            const double r = f64::fresnel_dielectric(-direction.z, glass.ior, behind);
-            const dvec3 a = glm::exp(-dvec3(glass.absorption) * (kThickness / behind)),
-                        series = (1 - r) * (1 - r) * a / (1. - r * r * a * a),
-                        wanted = series *
-                                     scene::environment_radiance(*scene.environment, direction) +
-                                 (r + r * a * series) *
-                                     scene::environment_radiance(*scene.environment,
-                                                                 direction * dvec3(1, 1, -1)),
-                        difference = glm::abs(dvec3(found.at(x, y)) - wanted);
-            const double error = std::max({difference.x, difference.y, difference.z});
-            off += error > .02;
-            largest = std::max(largest, error);
-        }
-    std::cout << "[ MEASURED ] " << off << " of " << kGlassEdge * kGlassEdge
-              << " pixels off by .02, largest difference " << largest << '\n';
-    EXPECT_LE(off, kGlassEdge * kGlassEdge / 500);
+    expect_few_pixels_off(scene, "raytrace:depth=16", [&](const dvec3& direction) {
+        double behind;
+        const double r = f64::fresnel_dielectric(-direction.z, glass.ior, behind);
+        const dvec3 a = glm::exp(-dvec3(glass.absorption) * (kThickness / behind)),
+                    series = (1 - r) * (1 - r) * a / (1. - r * r * a * a),
+                    mirrored = direction * dvec3(1, 1, -1);
+        return series * scene::environment_radiance(*scene.environment, direction) +
+               (r + r * a * series) * scene::environment_radiance(*scene.environment, mirrored);
+    });
 }
 
 /// A pane of glass reflects a lamp. The path that passes the pane ends at a diffuse wall, where a
