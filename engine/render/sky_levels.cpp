@@ -1,12 +1,16 @@
 #include "render/sky_levels.hpp"
 
+#include "core/content_hash.hpp"
 #include "core/shader_math.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <mutex>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace catoptric::render {
 
@@ -38,10 +42,11 @@ vec3 direction_in_sky_map(float across, float down) {
             -std::sin(polar) * std::cos(azimuth)};
 }
 
-/// Reads a map in a unit direction, as shaders/lib/environment.glsl does.
-vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec3& direction) {
-    const f32::EnvironmentMapPosition at = f32::direction_to_environment_map(direction, size.x,
-                                                                             size.y);
+/// Reads a map, as shaders/lib/environment.glsl does. `turn_and_tilt`:
+/// f32::direction_to_turn_and_tilt of the direction.
+vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec2& turn_and_tilt) {
+    const f32::EnvironmentMapPosition at = f32::place_in_environment_map(
+        turn_and_tilt.x, turn_and_tilt.y, size.x, size.y);
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
         return texels[std::size_t{row} * size.x + column];
     };
@@ -73,7 +78,8 @@ EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
                                                                 float(base.row_count()));
                 sum += environment.studio
                            ? vec3(f32::studio_radiance(direction))
-                           : sample_sky_map(environment.texels, environment.size, direction);
+                           : sample_sky_map(environment.texels, environment.size,
+                                            f32::direction_to_turn_and_tilt(direction));
             }
             base.texels.push_back(sum / float(edge * edge));
         }
@@ -107,8 +113,9 @@ vec3 sample_sky_map_chain(const std::vector<EquirectangularSkyMap>& chain, float
     const float last = static_cast<float>(chain.size() - 1);
     level = std::clamp(level, 0.f, last);
     const auto finer = static_cast<std::size_t>(std::min(level, last - 1));
+    const vec2 turn_and_tilt = f32::direction_to_turn_and_tilt(direction);
     const auto read = [&](const EquirectangularSkyMap& map) {
-        return sample_sky_map(map.texels, {map.width, map.row_count()}, direction);
+        return sample_sky_map(map.texels, {map.width, map.row_count()}, turn_and_tilt);
     };
     return glm::mix(read(chain[finer]), read(chain[finer + 1]), level - static_cast<float>(finer));
 }
@@ -173,19 +180,30 @@ FilteredSkyLevels filter_environment(const scene::Environment& environment) {
     return levels;
 }
 
+/// Returns a hash of everything that the levels depend on.
+std::uint64_t hash_environment_map(const scene::Environment& environment) {
+    return ContentHash()
+        .add_value(environment.studio)
+        .add_value(environment.size)
+        .add_values(std::span(environment.texels))
+        .current_hash();
+}
+
 } // namespace
 
 std::shared_ptr<const FilteredSkyLevels>
 find_sky_levels(const std::shared_ptr<const scene::Environment>& environment) {
+    constexpr std::size_t kMaxKeptEnvironments = 4; // half a megabyte each
     static std::mutex mutex;
-    static std::weak_ptr<const scene::Environment> last_environment;
-    static std::shared_ptr<const FilteredSkyLevels> last_levels;
+    static std::deque<std::pair<std::uint64_t, std::shared_ptr<const FilteredSkyLevels>>> kept;
+    const std::uint64_t hash = hash_environment_map(*environment);
     const std::scoped_lock lock(mutex);
-    if (last_environment.lock() != environment) {
-        last_levels = std::make_shared<const FilteredSkyLevels>(filter_environment(*environment));
-        last_environment = environment;
-    }
-    return last_levels;
+    const auto known = std::ranges::find(kept, hash, [](const auto& pair) { return pair.first; });
+    if (known != kept.end()) return known->second;
+    kept.emplace_back(hash,
+                      std::make_shared<const FilteredSkyLevels>(filter_environment(*environment)));
+    if (kept.size() > kMaxKeptEnvironments) kept.pop_front();
+    return kept.back().second;
 }
 
 } // namespace catoptric::render

@@ -287,7 +287,15 @@ TEST(RoughSurfaces, LevelsOfTheEnvironmentEqualAQuadrature) {
          {make_smooth_test_environment(false), studio}) {
         const std::shared_ptr<const render::FilteredSkyLevels> levels = render::find_sky_levels(
             environment);
-        EXPECT_EQ(levels, render::find_sky_levels(environment)) << "kept";
+        auto copy = std::make_shared<scene::Environment>(*environment);
+        copy->name = "other", copy->scale = 2, copy->rotation_degrees = 30;
+        EXPECT_EQ(levels, render::find_sky_levels(copy)) << "kept for the same texels";
+        if (copy->studio) {
+            copy->studio = false, copy->size = {2, 1}, copy->texels = {vec3(1), vec3(2)};
+        } else {
+            copy->texels.back().x += .5f;
+        }
+        EXPECT_NE(levels, render::find_sky_levels(copy)) << "made again for other texels";
         for (std::size_t k = 0; k < SKY_LEVEL_COUNT; ++k) {
             const std::uint32_t width = levels->width[k], height = width / 2;
             double largest = 0;
