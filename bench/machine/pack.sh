@@ -4,8 +4,8 @@
 # other machine needs bash, the usual Unix commands, tar and a Vulkan driver.
 # ./dev pack calls this script. BUILD must be a finished build. The script writes only ARCHIVE (default
 # catoptric-kit.tar.gz; a name in .tar.xz gives a much smaller archive in minutes).
-# --small leaves out the module for picture files with its libraries, which are more than half of the archive. run.sh
-# then skips the step `compare`, which writes OpenEXR files.
+# --small leaves out the modules for Draco and for pictures other than PNG and OpenEXR, with their libraries, which are
+# more than half of the archive. No step of run.sh needs them.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)

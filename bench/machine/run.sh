@@ -119,11 +119,7 @@ step info "$catoptric" info --json "${device[@]}"
 ! command -v vulkaninfo >/dev/null || step vulkaninfo vulkaninfo
 { uname -srm; nproc; cat commit.txt; grep -m 1 'model name' /proc/cpuinfo; } >"$results/machine.txt" 2>/dev/null
 wanted bench "$catoptric" bench "${device[@]}" "${small[@]}" --rounds "$rounds" -o "$results/bench.json" --quiet
-if [[ -e bin/catoptric-images.so ]]; then
-    wanted compare "$catoptric" compare "${device[@]}" "${small[@]}" -o "$results/compare" --quiet
-elif is_wanted compare; then
-    note compare left-out 0 # the archive was packed with --small
-fi
+wanted compare "$catoptric" compare "${device[@]}" "${small[@]}" -o "$results/compare" --quiet
 wanted stress "$catoptric" stress "${device[@]}" "${stress[@]}" -o "$results/stress" --quiet
 wanted ratios bin/catoptric_bench "$pairs"
 running=0

@@ -1,6 +1,7 @@
 #include "core/image_codec.hpp"
 
 #include "core/error.hpp"
+#include "core/exr_read.hpp"
 #include "core/image_header.hpp"
 #include "core/image_module.hpp"
 #include "core/png_read.hpp"
@@ -109,8 +110,10 @@ struct ImageReader::CodecImageReadState {
         try {
             if (png)
                 png->read_image_rows(first, row_count, type, values);
+            else if (exr && type == ImageCodecValueType::float32)
+                exr->read_image_rows(first, row_count, static_cast<float*>(values));
             else
-                codec->read_image_rows(first, row_count, type, values);
+                open_codec().read_image_rows(first, row_count, type, values);
         } catch (const std::bad_alloc&) {
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
@@ -127,16 +130,19 @@ struct ImageReader::CodecImageReadState {
         return values;
     }
 
-    std::string name;
-    ImageSizeAndChannels shape;
-    std::optional<PngReader> png;
-    std::optional<ImageCodecReader> codec; ///< reader for all formats but PNG
+    ImageCodecReader& open_codec() { return codec ? *codec : codec.emplace(bytes, format, name); }
+
+    const RandomAccessByteSource& bytes;
+    std::string format, name;
+    ImageSizeAndChannels shape = {};
+    std::optional<PngReader> png = {};
+    std::unique_ptr<ExrReader> exr = {};        ///< reader for the floats of usual OpenEXR files
+    std::optional<ImageCodecReader> codec = {}; ///< reader for everything else
 };
 
 ImageReader::ImageReader(const RandomAccessByteSource& bytes, const std::string& format,
                          std::string name, const ImageShapeCheckCallback& judge)
-    : image_state_(std::make_unique<CodecImageReadState>()) {
-    image_state_->name = std::move(name);
+    : image_state_(new CodecImageReadState{bytes, format, std::move(name)}) {
     const auto accept = [&](const ImageSizeAndChannels& shape) {
         check_image_side_lengths(shape, image_state_->name);
         if (judge) judge(shape);
@@ -148,8 +154,11 @@ ImageReader::ImageReader(const RandomAccessByteSource& bytes, const std::string&
         return;
     }
     if (const auto shape = read_image_header(bytes, format, image_state_->name)) accept(*shape);
-    accept(
-        image_state_->codec.emplace(bytes, format, image_state_->name).image_size_and_channels());
+    if (format == "openexr")
+        image_state_->exr = ExrReader::open_usual_picture(bytes, image_state_->name,
+                                                          image_state_->shape.size);
+    accept(image_state_->exr ? image_state_->exr->image_size_and_channels()
+                             : image_state_->open_codec().image_size_and_channels());
 }
 
 ImageReader::~ImageReader() = default;
@@ -168,27 +177,6 @@ void ImageReader::read_image_rows(std::uint32_t first, std::span<float> values) 
                             image_state_->shape.channel_count;
     image_state_->read_image_rows(first, static_cast<std::uint32_t>(values.size() / row),
                                   ImageCodecValueType::float32, values.data());
-}
-
-std::string encode_openexr(const ImageSizeAndChannels& shape, std::span<const float> values) {
-    check(shape.size.x > 0 && shape.size.y > 0, Failure::internal, "a picture of ", shape.size.x,
-          "x", shape.size.y, " cannot be written");
-    std::string bytes;
-    const auto [answer, why] = get_image_codecs().encode("openexr",
-                                                         {.size = shape.size,
-                                                          .channel_count = shape.channel_count,
-                                                          .type = ImageCodecValueType::float32,
-                                                          .values = values.data(),
-                                                          .channels = shape.channels,
-                                                          .description = shape.description},
-                                                         bytes);
-    check(answer != ImageCodecStatus::no_codec, Failure::internal,
-          "this OpenImageIO cannot write openexr");
-    check(answer != ImageCodecStatus::out_of_memory, Failure::exhausted,
-          "not enough memory to encode OpenEXR");
-    check(answer == ImageCodecStatus::done, Failure::internal, "OpenImageIO cannot encode openexr",
-          why.empty() ? "" : ": ", why);
-    return bytes;
 }
 
 } // namespace catoptric

@@ -10,7 +10,7 @@ constexpr Module kImageModule{
     .file_name = "catoptric-images.so",
     .address_space = std::size_t{512} << 20,
     .library = "OpenImageIO",
-    .without = "pictures cannot be read or written",
+    .without = "pictures other than PNG and usual OpenEXR files cannot be read",
     .requirement = "this module comes with catoptric and wants OpenImageIO 2.4: apt-get install "
                    "libopenimageio2.4",
     .symbol = kImageCodecsSymbol};

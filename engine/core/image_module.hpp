@@ -8,8 +8,8 @@
 #include <vector>
 
 // The interface between this library and the module that links OpenImageIO (engine/images).
-// OpenImageIO brings two hundred libraries. A program loads them only when it reads or writes its
-// first picture.
+// OpenImageIO brings two hundred libraries. A program loads them only when it reads the first
+// picture that libpng and OpenEXR do not read (core/image_codec.hpp).
 namespace catoptric {
 
 enum class ImageCodecStatus {

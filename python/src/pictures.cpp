@@ -220,8 +220,7 @@ void bind_pictures(nb::module_& module) {
         "    picture: Linear light, shape (height, width, 3).\n"
         "    path: The file.\n\n"
         "Raises:\n"
-        "    CannotCreate, IoError: The file cannot be written.\n"
-        "    InternalError: OpenImageIO 2.4 is missing.");
+        "    CannotCreate, IoError: The file cannot be written.");
 }
 
 } // namespace catoptric::python

@@ -4,7 +4,6 @@
 #include "compare.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/image_module.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "measure/certificate.hpp"

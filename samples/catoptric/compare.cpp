@@ -5,7 +5,6 @@
 #include "baseline.hpp"
 #include "compare_words.hpp"
 #include "core/error.hpp"
-#include "core/image_module.hpp"
 #include "core/text.hpp"
 #include "figure_options.hpp"
 #include "measure/budget.hpp"
@@ -305,7 +304,6 @@ int run_compare(const CompareOptions& options) {
     BaselineGate gate(options.baseline);
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
-    get_image_codecs(); // fail before rendering if the codecs are missing
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);
     report::create_folder(options.folder);

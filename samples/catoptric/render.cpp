@@ -3,7 +3,6 @@
 #include "camera_path.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/image_module.hpp"
 #include "file_sequence.hpp"
 #include "film.hpp"
 #include "json.hpp"
@@ -340,7 +339,6 @@ int run_render(const RenderOptions& options) {
     const std::optional<FrameCameras> cameras = read_cameras_of_request(options, request);
     const std::vector<std::string> files = list_output_files(options, request.frames);
     check_picture_places(options, request.scene, files);
-    if (writes_exr(options)) get_image_codecs(); // fail before rendering if the codecs are missing
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);
 

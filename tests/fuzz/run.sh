@@ -11,7 +11,7 @@ compile() { # compile SOURCE: compiles a file; ccache skips unchanged files
     local compiler=(clang++-16)
     ! command -v ccache >/dev/null || compiler=(ccache clang++-16)
     "${compiler[@]}" -std=c++20 -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,fuzzer-no-link \
-        -fno-sanitize-recover=undefined -fPIC -Iengine -Ishaders -Itests/fuzz \
+        -fno-sanitize-recover=undefined -fPIC -Iengine -Ishaders -Itests/fuzz $(pkg-config --cflags OpenEXR) \
         -DCATOPTRIC_MODULES_FROM_PROGRAMS='"."' -c "$1" -o "$folder/objects/${1//\//_}.o"
 }
 export -f compile
@@ -23,7 +23,7 @@ sources=(engine/core/*.cpp engine/scene/*.cpp "tests/fuzz/$target.cpp")
     objects=("${sources[@]//\//_}")
     objects=("${objects[@]/#/$folder/objects/}")
     clang++-16 -fsanitize=address,undefined,fuzzer "${objects[@]/%/.o}" -o "$folder/$target/$target" \
-        -ltinygltf -ltinyobjloader -lmeshoptimizer -lpng
+        -ltinygltf -ltinyobjloader -lmeshoptimizer -lpng $(pkg-config --libs OpenEXR)
     clang++-16 -shared -fsanitize=address,undefined "$folder/objects/engine_images_images.cpp.o" \
         -o "$folder/$target/catoptric-images.so" -lOpenImageIO -lOpenImageIO_Util
     clang++-16 -shared -fsanitize=address,undefined "$folder/objects/engine_draco_draco.cpp.o" \

@@ -1,0 +1,174 @@
+// Compares OpenEXR files that encode_openexr writes with those that OpenImageIO writes for the same
+// values, and OpenEXR files that ImageReader reads with what OpenImageIO reads.
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/image_codec.hpp"
+#include "core/image_module.hpp"
+#include "support/folder.hpp"
+#include "support/process.hpp"
+#include "support/refusal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace catoptric {
+namespace {
+
+class Exr : public test::InFolder {};
+
+std::vector<float> make_exr_test_values(uvec2 size, std::size_t channel_count) {
+    std::vector<float> values(std::size_t(size.x) * size.y * channel_count);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = i % 7 < 3 ? float(i / 16) : std::sin(float(i)) * 1e3f;
+    values.front() = std::numeric_limits<float>::infinity();
+    return values;
+}
+
+std::string encode_with_openimageio(const ImageSizeAndChannels& shape,
+                                    std::span<const float> values) {
+    std::string bytes;
+    const ImageCodecResult made = get_image_codecs().encode(
+        "openexr",
+        {shape.size, shape.channel_count, ImageCodecValueType::float32, values.data(),
+         shape.channels, shape.description},
+        bytes);
+    EXPECT_EQ(made.answer, ImageCodecStatus::done) << made.why;
+    return bytes;
+}
+
+TEST_F(Exr, ExrBytesEqualThoseOfOpenImageIO) {
+    const std::vector<std::string> layers{"R", "G", "B", "normal.X", "distance.Z", "a"};
+    for (const uvec2 size : {uvec2(1, 1), uvec2(7, 3), uvec2(300, 200)}) {
+        for (std::size_t channel_count = 1; channel_count <= 4; ++channel_count) {
+            const std::vector<float> values = make_exr_test_values(size, channel_count);
+            const ImageSizeAndChannels shape{size, channel_count, {}};
+            EXPECT_TRUE(encode_openexr(shape, values) == encode_with_openimageio(shape, values))
+                << size.x << "x" << size.y << " with " << channel_count << " channels";
+        }
+        const std::vector<float> values = make_exr_test_values(size, layers.size());
+        const ImageSizeAndChannels shape{size, layers.size(), layers, "made by a test"};
+        EXPECT_TRUE(encode_openexr(shape, values) == encode_with_openimageio(shape, values))
+            << size.x << "x" << size.y << " with layers";
+    }
+}
+
+TEST_F(Exr, UnwritableExrPicturesAreRefusedWithTheReason) {
+    EXPECT_THAT(test::catch_error_text(Failure::internal,
+                                       [&] {
+                                           encode_openexr({{2, 1}, 5, {}}, std::vector<float>(10));
+                                       }),
+                testing::HasSubstr("a picture of 2x1 cannot be written as OpenEXR: wanted a name "
+                                   "for each channel, found 4 names for 5 channels and 10 values"));
+}
+
+/// Bytes of a file in memory.
+class ExrBytes final : public RandomAccessByteSource {
+public:
+    explicit ExrBytes(std::string bytes) : bytes_(std::move(bytes)) {}
+    std::uint64_t size() const override { return bytes_.size(); }
+    std::size_t read(std::uint64_t offset, std::span<char> into) const override {
+        if (offset >= bytes_.size()) return 0;
+        return bytes_.copy(into.data(), into.size(), offset);
+    }
+
+private:
+    std::string bytes_;
+};
+
+/// Reads the floats of a file with OpenImageIO alone.
+std::vector<float> read_with_openimageio(const ExrBytes& bytes,
+                                         std::vector<std::string>& channels) {
+    ImageCodecs::Picture* picture = nullptr;
+    ImageCodecs::CodecPictureHeader header;
+    EXPECT_EQ(get_image_codecs().open(bytes, "openexr", "x", picture, header).answer,
+              ImageCodecStatus::done);
+    channels = header.channels;
+    std::vector<float> values(std::size_t(header.size.x * header.size.y * header.channel_count));
+    EXPECT_EQ(get_image_codecs()
+                  .read(*picture, 0, std::uint32_t(header.size.y), ImageCodecValueType::float32,
+                        values.data())
+                  .answer,
+              ImageCodecStatus::done);
+    get_image_codecs().close(picture);
+    return values;
+}
+
+// oiiotool turns a file of encode_openexr into files of other kinds: halves, tiles, a window that
+// does not begin at 0, other compressions, unsigned integers, several parts, other channels.
+TEST_F(Exr, FilesOfAllKindsAreReadAsOpenImageIoReadsThem) {
+    const std::vector<std::string> channels{"B", "A", "R", "G"};
+    const ImageSizeAndChannels shape{{37, 29}, 4, channels, "a text"};
+    std::vector<float> values = make_exr_test_values(shape.size, 4);
+    for (float& value : values) value = std::clamp(value, 0.f, 100.f);
+    const std::string from = (folder / "from.exr").string();
+    write_file(from, encode_openexr(shape, values));
+    const std::vector<std::vector<std::string>> kinds{
+        {},
+        {"-d", "half"},
+        {"--tile", "16", "16"},
+        {"-d", "half", "--tile", "16", "16", "--origin", "+5-3"},
+        {"--compression", "piz", "--origin", "-4+9"},
+        {"--ch", "R,G,B"},
+        {"--ch", "R", "--chnames", "Y"},
+        {"--ch", "R,G", "--chnames", "Y,A"},
+        {"-d", "uint32"},
+        {"-d", "R=half"},
+        {"--chnames", "x.R,x.G,x.B,x.A"},
+        {"--dup", "--siappend"}};
+    for (const std::vector<std::string>& kind : kinds) {
+        const std::string to = (folder / "to.exr").string();
+        std::vector<std::string> command{"/usr/bin/oiiotool", from};
+        command.insert(command.end(), kind.begin(), kind.end());
+        command.insert(command.end(), {"-o", to});
+        const test::ProcessResult made = test::run_process({.command = command});
+        ASSERT_EQ(made.exit_code, 0) << made.err << made.out;
+        const ExrBytes bytes(read_file(to));
+        ImageReader reader(bytes, "openexr", to);
+        std::vector<std::string> wanted_channels;
+        const std::vector<float> wanted = read_with_openimageio(bytes, wanted_channels);
+        SCOPED_TRACE(testing::PrintToString(kind));
+        EXPECT_EQ(reader.image_size_and_channels().channels, wanted_channels);
+        EXPECT_EQ(reader.image_size_and_channels().size, shape.size);
+        EXPECT_EQ(reader.image_size_and_channels().description, "a text");
+        EXPECT_TRUE(reader.floats() == wanted);
+        EXPECT_EQ(ImageReader(bytes, "openexr", to).bytes().size(), wanted.size());
+        // Rows may be read in pieces.
+        ImageReader in_rows(bytes, "openexr", to);
+        std::vector<float> pieces(wanted.size());
+        const std::size_t row = wanted.size() / shape.size.y;
+        for (std::uint32_t first = 0; first < shape.size.y; first += 10)
+            in_rows.read_image_rows(
+                first,
+                std::span(pieces).subspan(first * row, std::min(10U, shape.size.y - first) * row));
+        EXPECT_TRUE(pieces == wanted);
+    }
+}
+
+// A picture of more than half a million pixels is encoded and decoded by several threads.
+TEST_F(Exr, LargePicturesKeepTheirValues) {
+    const ImageSizeAndChannels shape{{1024, 600}, 3, {"R", "G", "B"}};
+    const std::vector<float> values = make_exr_test_values(shape.size, 3);
+    const std::string encoded = encode_openexr(shape, values);
+    EXPECT_TRUE(encoded == encode_with_openimageio(shape, values));
+    EXPECT_TRUE(ImageReader(ExrBytes(encoded), "openexr", "large").floats() == values);
+}
+
+// A file that ends early is refused with the reason, whatever part of it is missing.
+TEST_F(Exr, FilesThatEndEarlyAreRefused) {
+    const ImageSizeAndChannels shape{{40, 60}, 3, {"R", "G", "B"}};
+    const std::string whole = encode_openexr(shape, make_exr_test_values(shape.size, 3));
+    for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{200}}) {
+        const ExrBytes bytes(whole.substr(0, size));
+        EXPECT_THAT(test::catch_error_text(Failure::bad_data,
+                                           [&] { ImageReader(bytes, "openexr", "cut").floats(); }),
+                    testing::StartsWith("cut: "))
+            << size;
+    }
+}
+
+} // namespace
+} // namespace catoptric
