@@ -15,14 +15,28 @@ namespace {
 
 using SpvConstantValues = std::unordered_map<std::uint32_t, std::vector<std::uint32_t>>;
 
-void register_specialisation_passes(spvtools::Optimizer& optimiser,
-                                    const SpvConstantValues& values) {
+/// Registers passes that set the constants and remove the code that the constants switch off.
+void register_constant_passes(spvtools::Optimizer& optimiser, const SpvConstantValues& values) {
     optimiser.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
         .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
         .RegisterPass(spvtools::CreateCCPPass())
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+}
+
+/// Registers passes that inline all calls and keep variables in registers, because drivers do the
+/// same in more time, in each process again. No pass reorders or merges operations of floats.
+void register_inlining_passes(spvtools::Optimizer& optimiser) {
+    optimiser.RegisterPass(spvtools::CreateInlineExhaustivePass())
+        .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+        .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+        .RegisterPass(spvtools::CreateSSARewritePass())
+        .RegisterPass(spvtools::CreateCCPPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass())
+        .RegisterPass(spvtools::CreateBlockMergePass());
 }
 
 constexpr std::string_view kSubgroupCapabilityPassName = "remove-unused-subgroup-capability";
@@ -52,7 +66,8 @@ void remove_unused_subgroup_capability(std::vector<std::uint32_t>& words) {
 
 std::string list_specialisation_passes() {
     spvtools::Optimizer optimiser(SPV_ENV_VULKAN_1_3);
-    register_specialisation_passes(optimiser, {});
+    register_constant_passes(optimiser, {});
+    register_inlining_passes(optimiser);
     std::string names;
     for (const char* name : optimiser.GetPassNames()) names.append(name).append("\n");
     return names.append(kSubgroupCapabilityPassName).append("\n");
@@ -67,7 +82,8 @@ specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
     std::string said;
     optimiser.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
                                      const char* message) { said = message; });
-    register_specialisation_passes(optimiser, values);
+    register_constant_passes(optimiser, values);
+    register_inlining_passes(optimiser);
     spvtools::OptimizerOptions options;
     options.set_run_validator(false); // the shader was validated when it was compiled
     std::vector<std::uint32_t> result;

@@ -113,8 +113,13 @@ TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
                               "distance_cubes"));
     EXPECT_FALSE(find_binding(reflect_specialised_shader("reflect/naive.frag", {{"rough", 0}}),
                               "rough_cubes"));
-    EXPECT_TRUE(find_binding(reflect_specialised_shader("reflect/naive.frag", {{"rough", 2}}),
-                             "rough_cubes"));
+    EXPECT_FALSE(find_binding(reflect_specialised_shader("reflect/naive.frag", {{"rough", 2}}),
+                              "rough_cubes"))
+        << "no surface has a lobe";
+    EXPECT_TRUE(
+        find_binding(reflect_specialised_shader("reflect/naive.frag",
+                                                {{"rough", 2}, {"has_lobes", 1}, {"details", 1}}),
+                     "rough_cubes"));
 }
 
 TEST(Reflection, ShapesOfImagesAreFound) {
