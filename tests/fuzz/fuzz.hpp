@@ -4,6 +4,7 @@
 #include "core/file.hpp"
 #include "scene/file_options.hpp"
 #include "scene/hash.hpp"
+#include "scene/light.hpp"
 #include "scene/load.hpp"
 
 #include <cstdint>
