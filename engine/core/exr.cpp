@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -26,17 +27,18 @@ namespace catoptric {
 
 namespace {
 
-/// Returns the number of threads that encode or decode a picture, and starts them at the first
-/// large picture. A small picture takes less time than starting a thread.
+/// Returns the number of threads that encode or decode a picture; 0: the calling thread does. The
+/// first large picture starts OpenEXR's threads, unless the program that uses this library has. A
+/// small picture takes less time than starting a thread.
 int start_exr_threads(uvec2 size) {
     constexpr std::size_t kLargePicturePixels = 1 << 19;
     if (std::size_t(size.x) * size.y < kLargePicturePixels) return 0;
-    static const int kThreads = [] {
-        const int threads = static_cast<int>(std::thread::hardware_concurrency());
-        Imf::setGlobalThreadCount(threads);
-        return threads;
-    }();
-    return kThreads;
+    static std::once_flag once;
+    std::call_once(once, [] {
+        if (Imf::globalThreadCount() == 0)
+            Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+    });
+    return Imf::globalThreadCount();
 }
 
 /// Collects the bytes of a file in memory, because a writer to disk may report success on a full

@@ -160,8 +160,8 @@ ImageCodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t 
 
 void close_codec_picture(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
-/// Encodes to memory, because OpenImageIO's writers report success on a full disk. PNG is supported
-/// to test core/png.cpp against.
+/// Encodes to memory, because OpenImageIO's writers report success on a full disk. The engine
+/// itself writes PNG and OpenEXR files. Tests compare its files with those of this function.
 ImageCodecResult encode_picture(const std::string& format,
                                 const ImageCodecs::PixelValueBuffer& picture,
                                 std::string& bytes) noexcept {

@@ -42,11 +42,11 @@ vec3 direction_in_sky_map(float across, float down) {
             -std::sin(polar) * std::cos(azimuth)};
 }
 
-/// Reads a map, as shaders/lib/environment.glsl does. `turn_and_tilt`:
-/// f32::direction_to_turn_and_tilt of the direction.
-vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec2& turn_and_tilt) {
-    const f32::EnvironmentMapPosition at = f32::place_in_environment_map(
-        turn_and_tilt.x, turn_and_tilt.y, size.x, size.y);
+/// Reads a map, as shaders/lib/environment.glsl does. `uv`:
+/// f32::direction_to_equirectangular_uv of the direction.
+vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec2& uv) {
+    const f32::EnvironmentMapPosition at = f32::environment_map_position_at_uv(uv.x, uv.y, size.x,
+                                                                               size.y);
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
         return texels[std::size_t{row} * size.x + column];
     };
@@ -79,7 +79,7 @@ EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
                 sum += environment.studio
                            ? vec3(f32::studio_radiance(direction))
                            : sample_sky_map(environment.texels, environment.size,
-                                            f32::direction_to_turn_and_tilt(direction));
+                                            f32::direction_to_equirectangular_uv(direction));
             }
             base.texels.push_back(sum / float(edge * edge));
         }
@@ -113,9 +113,9 @@ vec3 sample_sky_map_chain(const std::vector<EquirectangularSkyMap>& chain, float
     const float last = static_cast<float>(chain.size() - 1);
     level = std::clamp(level, 0.f, last);
     const auto finer = static_cast<std::size_t>(std::min(level, last - 1));
-    const vec2 turn_and_tilt = f32::direction_to_turn_and_tilt(direction);
+    const vec2 uv = f32::direction_to_equirectangular_uv(direction);
     const auto read = [&](const EquirectangularSkyMap& map) {
-        return sample_sky_map(map.texels, {map.width, map.row_count()}, turn_and_tilt);
+        return sample_sky_map(map.texels, {map.width, map.row_count()}, uv);
     };
     return glm::mix(read(chain[finer]), read(chain[finer + 1]), level - static_cast<float>(finer));
 }

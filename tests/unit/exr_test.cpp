@@ -1,5 +1,6 @@
 // Compares OpenEXR files that encode_openexr writes with those that OpenImageIO writes for the same
 // values, and OpenEXR files that ImageReader reads with what OpenImageIO reads.
+#include "core/byte_source.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_codec.hpp"
@@ -65,22 +66,8 @@ TEST_F(Exr, UnwritableExrPicturesAreRefusedWithTheReason) {
                                    "for each channel, found 4 names for 5 channels and 10 values"));
 }
 
-/// Bytes of a file in memory.
-class ExrBytes final : public RandomAccessByteSource {
-public:
-    explicit ExrBytes(std::string bytes) : bytes_(std::move(bytes)) {}
-    std::uint64_t size() const override { return bytes_.size(); }
-    std::size_t read(std::uint64_t offset, std::span<char> into) const override {
-        if (offset >= bytes_.size()) return 0;
-        return bytes_.copy(into.data(), into.size(), offset);
-    }
-
-private:
-    std::string bytes_;
-};
-
 /// Reads the floats of a file with OpenImageIO alone.
-std::vector<float> read_with_openimageio(const ExrBytes& bytes,
+std::vector<float> read_with_openimageio(const RandomAccessByteSource& bytes,
                                          std::vector<std::string>& channels) {
     ImageCodecs::Picture* picture = nullptr;
     ImageCodecs::CodecPictureHeader header;
@@ -126,7 +113,8 @@ TEST_F(Exr, FilesOfAllKindsAreReadAsOpenImageIoReadsThem) {
         command.insert(command.end(), {"-o", to});
         const test::ProcessResult made = test::run_process({.command = command});
         ASSERT_EQ(made.exit_code, 0) << made.err << made.out;
-        const ExrBytes bytes(read_file(to));
+        const std::string file = read_file(to);
+        const MemoryByteSource bytes(file);
         ImageReader reader(bytes, "openexr", to);
         std::vector<std::string> wanted_channels;
         const std::vector<float> wanted = read_with_openimageio(bytes, wanted_channels);
@@ -154,7 +142,7 @@ TEST_F(Exr, LargePicturesKeepTheirValues) {
     const std::vector<float> values = make_exr_test_values(shape.size, 3);
     const std::string encoded = encode_openexr(shape, values);
     EXPECT_TRUE(encoded == encode_with_openimageio(shape, values));
-    EXPECT_TRUE(ImageReader(ExrBytes(encoded), "openexr", "large").floats() == values);
+    EXPECT_TRUE(ImageReader(MemoryByteSource(encoded), "openexr", "large").floats() == values);
 }
 
 // A file that ends early is refused with the reason, whatever part of it is missing.
@@ -162,7 +150,7 @@ TEST_F(Exr, FilesThatEndEarlyAreRefused) {
     const ImageSizeAndChannels shape{{40, 60}, 3, {"R", "G", "B"}};
     const std::string whole = encode_openexr(shape, make_exr_test_values(shape.size, 3));
     for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{200}}) {
-        const ExrBytes bytes(whole.substr(0, size));
+        const MemoryByteSource bytes(std::string_view(whole).substr(0, size));
         EXPECT_THAT(test::catch_error_text(Failure::bad_data,
                                            [&] { ImageReader(bytes, "openexr", "cut").floats(); }),
                     testing::StartsWith("cut: "))

@@ -14,11 +14,10 @@ struct EnvironmentMapPosition {
     uint left, right, above, below;
     real across, down;
 };
-// The texels around a place in the map: `turn` is 0 at the map's left edge and 1 at its right edge, and `tilt` is 0 at +y
-// and 1 at -y.
-INLINE EnvironmentMapPosition place_in_environment_map(real turn, real tilt, uint width, uint height) {
-    real x = turn * real(width) - real(0.5);
-    real y = clamp(tilt * real(height) - real(0.5), real(0), real(height) - real(1));
+// Returns the texels around equirectangular coordinates `u` and `v` in [0, 1], from the map's upper left corner.
+INLINE EnvironmentMapPosition environment_map_position_at_uv(real u, real v, uint width, uint height) {
+    real x = u * real(width) - real(0.5);
+    real y = clamp(v * real(height) - real(0.5), real(0), real(height) - real(1));
     real first = floor(x);
     real top = min(floor(y), max(real(height) - real(2), real(0)));
     EnvironmentMapPosition place;
@@ -30,15 +29,15 @@ INLINE EnvironmentMapPosition place_in_environment_map(real turn, real tilt, uin
     place.down = y - top;
     return place;
 }
-// Returns `turn` and `tilt` of a direction of any length.
-INLINE vec2 direction_to_turn_and_tilt(vec3 d) {
+// Returns the equirectangular coordinates of a direction of any length.
+INLINE vec2 direction_to_equirectangular_uv(vec3 d) {
     real level = sqrt(d.x * d.x + d.z * d.z);
     real azimuth = level > real(0) ? atan(d.x, -d.z) : real(0);
     return vec2(real(0.5) + azimuth / (real(2) * kPi), atan(level, d.y) / kPi);
 }
 INLINE EnvironmentMapPosition direction_to_environment_map(vec3 d, uint width, uint height) {
-    vec2 at = direction_to_turn_and_tilt(d);
-    return place_in_environment_map(at.x, at.y, width, height);
+    vec2 uv = direction_to_equirectangular_uv(d);
+    return environment_map_position_at_uv(uv.x, uv.y, width, height);
 }
 
 // The cell of an environment map that holds a direction, and the direction's place in the cell. Between the centres of four
