@@ -6,6 +6,7 @@
 #include "scene/glass_body.hpp"
 #include "scene/load.hpp"
 #include "scene/surroundings.hpp"
+#include "support/lit.hpp"
 #include "support/numbers.hpp"
 #include "support/rendering.hpp"
 #include "support/smooth_environment.hpp"
