@@ -246,6 +246,8 @@ TEST(Baseline, FilesForPipelinesHoldEveryFinding) {
     EXPECT_EQ(count("<skipped "), 3U);
     EXPECT_EQ(count("</testcase>"), 4U);
     EXPECT_THAT(markdown, HasSubstr("### a\\|b: worse than the baseline"));
+    EXPECT_THAT(markdown,
+                HasSubstr("\n| verdict | row | quantity | |\n|---|---|---|---|\n| worse | "));
     EXPECT_THAT(markdown, HasSubstr("| worse | naive"));
     EXPECT_THAT(markdown, HasSubstr("baseline: 1 worse, 3 unknown, 2 kept"));
 }

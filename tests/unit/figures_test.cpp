@@ -1,7 +1,9 @@
 // Tests of figures for papers, and of the bars of times by pass.
 #include "core/file.hpp"
+#include "measure/causes.hpp"
 #include "report/figures.hpp"
 #include "report/pass_times.hpp"
+#include "report/tables.hpp"
 #include "report_sample.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <regex>
 
 namespace {
@@ -47,6 +50,30 @@ TEST(StackedBarsDrawing, WidthsAreInProportionToTheLengths) {
     EXPECT_THAT(svg, HasSubstr(">trace</text>"));
     EXPECT_THAT(svg, Not(HasSubstr(">unused</text>")));
     EXPECT_EQ(draw_stacked_bars({.kinds = {{"view", "#000"}}, .bars = {{"none", {0}}}}), "");
+}
+
+TEST(StackedBarsDrawing, NumbersOfTheAxisAreBetweenTheBarsAndTheNameOfTheAxis) {
+    const std::string svg = draw_stacked_bars(
+        {.x_name = "ms", .kinds = {{"view", "#000"}}, .bars = {{"one", {30}}, {"two", {20}}}});
+    const auto list_heights = [&](const std::string& pattern) {
+        std::vector<double> heights;
+        const std::regex compiled(pattern);
+        for (std::sregex_iterator found(svg.begin(), svg.end(), compiled), end; found != end;
+             ++found)
+            heights.push_back(std::stod((*found)[1]));
+        return heights;
+    };
+    const std::vector<double> bars = list_heights(R"re(<rect [^>]*y="([0-9.]+)"[^>]*><title>)re");
+    const std::vector<double> numbers = list_heights(R"re(y="([0-9.]+)"[^>]*>[0-9]+</text>)re");
+    const std::vector<double> name = list_heights(R"re(y="([0-9.]+)"[^>]*>ms</text>)re");
+    ASSERT_EQ(bars.size(), 2U);
+    ASSERT_GE(numbers.size(), 3U);
+    ASSERT_EQ(name.size(), 1U);
+    // The position of a text is its base line. Letters are about ten units high.
+    for (const double number : numbers) {
+        EXPECT_GE(number - 10, bars.back() + 14);
+        EXPECT_LE(number, name[0] - 10);
+    }
 }
 
 TEST(PassTimes, PassesOfOneKindAreSummed) {
@@ -131,6 +158,25 @@ TEST_F(FiguresOfComparison, CropsHoldThePixelsThatTheCaptionNames) {
         EXPECT_TRUE(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=")) << svg;
         EXPECT_THAT(svg, HasSubstr("<style>"));
     }
+}
+
+TEST_F(FiguresOfComparison, BarsOfCausesAreInProportionToTheirShares) {
+    Comparison made = make_comparison_with_one_difference();
+    auto causes = std::make_shared<measure::Causes>();
+    const std::string first(list_cause_colours()[0].cause);
+    const std::string third(list_cause_colours()[2].cause);
+    causes->list = {{.name = third, .share = .2}, {.name = first, .share = .8}};
+    made.rows[1].causes = causes;
+    write_figures(made, folder, {});
+    EXPECT_THAT(read_file(folder / "figures.tex"), HasSubstr("causes"));
+    const std::string svg = read_file(folder / "causes.svg");
+    const std::vector<double> widths = list_bar_widths(svg);
+    ASSERT_EQ(widths.size(), 2U) << "only one row has causes";
+    EXPECT_NEAR(widths[0], 4 * widths[1], .05);
+    EXPECT_THAT(svg, HasSubstr(": " + first + ", 80</title>"));
+    EXPECT_THAT(svg, HasSubstr(": " + third + ", 20</title>"));
+    EXPECT_THAT(svg, HasSubstr(">" + made.rows[1].label + "</text>"));
+    EXPECT_THAT(svg, Not(HasSubstr(">" + made.rows[0].label + "</text>")));
 }
 
 TEST_F(FiguresOfComparison, NamesWithSpecialCharactersAreEscaped) {
