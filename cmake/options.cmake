@@ -17,6 +17,13 @@ if(CATOPTRIC_SANITIZE)
     add_library(catoptric_sanitizer_support OBJECT ${PROJECT_SOURCE_DIR}/cmake/sanitizer_support.cpp)
 endif()
 
+# Programs record which code they run (tests/mutations/reached.cpp).
+if(CATOPTRIC_REACHED)
+    add_library(catoptric_reached STATIC ${PROJECT_SOURCE_DIR}/tests/mutations/reached.cpp)
+    target_compile_options(catoptric_options INTERFACE -fsanitize-coverage=trace-pc)
+    target_link_libraries(catoptric_options INTERFACE catoptric_reached)
+endif()
+
 # program(TARGET): links an executable of this tree with the engine's object files, including functions that the shared
 # library hides.
 function(program target)

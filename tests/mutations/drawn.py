@@ -1,42 +1,43 @@
-"""Draws mutants of C++ and GLSL code with universalmutator, builds each, runs the tests, and reports the share killed.
+"""Draws mutants of C++ and GLSL code with universalmutator, builds each, and prints the share that tests notice.
 
-mutate.py drawn [--count N] [--seed S] [--folder F...] [--test-seconds T] [--out FILE]
+mutate.py drawn [--count N] [--seed S] [--folder F...] [--jobs N] [--most-seconds T] [--again] [--out FILE]
 
 Each folder of code gets a share of the N mutants by its lines, but at least kLeast. A draw chooses a file (weighted by
 lines of code), a line of the file, and one mutant of the line. Mutants that do not compile, or that change no
 object code and no SPIR-V, are recorded and replaced by another draw. Results are written to FILE
 (out/mutants/seed-S.json) after each mutant, so that an interrupted run can continue.
+
+A mutant of C++ is judged by the tests that run its function (reach.py), which a run of all tests finds out first. Tests
+that are quick and run much of the function come first, and the first that fails ends the search. Mutants are judged in
+--jobs worktrees of the last commit, under out/mutants (judge.py). A mutant whose tests take longer than --most-seconds
+is "undecided". Such mutants, and survivors if there are new tests, are continued by a later run with --again.
 """
 import argparse
 import contextlib
-import glob
-import hashlib
 import io
 import json
 import os
+import pathlib
 import random
 import re
 import subprocess
 import sys
-import time
+import threading
 
 import checkout
+import reach
+from judge import BUILD, JUDGED, Judge
 
 kLeast = 6            # smallest number of mutants of a folder
 kMostTries = 12       # largest number of draws per counted mutant of a folder
-kStageTests = 3       # time limit of a stage, in multiples of the limit of a test
-NOT_RUN = "^(long|clone|fuzz|limits-all)$"
-# Stages of tests, cheap and general ones first: the target to build, the tests to run, and the tests to leave out.
-STAGES = [("unit_test", "^unit$", "^$"), ("gpu_test", "^gpu/", "^$"), ("reflect_test", "^reflect/", "^$"),
-          ("all", "^cli/", "^$"), ("all", ".", "^(unit$|gpu/|reflect/|cli/)")]
-RULES = {".cpp": ["universal.rules", "c_like.rules", "cpp.rules"], ".hpp": ["universal.rules", "c_like.rules", "cpp.rules"]}
+RULES = ["universal.rules", "c_like.rules"]
 
 
 def sources():
     """Returns the code files of each folder: {folder: [path]}. Leaves out shaders for tests."""
-    listed = subprocess.run(["git", "ls-files", *checkout.CODE], capture_output=True, text=True, check=True).stdout.split()
+    listed = subprocess.run(["git", "ls-files", *checkout.CODE], capture_output=True, text=True, check=True).stdout
     folders = {}
-    for path in listed:
+    for path in listed.split():
         if not re.search(r"\.(cpp|hpp|glsl|frag|vert|comp)$", path) or path.startswith("shaders/tests/"):
             continue
         parts = path.split("/")
@@ -62,18 +63,21 @@ def mutants_of(path):
     """Returns the mutants of a file by line: {number from 1: [(text of the line, rule)]}."""
     from universalmutator import mutator
     lines = open(path, encoding="utf-8").read().splitlines(keepends=True)
+    rules = [*RULES, "cpp.rules"] if path.endswith("pp") else RULES
     with contextlib.redirect_stdout(io.StringIO()):
-        found = mutator.mutants_regexp(lines, ruleFiles=RULES.get(os.path.splitext(path)[1], ["universal.rules", "c_like.rules"]),
+        found = mutator.mutants_regexp(lines, ruleFiles=rules,
                                        ignorePatterns=[r"^\s*(//|///|#|namespace|using |static_assert)"])
     by_line = {}
-    for number, text, rule in found:
+    for number, text, rule, *_ in found:
         if text != lines[number - 1]:
             by_line.setdefault(number, []).append((text, rule[0]))
     return by_line
 
 
 def draw(files, seed):
-    """Returns a mutant as a record: file, line, the text before and after, and the rule. The same seed draws the same."""
+    """Returns a mutant and the new text of its line. The same seed draws the same.
+
+    The mutant is a record: file, line, the text before and after, and the rule."""
     chance = random.Random(seed)
     while True:
         path = chance.choices(files, weights=map(code_lines, files))[0]
@@ -86,64 +90,87 @@ def draw(files, seed):
     return {"file": path, "line": line, "before": before.strip(), "after": after.strip(), "rule": rule}, after
 
 
-class Objects:
-    """Hashes of the object files of a build. SPIR-V is compiled into these files."""
-
-    def __init__(self):
-        self.known = {}
-        self.baseline = self.hashes()
-
-    def hashes(self):
-        for path in glob.glob(f"{checkout.BUILD}/**/*.o", recursive=True):
-            stamp = os.stat(path).st_mtime_ns
-            if self.known.get(path, (0, ""))[0] != stamp:
-                self.known[path] = (stamp, hashlib.sha1(open(path, "rb").read()).hexdigest())
-        return {path: value for path, (_, value) in self.known.items()}
-
-    def differ(self):
-        """Returns whether some object file differs from that of the correct code. Object files of tests count too."""
-        now = self.hashes()
-        return any(now[path] != value for path, value in self.baseline.items())
-
-
-def judge(record, objects, test_seconds):
-    """Builds the mutant in the checkout and runs the tests until one fails. Adds "outcome" and "by" to the record.
-
-    A test that takes longer than test_seconds fails."""
-    first = True
-    for target, tests, left_out in STAGES:
-        targets = [target, "catoptric_cli", "catoptric-view"] if record["file"].startswith("samples/") else [target]
-        if not checkout.build(*targets):
-            # A later target can only fail in code that no earlier target compiles.
-            return record.update(outcome="does not compile")
-        if first and not objects.differ():
-            return record.update(outcome="same code")
-        first = False
-        code, output = checkout.run(["nice", "ctest", "--test-dir", checkout.BUILD, "-j2", "--stop-on-failure", "--timeout",
-                                     str(test_seconds), "-R", tests, "-E", left_out, "-LE", NOT_RUN],
-                                    kStageTests * test_seconds)
-        if code != 0:
-            failed = re.search(r"(\S+) \.+\s*\**(Failed|Timeout|Exception|Subprocess|Not Run)", output)
-            return record.update(outcome="killed", by=failed[1] if failed else f"{tests} ended with {code}")
-    record.update(outcome="survived")
-
-
 def report(records, out=sys.stdout):
     """Prints the share of killed mutants by folder, and the mutants that survived."""
-    print("| folder | killed | survived | share | no compile | same code |\n|---|--:|--:|--:|--:|--:|", file=out)
+    print("| folder | killed | survived | undecided | share | no compile | same code |", file=out)
+    print("|---|--:|--:|--:|--:|--:|--:|", file=out)
     folders = sorted({record["folder"] for record in records})
     for folder in [*folders, "all"]:
         count = {}
         for record in records:
             if folder in (record["folder"], "all"):
                 count[record["outcome"]] = count.get(record["outcome"], 0) + 1
-        killed, survived = count.get("killed", 0), count.get("survived", 0)
-        share = f"{killed / (killed + survived):.2f}" if killed + survived else ""
-        print(f"| {folder} | {killed} | {survived} | {share} | {count.get('does not compile', 0)} | "
+        killed, judged = count.get("killed", 0), sum(count.get(outcome, 0) for outcome in JUDGED)
+        print(f"| {folder} | {killed} | {count.get('survived', 0)} | {count.get('undecided', 0)} | "
+              f"{f'{killed / judged:.2f}' if judged else ''} | {count.get('does not compile', 0)} | "
               f"{count.get('same code', 0)} |", file=out)
     for record in records:
-        if record["outcome"] == "survived":
-            print(f"\nsurvived: {record['file']}:{record['line']}\n-   {record['before']}\n+   {record['after']}", file=out)
+        if record["outcome"] in ("survived", "undecided"):
+            print(f"\n{record['outcome']}: {record['file']}:{record['line']}", file=out)
+            print(f"-   {record['before']}\n+   {record['after']}", file=out)
+
+
+class Draws:
+    """Hands out the draws of all folders to several judges, and stores their results."""
+
+    def __init__(self, store, code, seed, folders, wanted, again):
+        self.store, self.code, self.seed, self.folders, self.wanted = store, code, seed, folders, wanted
+        self.records = []
+        if os.path.exists(store):
+            stored = json.loads(pathlib.Path(store).read_text())
+            if stored["code"] != code:
+                checkout.fail(f"{store}: wanted mutants of this code, found those of other code; choose another --out")
+            self.records = stored["records"]
+        self.again = [record for record in self.records if again and record["outcome"] in ("undecided", "survived")]
+        self.known = {(record["folder"], record["draw"]): record for record in self.records}
+        self.next = dict.fromkeys(folders, 0)
+        self.pending = dict.fromkeys(folders, 0)  # judged, or being judged
+        self.busy = 0
+        self.changed = threading.Condition()
+
+    def draw(self, folder, number):
+        return draw(self.folders[folder], f"{self.seed}/{folder}/{number}")
+
+    def take(self):
+        """Returns a mutant to be judged, as draw() does, or None if none is left. Waits for results that matter."""
+        with self.changed:
+            while True:
+                if self.again:
+                    record = self.again.pop(0)
+                    self.busy += 1
+                    return record, self.draw(record["folder"], record["draw"])[1]
+                # Folders take turns, so that an interrupted run has judged mutants of all folders.
+                for folder in sorted(self.folders, key=lambda folder: self.pending[folder] / self.wanted[folder]):
+                    wanted, number = self.wanted[folder], self.next[folder]
+                    if self.pending[folder] < wanted and number < kMostTries * wanted:
+                        self.next[folder] += 1
+                        if (folder, number) in self.known:
+                            self.pending[folder] += self.known[folder, number]["outcome"] in JUDGED
+                            break
+                        record, after = self.draw(folder, number)
+                        record.update(folder=folder, draw=number)
+                        self.pending[folder] += 1
+                        self.busy += 1
+                        return record, after
+                else:
+                    if self.busy == 0:
+                        return None
+                    self.changed.wait()
+
+    def put(self, record):
+        """Stores a record that was judged."""
+        with self.changed:
+            self.busy -= 1
+            if (record["folder"], record["draw"]) not in self.known:
+                self.records.append(record)
+                self.known[record["folder"], record["draw"]] = record
+                self.pending[record["folder"]] -= record["outcome"] not in JUDGED
+            pathlib.Path(self.store + ".new").write_text(
+                json.dumps({"code": self.code, "records": self.records}, indent=1))
+            os.replace(self.store + ".new", self.store)
+            print(f"{record['outcome']:16} {record['seconds']:4} s {record.get('by', ''):28} "
+                  f"{record['file']}:{record['line']}: {record['after']}", flush=True)
+            self.changed.notify_all()
 
 
 def main(arguments):
@@ -151,46 +178,40 @@ def main(arguments):
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", default="1")
     parser.add_argument("--folder", nargs="+", help="only these, for example engine/bvh shaders")
-    parser.add_argument("--test-seconds", type=int, default=300, help="time limit of a test; more on a busy machine")
+    parser.add_argument("--jobs", type=int, default=max(1, (os.cpu_count() or 1)), help="mutants judged at a time")
+    parser.add_argument("--most-seconds", type=float, default=1e9, help="time of tests for a mutant")
+    parser.add_argument("--again", action="store_true", help="continue mutants that are undecided or survived")
     parser.add_argument("--out")
     chosen = parser.parse_args(arguments)
     store = chosen.out or f"out/mutants/seed-{chosen.seed}.json"
-    checkout.require_clean()
-    checkout.BUILD = "build/mutants"
-    folders = sources()
-    wanted = shares(folders, chosen.count)
-    records = json.load(open(store)) if os.path.exists(store) else []
-    known = {(record["folder"], record["draw"]): record for record in records}
-    if not checkout.build("all"):
-        checkout.fail("the code that is right does not build")
-    objects = Objects()
     os.makedirs(os.path.dirname(store) or ".", exist_ok=True)
-    # Folders take turns, so that an interrupted run has judged mutants of all folders.
-    counted, draws = dict.fromkeys(folders, 0), dict.fromkeys(folders, 0)
-    while True:
-        open_folders = [folder for folder in folders if counted[folder] < wanted[folder]
-                        and draws[folder] < kMostTries * wanted[folder] and folder in (chosen.folder or folders)]
-        if not open_folders:
-            break
-        for folder in open_folders:
-            number = draws[folder]
-            draws[folder] += 1
-            record = known.get((folder, number))
-            if record is None:
-                begin = time.monotonic()
-                record, after = draw(folders[folder], f"{chosen.seed}/{folder}/{number}")
-                lines = open(record["file"], encoding="utf-8").read().splitlines(keepends=True)
-                lines[record["line"] - 1] = after
-                with checkout.replaced({record["file"]: "".join(lines)}):
-                    judge(record, objects, chosen.test_seconds)
-                record.update(folder=folder, draw=number, seconds=round(time.monotonic() - begin))
-                records.append(record)
-                json.dump(records, open(store + ".new", "w"), indent=1)
-                os.replace(store + ".new", store)
-                print(f"{record['outcome']:16} {record.get('by', ''):28} {record['file']}:{record['line']}: {record['after']}",
-                      flush=True)
-            counted[folder] += record["outcome"] in ("killed", "survived")
-    checkout.build("all")
-    report(records)
-    judged = [record for record in records if record["outcome"] in ("killed", "survived")]
-    return 1 if any(record["outcome"] == "survived" for record in judged) else 0
+    here = checkout.Checkout(".", BUILD)
+    here.require_clean()
+    reached_file = "out/mutants/reached.json"
+    if not os.path.exists(reached_file) or reach.Reach.load(reached_file).code != here.code_id():
+        print("mutate: runs all tests to see which code each runs", flush=True)
+        if not here.make("all"):
+            checkout.fail("the code that is right does not build")
+        reached, wrong = reach.record(here, chosen.jobs)
+        if wrong:
+            checkout.fail("tests fail, although no code is wrong:\n" + "\n".join(wrong))
+        reached.save(reached_file)
+    reached = reach.Reach.load(reached_file)
+    folders = {folder: files for folder, files in sources().items() if folder in (chosen.folder or sources())}
+    wanted = shares(sources(), chosen.count)
+    draws = Draws(store, here.code_id(), chosen.seed, folders, wanted, chosen.again)
+    shaders = here.path(BUILD, "test_cache")
+    judges = [Judge(f"out/mutants/tree-{number}", reached, shaders) for number in range(chosen.jobs)]
+
+    def work(judge):
+        while task := draws.take():
+            judge.judge(*task, chosen.most_seconds)
+            draws.put(task[0])
+
+    workers = [threading.Thread(target=work, args=[judge]) for judge in judges]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    report(draws.records)
+    return 1 if any(record["outcome"] in ("survived", "undecided") for record in draws.records) else 0

@@ -17,6 +17,7 @@ import checkout
 import drawn
 import rules
 
+HERE = checkout.Checkout(".", "build/ci")
 RULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rules.toml")
 
 
@@ -49,9 +50,9 @@ def check(listed):
 def fails_test(rule):
     """Runs the rule's tests. Returns the name of a failed test, or an empty text if all pass."""
     program, tests = rule.test.split(maxsplit=1)
-    if not checkout.build(program):
+    if not HERE.make(program):
         checkout.fail(f"{rule.name} does not compile")
-    code, output = checkout.run([f"{checkout.BUILD}/{program}", f"--gtest_filter={tests}"], 1800)
+    code, output = HERE.run([f"{HERE.build}/{program}", f"--gtest_filter={tests}"], 1800)
     if "[  PASSED  ] 0 tests" in output:
         checkout.fail(f"{rule.name}: {program} has no test {tests}")
     failed = re.search(r"\[  FAILED  \] (\w[\w/]*\.[\w/]*)", output)
@@ -60,10 +61,10 @@ def fails_test(rule):
 
 def fails_row(rule):
     """Runs the rule's stress row on small pictures. Returns the measured value and limit, or "" if the row passes."""
-    if not checkout.build("catoptric_cli"):
+    if not HERE.make("catoptric_cli"):
         checkout.fail(f"{rule.name} does not compile")
-    command = [f"{checkout.BUILD}/catoptric", "stress", "--quiet", "--size", "128x128", "--only", rule.row]
-    code, output = checkout.run(command, 1800)
+    command = [f"{HERE.build}/catoptric", "stress", "--quiet", "--size", "128x128", "--only", rule.row]
+    code, output = HERE.run(command, 1800)
     row = next((line.split() for line in output.splitlines() if line.split()[:1] == [rule.row]), None)
     if row is None or code not in (0, 1):
         checkout.fail(f"{rule.name}: stress row {rule.row} ended with {code}:\n{output}")
@@ -72,15 +73,15 @@ def fails_row(rule):
 
 def apply_all(listed):
     """Applies one rule after the other. Returns the names of the rules that no test noticed."""
-    checkout.require_clean()
+    HERE.require_clean()
     unnoticed = []
     for rule in listed:
-        with checkout.replaced(texts_with(rule)):
+        with HERE.replaced(texts_with(rule)):
             failed = fails_row(rule) if rule.row else fails_test(rule)
         print(f"{rule.name:28} {'red    ' + failed if failed else 'GREEN  ' + (rule.row or rule.test)}", flush=True)
         if not failed:
             unnoticed.append(rule.name)
-    checkout.build("all")
+    HERE.make("all")
     return unnoticed
 
 

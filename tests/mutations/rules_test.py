@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
-"""Tests of rules.py and drawn.py: what a rule matches and refuses, how folders share mutants, and the report."""
+"""Tests of rules.py, drawn.py and reach.py: what a rule matches, how mutants are counted, which tests run a line."""
+import contextlib
+import io
 import os
+import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
 import drawn
+import reach
 import rules
 
 CODE = """
@@ -69,12 +74,69 @@ class Drawn(unittest.TestCase):
             drawn.code_lines = before
 
     def test_the_report_counts_only_what_could_be_noticed(self):
-        import io
         out = io.StringIO()
         drawn.report([{"folder": "a", "outcome": outcome, "file": "f", "line": 1, "before": "x", "after": "y"}
-                      for outcome in ["killed"] * 3 + ["survived", "same code", "does not compile"]], out)
-        self.assertIn("| a | 3 | 1 | 0.75 | 1 | 1 |", out.getvalue())
+                      for outcome in ["killed"] * 3 + ["survived", "undecided", "same code", "does not compile"]], out)
+        self.assertIn("| a | 3 | 1 | 1 | 0.60 | 1 | 1 |", out.getvalue())
         self.assertIn("survived: f:1", out.getvalue())
+
+    def test_a_draw_is_handed_out_once_and_replaced_if_it_judges_nothing(self):
+        before, drawn.draw = drawn.draw, lambda files, seed: ({"file": files[0], "line": 1, "seconds": 0}, seed)
+        try:
+            with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+                store = os.path.join(folder, "store.json")
+                draws = drawn.Draws(store, "code", "s", {"a": ["f"]}, {"a": 2}, again=False)
+                first, second = draws.take(), draws.take()
+                self.assertEqual((first[1], second[1]), ("s/a/0", "s/a/1"))
+                draws.put(dict(first[0], outcome="same code", after=""))
+                third = draws.take()
+                self.assertEqual(third[1], "s/a/2")
+                draws.put(dict(second[0], outcome="killed", after=""))
+                draws.put(dict(third[0], outcome="undecided", after=""))
+                self.assertIsNone(draws.take())
+                with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as text:
+                    drawn.Draws(store, "other code", "s", {"a": ["f"]}, {"a": 2}, again=False)
+                self.assertIn("wanted mutants of this code, found those of other code", text.getvalue())
+                # A second run takes up only what is undecided.
+                draws = drawn.Draws(store, "code", "s", {"a": ["f"]}, {"a": 2}, again=True)
+                self.assertEqual(draws.take()[1], "s/a/2")
+                draws.put(dict(third[0], outcome="survived", after=""))
+                self.assertIsNone(draws.take())
+        finally:
+            drawn.draw = before
+
+
+class Reached(unittest.TestCase):
+    def test_tests_that_run_the_function_come_in_the_order_of_their_time_for_each_of_its_lines(self):
+        lines = {"f.cpp": {"2": ["slow", "quick"], "3": ["slow"], "6": ["other"]},
+                 reach.DRAWING: {"1": ["slow", "other"]}}
+        found = reach.Reach("code", {"slow": 10, "quick": 1, "other": 1}, lines)
+        text = "int f() {\n    a();\n    b();\n}\nint g() {\n    c();\n}\nint h = 1;\n"
+        self.assertEqual([reach.function_around(text, line) for line in (1, 4, 5, 8)], [(1, 4), (1, 4), (5, 7), (8, 1 << 30)])
+        self.assertEqual(found.tests_for("f.cpp", 3, text), ["quick", "slow"])
+        self.assertEqual(found.tests_for("f.cpp", 5, text), ["other"])
+        self.assertEqual(sorted(found.tests_for("f.cpp", 8, text)), ["other", "quick", "slow"])
+        self.assertEqual(found.tests_for("x.glsl", 1, text), ["other", "slow"])
+
+    def test_lines_that_a_program_runs_are_recorded_also_if_a_signal_ends_it(self):
+        here = os.path.dirname(os.path.abspath(__file__))
+        with tempfile.TemporaryDirectory() as folder:
+            os.makedirs(os.path.join(folder, "engine/x"))
+            source, program = os.path.join(folder, "engine/x/a.cpp"), os.path.join(folder, "program")
+            pathlib.Path(source).write_text("int main(int count, char**) {\n    if (count > 1)\n        return 1;\n"
+                                            "    __builtin_trap();\n}\n")
+            common = ["g++", "-g1", "-c", "-o"]
+            subprocess.run([*common, program + "1.o", "-fsanitize-coverage=trace-pc", source], check=True)
+            subprocess.run([*common, program + "2.o", os.path.join(here, "reached.cpp")], check=True)
+            subprocess.run(["g++", "-o", program, program + "1.o", program + "2.o"], check=True)
+            for arguments in [[], ["x"]]:
+                reached = os.path.join(folder, "reached" + "".join(arguments))
+                os.mkdir(reached)
+                subprocess.run([program, *arguments], env={**os.environ, "CATOPTRIC_REACHED": reached})
+                offsets = reach.marked(os.path.join(reached, "program"))
+                found = reach.source_lines(program, offsets)
+                self.assertIn(("engine/x/a.cpp", 2), found)
+                self.assertEqual(("engine/x/a.cpp", 3) in found, bool(arguments))
 
 
 if __name__ == "__main__":
