@@ -23,6 +23,7 @@ import re
 import subprocess
 import sys
 import threading
+import traceback
 
 import checkout
 import reach
@@ -121,7 +122,8 @@ class Draws:
             if stored["code"] != code:
                 checkout.fail(f"{store}: wanted mutants of this code, found those of other code; choose another --out")
             self.records = stored["records"]
-        self.again = [record for record in self.records if again and record["outcome"] in ("undecided", "survived")]
+        self.again = [record for record in self.records
+                      if again and record["folder"] in folders and record["outcome"] in ("undecided", "survived")]
         self.known = {(record["folder"], record["draw"]): record for record in self.records}
         self.next = dict.fromkeys(folders, 0)
         self.pending = dict.fromkeys(folders, 0)  # judged, or being judged
@@ -204,9 +206,13 @@ def main(arguments):
     judges = [Judge(f"out/mutants/tree-{number}", reached, shaders) for number in range(chosen.jobs)]
 
     def work(judge):
-        while task := draws.take():
-            judge.judge(*task, chosen.most_seconds)
-            draws.put(task[0])
+        try:
+            while task := draws.take():
+                judge.judge(*task, chosen.most_seconds)
+                draws.put(task[0])
+        except BaseException:
+            traceback.print_exc()
+            os._exit(2)  # the other judges would wait for a result that never comes
 
     workers = [threading.Thread(target=work, args=[judge]) for judge in judges]
     for worker in workers:

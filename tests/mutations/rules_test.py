@@ -102,6 +102,8 @@ class Drawn(unittest.TestCase):
                 self.assertEqual(draws.take()[1], "s/a/2")
                 draws.put(dict(third[0], outcome="survived", after=""))
                 self.assertIsNone(draws.take())
+                # A run of other folders leaves it alone.
+                self.assertEqual(drawn.Draws(store, "code", "s", {}, {}, again=True).again, [])
         finally:
             drawn.draw = before
 
