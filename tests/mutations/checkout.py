@@ -29,9 +29,9 @@ class Checkout:
         if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", *CODE], cwd=self.folder).returncode != 0:
             fail(f"{', '.join(CODE)}: wanted no changes that are not committed; commit or stash them first")
 
-    def code_id(self):
-        """Returns a text that differs if the committed code differs. Tests do not count."""
-        return subprocess.run(["git", "rev-parse", *(f"HEAD:{folder}" for folder in CODE)], cwd=self.folder,
+    def content_id(self, folders):
+        """Returns a text that differs if what is committed in one of the folders differs."""
+        return subprocess.run(["git", "rev-parse", *(f"HEAD:{folder}" for folder in folders)], cwd=self.folder,
                               capture_output=True, text=True, check=True).stdout.replace("\n", " ").strip()
 
     @contextlib.contextmanager

@@ -190,7 +190,7 @@ def main(arguments):
     here = checkout.Checkout(".", BUILD)
     here.require_clean()
     reached_file = "out/mutants/reached.json"
-    if not os.path.exists(reached_file) or reach.Reach.load(reached_file).code != here.code_id():
+    if not os.path.exists(reached_file) or reach.Reach.load(reached_file).code != here.content_id(checkout.CODE):
         print("mutate: runs all tests to see which code each runs", flush=True)
         if not here.make("all"):
             checkout.fail("the code that is right does not build")
@@ -201,7 +201,7 @@ def main(arguments):
     reached = reach.Reach.load(reached_file)
     folders = {folder: files for folder, files in sources().items() if folder in (chosen.folder or sources())}
     wanted = shares(sources(), chosen.count)
-    draws = Draws(store, here.code_id(), chosen.seed, folders, wanted, chosen.again)
+    draws = Draws(store, here.content_id(checkout.CODE), chosen.seed, folders, wanted, chosen.again)
     shaders = here.path(BUILD, "test_cache")
     judges = [Judge(f"out/mutants/tree-{number}", reached, shaders) for number in range(chosen.jobs)]
 

@@ -84,6 +84,7 @@ class Judge:
             self.tree.run(["cmake", "--preset", "mutants"], 600)
         if not self.tree.make("all"):
             checkout.fail(f"{folder}: the code that is right does not build")
+        self.tests_id = self.tree.content_id(["tests"])
         # A test that needs the machine for itself cannot run beside other judges.
         self.tests = {name: test for name, test in reach.tests_of(self.tree).items() if not test.alone}
         self.commands = {entry["file"]: entry["command"] for entry in
@@ -132,7 +133,8 @@ class Judge:
         """Builds a mutant and runs tests until one fails. Adds what it found to the record.
 
         "outcome": see JUDGED, or "does not compile" or "same code". "by": the test that failed. "passed": the tests
-        that did not. "covered by": the number of tests that run the code. "seconds": the time of all this."""
+        that did not, and "tests": which state of the tests that was. "covered by": the number of tests that run the
+        code. "seconds": the time of all this."""
         begin = time.monotonic()
         path = record["file"]
         text = pathlib.Path(self.tree.path(path)).read_text()
@@ -152,7 +154,9 @@ class Judge:
             return "does not compile"
         if not self.objects.differ():
             return "same code"
-        passed = record.setdefault("passed", [])
+        if record.get("tests") != self.tests_id:
+            record.update(tests=self.tests_id, passed=[])  # changed tests can notice what the old ones did not
+        passed = record["passed"]
         # Tests that are newer than the record of what tests run may run any line.
         wanted = [name for name in self.tests if name not in self.reached.seconds]
         wanted += [name for name in self.reached.tests_for(record["file"], record["line"], text) if name in self.tests]

@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import time
 
+from checkout import CODE
+
 # Labels and tests that judge no code of the engine in reasonable time, or that build other checkouts.
 LEFT_OUT_LABELS = {"long", "clone", "fuzz", "limits-all", "renderers", "slurm", "install", "bench", "python",
                    "page", "sweep"}
@@ -67,7 +69,7 @@ class Reach:
     """For each test its time in seconds, and for each source the tests that run a line."""
 
     def __init__(self, code, seconds, lines):
-        self.code = code        # code_id() of the code that was run
+        self.code = code        # content_id() of the code that was run
         self.seconds = seconds  # {test: seconds}
         self.lines = lines      # {source: {line: [test]}}
 
@@ -151,7 +153,7 @@ def record(checkout, jobs):
     for test in tests.values():
         if test.alone:
             one(test)
-    return Reach(checkout.code_id(), seconds, lines_by_tests(checkout, folder, seconds)), wrong
+    return Reach(checkout.content_id(CODE), seconds, lines_by_tests(checkout, folder, seconds)), wrong
 
 
 def lines_by_tests(checkout, folder, names):
