@@ -1,9 +1,9 @@
 # layer(NAME [IN samples] USES other... ): declares engine/NAME as an object library of every source in the folder, and
 # makes it part of the library. A layer in samples/ is part of programs only. USES lists the
 # layers whose headers the sources may include. Any other include stops the build (cmake/check_arrows.cmake). With
-# CATOPTRIC_UNITY up to CATOPTRIC_UNITY_SIZE sources of a layer are compiled at a time, which takes a tenth of the time. Names in unnamed
-# namespaces must then differ within the layer. Headers are in a file set, so that CMake checks that each header
-# compiles alone.
+# CATOPTRIC_UNITY up to CATOPTRIC_UNITY_SIZE sources of a layer are compiled at a time; with the usual 32, that takes a
+# tenth of the time. Names in unnamed namespaces must then differ within the layer. Headers are in a file set, so that
+# CMake checks that each header compiles alone.
 include(CMakeParseArguments)
 
 # arrows(NAME FOLDER STAMP USES): checks the include rules between layers. Sets the variable STAMP to the path of a file
@@ -22,7 +22,8 @@ endfunction()
 
 # compile_in_groups(TARGET): with CATOPTRIC_UNITY, compiles up to CATOPTRIC_UNITY_SIZE sources of the target at a time.
 function(compile_in_groups target)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${CATOPTRIC_UNITY} UNITY_BUILD_BATCH_SIZE ${CATOPTRIC_UNITY_SIZE})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${CATOPTRIC_UNITY}
+        UNITY_BUILD_BATCH_SIZE ${CATOPTRIC_UNITY_SIZE})
 endfunction()
 
 function(layer name)

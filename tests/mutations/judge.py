@@ -44,7 +44,7 @@ class Objects:
         return any(now[path] != value for path, value in self.baseline.items())
 
 
-class Store:
+class ShaderStore:
     """The shaders that tests keep on disk. Wrong code can write wrong files there, so they are restored from a copy."""
 
     def __init__(self, tree, copy):
@@ -90,7 +90,7 @@ class Judge:
         self.commands = {entry["file"]: entry["command"] for entry in
                          json.loads(pathlib.Path(self.tree.path(BUILD, "compile_commands.json")).read_text())}
         self.alone = {}
-        self.store = Store(self.tree, shaders)
+        self.store = ShaderStore(self.tree, shaders)
         self.objects = Objects(self.tree)
 
     def compiles_alone(self, path, text):
@@ -150,6 +150,7 @@ class Judge:
         record["seconds"] = round(record.get("seconds", 0) + time.monotonic() - begin)
 
     def outcome(self, record, text, most_seconds):
+        """Returns the outcome of the mutant that the worktree holds now. `text` is the file's correct text."""
         if not self.tree.make(*PROGRAMS, jobs=1):
             return "does not compile"
         if not self.objects.differ():

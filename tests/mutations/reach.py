@@ -117,7 +117,7 @@ def source_lines(module, offsets):
     return found
 
 
-def marked(path):
+def nonzero_offsets(path):
     """Returns the offsets of the bytes of a sparse file that are not 0."""
     found = []
     with open(path, "rb") as file:
@@ -163,7 +163,7 @@ def lines_by_tests(checkout, folder, names):
     for name in names:
         for path in glob.glob(os.path.join(folder, glob.escape(name), "*")):
             if os.path.isfile(path):
-                offsets.setdefault(os.path.basename(path), {})[name] = marked(path)
+                offsets.setdefault(os.path.basename(path), {})[name] = nonzero_offsets(path)
     for module, by_test in offsets.items():
         program = checkout.path(checkout.build, module)
         if not os.path.exists(program):

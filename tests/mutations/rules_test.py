@@ -135,7 +135,7 @@ class Reached(unittest.TestCase):
                 reached = os.path.join(folder, "reached" + "".join(arguments))
                 os.mkdir(reached)
                 subprocess.run([program, *arguments], env={**os.environ, "CATOPTRIC_REACHED": reached})
-                offsets = reach.marked(os.path.join(reached, "program"))
+                offsets = reach.nonzero_offsets(os.path.join(reached, "program"))
                 found = reach.source_lines(program, offsets)
                 self.assertIn(("engine/x/a.cpp", 2), found)
                 self.assertEqual(("engine/x/a.cpp", 3) in found, bool(arguments))
