@@ -1,5 +1,6 @@
 """Makes code of a checkout wrong for a while, builds it, runs programs in it, and restores the code."""
 import contextlib
+import hashlib
 import os
 import subprocess
 import sys
@@ -33,6 +34,11 @@ class Checkout:
         """Returns a text that differs if what is committed in one of the folders differs."""
         return subprocess.run(["git", "rev-parse", *(f"HEAD:{folder}" for folder in folders)], cwd=self.folder,
                               capture_output=True, text=True, check=True).stdout.replace("\n", " ").strip()
+
+    def tests_id(self):
+        """Returns a text that differs if what is committed in a folder of tests differs. Mutations are no tests."""
+        folders = sorted(os.path.join("tests", name) for name in os.listdir(self.path("tests")) if name != "mutations")
+        return hashlib.sha1(self.content_id(folders).encode()).hexdigest()
 
     @contextlib.contextmanager
     def replaced(self, texts):

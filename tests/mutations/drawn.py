@@ -10,7 +10,9 @@ object code and no SPIR-V, are recorded and replaced by another draw. Results ar
 A mutant of C++ is judged by the tests that run its function (reach.py), which a run of all tests finds out first. Tests
 that are quick and run much of the function come first, and the first that fails ends the search. Mutants are judged in
 --jobs worktrees of the last commit, under out/mutants (judge.py). A mutant whose tests take longer than --most-seconds
-is "undecided". Such mutants, and survivors if there are new tests, are continued by a later run with --again.
+is "undecided". Such mutants, and survivors if there are new tests, are continued by a later run with --again. Two
+members of a record in FILE are written by hand: "first" is a list of tests to run before others, and "equal" says why
+the mutant does the same as the code, so that no test can notice it.
 """
 import argparse
 import contextlib
@@ -92,22 +94,26 @@ def draw(files, seed):
 
 
 def report(records, out=sys.stdout):
-    """Prints the share of killed mutants by folder, and the mutants that survived."""
-    print("| folder | killed | survived | undecided | share | no compile | same code |", file=out)
-    print("|---|--:|--:|--:|--:|--:|--:|", file=out)
+    """Prints the share of killed mutants by folder, and the mutants that were not noticed.
+
+    Those that do the same as the code ("equal") count as not noticed, because only a reader says that they do."""
+    print("| folder | killed | equal | survived | undecided | share | no compile | same code |", file=out)
+    print("|---|--:|--:|--:|--:|--:|--:|--:|", file=out)
     folders = sorted({record["folder"] for record in records})
     for folder in [*folders, "all"]:
         count = {}
         for record in records:
             if folder in (record["folder"], "all"):
-                count[record["outcome"]] = count.get(record["outcome"], 0) + 1
-        killed, judged = count.get("killed", 0), sum(count.get(outcome, 0) for outcome in JUDGED)
-        print(f"| {folder} | {killed} | {count.get('survived', 0)} | {count.get('undecided', 0)} | "
+                outcome = "equal" if "equal" in record else record["outcome"]
+                count[outcome] = count.get(outcome, 0) + 1
+        killed, judged = count.get("killed", 0), sum(count.get(outcome, 0) for outcome in (*JUDGED, "equal"))
+        print(f"| {folder} | {killed} | {count.get('equal', 0)} | {count.get('survived', 0)} | {count.get('undecided', 0)} | "
               f"{f'{killed / judged:.2f}' if judged else ''} | {count.get('does not compile', 0)} | "
               f"{count.get('same code', 0)} |", file=out)
     for record in records:
         if record["outcome"] in ("survived", "undecided"):
-            print(f"\n{record['outcome']}: {record['file']}:{record['line']}", file=out)
+            equal = f"equal ({record['equal']})" if "equal" in record else record["outcome"]
+            print(f"\n{equal}: {record['file']}:{record['line']}", file=out)
             print(f"-   {record['before']}\n+   {record['after']}", file=out)
 
 
@@ -122,8 +128,8 @@ class Draws:
             if stored["code"] != code:
                 checkout.fail(f"{store}: wanted mutants of this code, found those of other code; choose another --out")
             self.records = stored["records"]
-        self.again = [record for record in self.records
-                      if again and record["folder"] in folders and record["outcome"] in ("undecided", "survived")]
+        self.again = [record for record in self.records if again and "equal" not in record and
+                      record["folder"] in folders and record["outcome"] in ("undecided", "survived")]
         self.known = {(record["folder"], record["draw"]): record for record in self.records}
         self.next = dict.fromkeys(folders, 0)
         self.pending = dict.fromkeys(folders, 0)  # judged, or being judged
@@ -167,8 +173,8 @@ class Draws:
                 self.records.append(record)
                 self.known[record["folder"], record["draw"]] = record
                 self.pending[record["folder"]] -= record["outcome"] not in JUDGED
-            pathlib.Path(self.store + ".new").write_text(
-                json.dumps({"code": self.code, "records": self.records}, indent=1))
+            records = ",\n".join(json.dumps(record) for record in self.records)  # a line each
+            pathlib.Path(self.store + ".new").write_text(f'{{"code": "{self.code}", "records": [\n{records}\n]}}\n')
             os.replace(self.store + ".new", self.store)
             print(f"{record['outcome']:16} {record['seconds']:4} s {record.get('by', ''):28} "
                   f"{record['file']}:{record['line']}: {record['after']}", flush=True)

@@ -33,15 +33,16 @@ class Objects:
                 continue  # PROGRAMS do not build these, so they can be those of an earlier mutant
             stamp = os.stat(path).st_mtime_ns
             if self.known.get(path, (0, ""))[0] != stamp:
-                bare = self.tree.path(BUILD, "bare.o")
+                bare = self.tree.path(BUILD, "bare")  # no *.o, which hashes() would take for code
                 subprocess.run(["objcopy", "--strip-debug", path, bare], check=True)
                 self.known[path] = (stamp, hashlib.sha1(open(bare, "rb").read()).hexdigest())
         return {path: value for path, (_, value) in self.known.items()}
 
-    def differ(self):
-        """Returns whether some object file differs from that of the correct code."""
+    def differ(self, since=0):
+        """Returns whether an object file that was written at time `since` (ns) or later differs from that of the
+        correct code. Older files can be those of an earlier mutant."""
         now = self.hashes()
-        return any(now[path] != value for path, value in self.baseline.items())
+        return any(now[path] != value and self.known[path][0] >= since for path, value in self.baseline.items())
 
 
 class ShaderStore:
@@ -84,7 +85,8 @@ class Judge:
             self.tree.run(["cmake", "--preset", "mutants"], 600)
         if not self.tree.make("all"):
             checkout.fail(f"{folder}: the code that is right does not build")
-        self.tests_id = self.tree.content_id(["tests"])
+        self.tests_id = self.tree.tests_id()
+        self.right = {}  # {test: whether it passes on right code}, of tests that noticed a mutant
         # A test that needs the machine for itself cannot run beside other judges.
         self.tests = {name: test for name, test in reach.tests_of(self.tree).items() if not test.alone}
         self.commands = {entry["file"]: entry["command"] for entry in
@@ -147,20 +149,38 @@ class Judge:
             with self.tree.replaced({path: wrong}):
                 record["outcome"] = self.outcome(record, text, most_seconds)
             self.store.restore()
+            if record["outcome"] == "killed":
+                self.require_pass(record["by"].partition(" ")[0])
         record["seconds"] = round(record.get("seconds", 0) + time.monotonic() - begin)
+
+    def require_pass(self, name):
+        """Ends the program if a test fails on right code, where it would notice every mutant. Runs each test once."""
+        if name not in self.right:
+            self.right[name] = (name in self.reached.seconds and self.reached.tests == self.tests_id or
+                                self.tree.make("all") and
+                                reach.run(self.tree, self.tests[name], 1800)[0] == 0)
+        if not self.right[name]:
+            checkout.fail(f"{name} fails, although no code is wrong")
 
     def outcome(self, record, text, most_seconds):
         """Returns the outcome of the mutant that the worktree holds now. `text` is the file's correct text."""
-        if not self.tree.make(*PROGRAMS, jobs=1):
-            return "does not compile"
-        if not self.objects.differ():
+        # Tests that are newer than the record of what tests run may run any line.
+        wanted = [name for name in self.tests if name not in self.reached.seconds]
+        wanted += [name for name in self.reached.tests_for(record["file"], record["line"], text) if name in self.tests]
+        wanted.sort(key=lambda name: name not in record.get("first", []))
+        # Most mutants fall to the first test, so its program alone is linked at first.
+        program = self.tests[wanted[0]].program if wanted else "all"
+        begin = time.time_ns()
+        for targets in (PROGRAMS if program == "all" else [program], PROGRAMS):
+            if not self.tree.make(*targets, jobs=1):
+                return "does not compile"
+            if self.objects.differ(begin):
+                break
+        else:
             return "same code"
         if record.get("tests") != self.tests_id:
             record.update(tests=self.tests_id, passed=[])  # changed tests can notice what the old ones did not
         passed = record["passed"]
-        # Tests that are newer than the record of what tests run may run any line.
-        wanted = [name for name in self.tests if name not in self.reached.seconds]
-        wanted += [name for name in self.reached.tests_for(record["file"], record["line"], text) if name in self.tests]
         record["covered by"] = len(wanted)
         for name in wanted:
             test, usual = self.tests[name], self.reached.seconds.get(name, 10)

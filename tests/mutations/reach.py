@@ -68,8 +68,9 @@ def run(checkout, test, timeout, variables={}):
 class Reach:
     """For each test its time in seconds, and for each source the tests that run a line."""
 
-    def __init__(self, code, seconds, lines):
+    def __init__(self, code, tests, seconds, lines):
         self.code = code        # content_id() of the code that was run
+        self.tests = tests      # tests_id() of the tests
         self.seconds = seconds  # {test: seconds}
         self.lines = lines      # {source: {line: [test]}}
 
@@ -77,24 +78,31 @@ class Reach:
         """Returns the names of the tests to run for a change of a line, those most likely to fail soon first.
 
         These are the tests that run a line of the function around it (function_around()), because only the first line
-        of a basic block is recorded. If there is none, all tests are returned, or for a shader those that draw."""
+        of a basic block is recorded. If there is none, all tests are returned, or for a shader those that draw. A test
+        that has the name of the source comes first."""
         if not source.endswith("pp"):
             drawing = {test for tests in self.lines.get(DRAWING, {}).values() for test in tests}
-            return sorted(drawing, key=self.seconds.get)
+            return sorted(drawing, key=lambda test: (not named_like(test, source), self.seconds[test]))
         first, last = function_around(text, line)
         share = {}  # for each test the lines of the function that it runs
         for number, tests in self.lines.get(source, {}).items():
             for test in tests if first <= int(number) <= last else []:
                 share[test] = share.get(test, 0) + 1
-        return sorted(share or self.seconds, key=lambda test: (self.seconds[test] + .2) / share.get(test, 1))
+        return sorted(share or self.seconds, key=lambda test: (not named_like(test, source),
+                                                               (self.seconds[test] + .2) / share.get(test, 1)))
 
     def save(self, path):
-        pathlib.Path(path).write_text(json.dumps({"code": self.code, "seconds": self.seconds, "lines": self.lines}))
+        pathlib.Path(path).write_text(json.dumps(vars(self)))
 
     @staticmethod
     def load(path):
         stored = json.loads(pathlib.Path(path).read_text())
-        return Reach(stored["code"], stored["seconds"], stored["lines"])
+        return Reach(**stored)
+
+
+def named_like(test, source):
+    """Returns whether a test has the name of a source, as unit/box that of engine/bvh/box.hpp."""
+    return os.path.basename(test) == os.path.splitext(os.path.basename(source))[0]
 
 
 def function_around(text, line):
@@ -153,7 +161,8 @@ def record(checkout, jobs):
     for test in tests.values():
         if test.alone:
             one(test)
-    return Reach(checkout.content_id(CODE), seconds, lines_by_tests(checkout, folder, seconds)), wrong
+    lines = lines_by_tests(checkout, folder, seconds)
+    return Reach(checkout.content_id(CODE), checkout.tests_id(), seconds, lines), wrong
 
 
 def lines_by_tests(checkout, folder, names):

@@ -7,10 +7,13 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True
+import checkout
 import drawn
+import judge
 import reach
 import rules
 
@@ -75,10 +78,13 @@ class Drawn(unittest.TestCase):
 
     def test_the_report_counts_only_what_could_be_noticed(self):
         out = io.StringIO()
-        drawn.report([{"folder": "a", "outcome": outcome, "file": "f", "line": 1, "before": "x", "after": "y"}
-                      for outcome in ["killed"] * 3 + ["survived", "undecided", "same code", "does not compile"]], out)
-        self.assertIn("| a | 3 | 1 | 1 | 0.60 | 1 | 1 |", out.getvalue())
+        records = [{"folder": "a", "outcome": outcome, "file": "f", "line": 1, "before": "x", "after": "y"}
+                   for outcome in ["killed"] * 3 + ["survived"] * 2 + ["undecided", "same code", "does not compile"]]
+        records[3]["equal"] = "b is 0"
+        drawn.report(records, out)
+        self.assertIn("| a | 3 | 1 | 1 | 1 | 0.50 | 1 | 1 |", out.getvalue())
         self.assertIn("survived: f:1", out.getvalue())
+        self.assertIn("equal (b is 0): f:1", out.getvalue())
 
     def test_a_draw_is_handed_out_once_and_replaced_if_it_judges_nothing(self):
         before, drawn.draw = drawn.draw, lambda files, seed: ({"file": files[0], "line": 1, "seconds": 0}, seed)
@@ -112,13 +118,16 @@ class Reached(unittest.TestCase):
     def test_tests_that_run_the_function_come_in_the_order_of_their_time_for_each_of_its_lines(self):
         lines = {"f.cpp": {"2": ["slow", "quick"], "3": ["slow"], "6": ["other"]},
                  reach.DRAWING: {"1": ["slow", "other"]}}
-        found = reach.Reach("code", {"slow": 10, "quick": 1, "other": 1}, lines)
+        found = reach.Reach("code", "tests", {"slow": 10, "quick": 1, "other": 1}, lines)
         text = "int f() {\n    a();\n    b();\n}\nint g() {\n    c();\n}\nint h = 1;\n"
         self.assertEqual([reach.function_around(text, line) for line in (1, 4, 5, 8)], [(1, 4), (1, 4), (5, 7), (8, 1 << 30)])
         self.assertEqual(found.tests_for("f.cpp", 3, text), ["quick", "slow"])
         self.assertEqual(found.tests_for("f.cpp", 5, text), ["other"])
         self.assertEqual(sorted(found.tests_for("f.cpp", 8, text)), ["other", "quick", "slow"])
         self.assertEqual(found.tests_for("x.glsl", 1, text), ["other", "slow"])
+        # The test that has the name of the source comes first.
+        lines["engine/x/slow.cpp"] = lines["f.cpp"]
+        self.assertEqual(found.tests_for("engine/x/slow.cpp", 3, text), ["slow", "quick"])
 
     def test_lines_that_a_program_runs_are_recorded_also_if_a_signal_ends_it(self):
         here = os.path.dirname(os.path.abspath(__file__))
@@ -139,6 +148,29 @@ class Reached(unittest.TestCase):
                 found = reach.source_lines(program, offsets)
                 self.assertIn(("engine/x/a.cpp", 2), found)
                 self.assertEqual(("engine/x/a.cpp", 3) in found, bool(arguments))
+
+
+class Compared(unittest.TestCase):
+    def test_object_files_differ_if_their_code_does_and_not_if_only_debug_information_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.makedirs(os.path.join(folder, judge.BUILD))
+            source = os.path.join(folder, "a.cpp")
+
+            def compiled(text, name="a"):
+                pathlib.Path(source).write_text(text)
+                subprocess.run(["g++", "-g", "-c", "-o", os.path.join(folder, judge.BUILD, f"{name}.o"), source], check=True)
+
+            compiled("int f() { return 1; }")
+            compiled("int g() { return 3; }", "b")
+            for _ in range(2):  # a second start finds what the first has left
+                objects = judge.Objects(checkout.Checkout(folder, judge.BUILD))
+                compiled("\n\nint f() { return 1; }")
+                self.assertFalse(objects.differ())
+                compiled("int f() { return 2; }")
+                self.assertTrue(objects.differ())
+                self.assertFalse(objects.differ(since=time.time_ns()))  # of an earlier mutant
+                compiled("int f() { return 1; }")
+                self.assertFalse(objects.differ())
 
 
 if __name__ == "__main__":
