@@ -76,6 +76,16 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
     EXPECT_EQ(next.count_stored(), 1u);
 }
 
+TEST_F(ShaderCache, FoldersThatDoNotExistAreMade) {
+    const ConstantBits constants{{find_constant_id("peels"), 1}};
+    const fs::path inner = folder / "a" / "b";
+    EXPECT_EQ(find_in(*std::make_unique<gpu::SpecialisedShaderCache>(inner), constants),
+              specialise_without_cache(constants));
+    gpu::SpecialisedShaderCache next(inner);
+    find_in(next, constants);
+    EXPECT_EQ(next.count_loaded(), 1u);
+}
+
 TEST_F(ShaderCache, BrokenFilesAreMadeAgain) {
     const ConstantBits constants{{find_constant_id("peels"), 1}};
     const ShaderWords wanted = specialise_without_cache(constants);

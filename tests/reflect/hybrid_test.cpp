@@ -83,6 +83,17 @@ TEST(Hybrid, AllUnknownEqualsRayTracing) {
                                    kHybridPictureSize);
 }
 
+TEST(Hybrid, LookupsAreReturnedOnlyIfTheyAreAskedFor) {
+    const app::TechniqueResult part =
+        test::render_technique(scene::make_cornell_mirrors(), "hybrid:face=32", {32, 32});
+    EXPECT_TRUE(part.lookup.empty());
+}
+
+TEST(Hybrid, PictureOfOneRowIsTracedAsWell) {
+    expect_forced_hybrid_is_traced(scene::make_cornell_mirrors(), ",face=32", "raytrace:depth=16",
+                                   {64, 1});
+}
+
 TEST(Hybrid, MoreWorkGroupsThanOneDimensionAllows) {
     scene::Scene close = test::make_lit_room(1, 1);
     close.cameras = {{.name = "close",

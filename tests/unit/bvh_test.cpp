@@ -1,3 +1,4 @@
+#include "bvh/box.hpp"
 #include "bvh/bvh.hpp"
 #include "bvh/closest_hit.hpp"
 #include "bvh/words.hpp"
@@ -39,6 +40,14 @@ std::vector<Triangle> make_divided_octahedron(int levels, float scale = 1, vec3 
     for (const auto& [a, b, c] : faces)
         result.push_back({a * scale + offset, b * scale + offset, c * scale + offset});
     return result;
+}
+
+TEST(Bvh, BoxOutsideTheCoreGrowsByTwiceTheRoundingErrorOfItsDistance) {
+    const BoundingBox core{vec3(-1), vec3(3)}; // its middle is (1, 1, 1)
+    EXPECT_EQ(compute_box_padding({vec3(-1), vec3(3)}, core), 0);
+    const float gamma = f32::rounding_error_gamma_bound(16);
+    EXPECT_FLOAT_EQ(compute_box_padding({{0, 0, 2}, {1, 1, 6}}, core), 2 * gamma * 5);
+    EXPECT_FLOAT_EQ(compute_box_padding({{0, -9, 2}, {1, 1, 6}}, core), 2 * gamma * 10);
 }
 
 TEST(Bvh, TreeIsSoundForAnyTriangleCount) {

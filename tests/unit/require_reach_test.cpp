@@ -206,6 +206,24 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     EXPECT_EQ(suggest_technique_plan({test::make_lit_room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
 
+TEST(RequireSuggest, UnseenMirrorCostsOneSmallCapture) {
+    std::array<double, 2> costs{};
+    for (const bool is_mirror : {false, true}) {
+        scene::Scene scene = test::make_mirror_hall();
+        const std::size_t grey = test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}),
+                          material = is_mirror ? scene.objects.back().material : grey;
+        test::add_ball(scene, "outside", material, {0, 0, 9}, .5, 2);
+        const PlanSuggestion suggestion =
+            suggest_technique_plan({scene, scene.cameras[0], {96, 96}});
+        ASSERT_EQ(suggestion.plan.ends_with("4=reuse:face=64 *=march"), is_mirror)
+            << suggestion.plan;
+        costs.at(is_mirror ? 1 : 0) = suggestion.candidates.front().cost;
+        if (!is_mirror) costs[0] += static_cast<double>(scene::triangle_count(scene));
+    }
+    const PictureCostTable cost;
+    EXPECT_NEAR(costs[1] - costs[0], cost.pass + cost.pixel * 6 * 64 * 64, 1e-6);
+}
+
 /// Tests drawn views of the four balls of the built-in scene. In some views, the capture of a ball
 /// shows all that the ball reflects, in others nearly all or less.
 TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
