@@ -1,5 +1,6 @@
 // Tests of the choice of a device by index or name.
 #include "gpu/device.hpp"
+#include "gpu/vulkan.hpp"
 #include "support/device.hpp"
 
 namespace {
@@ -34,6 +35,33 @@ TEST(Device, ListNamesDriverVersionAndThreads) {
         EXPECT_EQ(info.api.substr(0, 2), "1.");
         EXPECT_EQ(info.threads > 0, info.type == "cpu");
     }
+}
+
+TEST(Device, ResultsOfVulkanAreNamedAsVulkanNamesThem) {
+#define EXPECT_OWN_NAME(result) EXPECT_STREQ(gpu::vk_result_name(result), #result)
+    EXPECT_OWN_NAME(VK_SUCCESS);
+    EXPECT_OWN_NAME(VK_TIMEOUT);
+    EXPECT_OWN_NAME(VK_NOT_READY);
+    EXPECT_OWN_NAME(VK_ERROR_OUT_OF_HOST_MEMORY);
+    EXPECT_OWN_NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    EXPECT_OWN_NAME(VK_ERROR_OUT_OF_POOL_MEMORY);
+    EXPECT_OWN_NAME(VK_ERROR_FRAGMENTED_POOL);
+    EXPECT_OWN_NAME(VK_ERROR_FRAGMENTATION);
+    EXPECT_OWN_NAME(VK_ERROR_TOO_MANY_OBJECTS);
+    EXPECT_OWN_NAME(VK_ERROR_INITIALIZATION_FAILED);
+    EXPECT_OWN_NAME(VK_ERROR_DEVICE_LOST);
+    EXPECT_OWN_NAME(VK_ERROR_MEMORY_MAP_FAILED);
+    EXPECT_OWN_NAME(VK_ERROR_LAYER_NOT_PRESENT);
+    EXPECT_OWN_NAME(VK_ERROR_EXTENSION_NOT_PRESENT);
+    EXPECT_OWN_NAME(VK_ERROR_FEATURE_NOT_PRESENT);
+    EXPECT_OWN_NAME(VK_ERROR_INCOMPATIBLE_DRIVER);
+    EXPECT_OWN_NAME(VK_ERROR_FORMAT_NOT_SUPPORTED);
+    EXPECT_OWN_NAME(VK_ERROR_SURFACE_LOST_KHR);
+    EXPECT_OWN_NAME(VK_ERROR_NATIVE_WINDOW_IN_USE_KHR);
+    EXPECT_OWN_NAME(VK_ERROR_OUT_OF_DATE_KHR);
+    EXPECT_OWN_NAME(VK_SUBOPTIMAL_KHR);
+#undef EXPECT_OWN_NAME
+    EXPECT_STREQ(gpu::vk_result_name(static_cast<VkResult>(-123456)), "an unnamed VkResult");
 }
 
 TEST(Device, LayeredRenderingCanBeSwitchedOff) {

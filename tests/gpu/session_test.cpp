@@ -3,11 +3,14 @@
 #include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "session/access.hpp"
+#include "session/run.hpp"
+#include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <random>
 
@@ -170,6 +173,28 @@ TEST(Session, ResumedSequenceContinues) {
 }
 
 /// A capture in other scene units cannot serve as history.
+TEST(Session, WatcherIsToldOfEveryFrameAndCanStop) {
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {"reuse:face=16"},
+                                                   kSessionPictureSize);
+    request.warmup = 2, request.frames = 3;
+    app::Session session(test::get_test_engine(), request.scene);
+    std::vector<std::pair<int, int>> told;
+    std::atomic<int> stop = 0;
+    const app::Watcher watcher{
+        .on_frame = [&](int number, int count) { told.emplace_back(number, count); },
+        .stop = &stop};
+    app::run(session, request, watcher);
+    EXPECT_EQ(told, (std::vector<std::pair<int, int>>{{1, 5}, {2, 5}, {3, 5}, {4, 5}, {5, 5}}));
+    for (const auto& [signal, failure] :
+         {std::pair(1, Failure::hangup), {2, Failure::interrupted}, {15, Failure::terminated}}) {
+        stop = signal;
+        told.clear();
+        test::expect_error([&] { app::run(session, request, watcher); }, failure,
+                           {"stopped by signal " + std::to_string(signal)});
+        EXPECT_TRUE(told.empty());
+    }
+}
+
 TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");

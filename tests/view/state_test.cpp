@@ -243,6 +243,26 @@ TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
         EXPECT_EQ(parse_viewer_settings(text), SavedViewerSettings()) << text;
 }
 
+TEST(ViewTimes, TimesOfTheHostAreNamedInTheOrderOfWork) {
+    TimeStatistics::FrameTimeSample sample;
+    sample.frame.host = {.update = 1, .hierarchy = 2, .compile = 3, .record = 4};
+    sample.frame.gpu_ms = 8;
+    sample.host_ms = 5, sample.acquire_ms = 6, sample.present_ms = 7;
+    TimeStatistics times;
+    times.add(sample);
+    std::vector<std::string> names;
+    std::vector<double> medians;
+    for (const TimeTableRow& row : times.host()) {
+        names.push_back(row.name);
+        medians.push_back(row.median);
+    }
+    EXPECT_THAT(names, ElementsAre("update", "hierarchy", "compile", "record", "host, by the clock",
+                                   "acquire", "present"));
+    EXPECT_THAT(medians, ElementsAre(1, 2, 3, 4, 5, 6, 7));
+    EXPECT_EQ(times.gpu().median, 8);
+    EXPECT_EQ(times.frame().median, 18);
+}
+
 TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
     TimeStatistics times;
     const auto sample = [](double ms) {
