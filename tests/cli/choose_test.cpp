@@ -206,6 +206,9 @@ TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
     refused({"--max-error", "flip=.1", "--proof-seed", "1"},
             "wanted another than that of the training views, found 1");
     refused({"--max-error", "flip=.1", "--model", "both"}, "--model both");
+    for (const std::string option :
+         {"--cameras-per-instant", "--training-views", "--proof-views", "--reference-seconds"})
+        refused({"--max-error", "flip=.1", option, "-1"}, option + ": wanted");
     const test::ProcessResult hopeless = run_cli(
         {"choose", "flat", "--max-error", "flip=.1", "--proof-views", "58", "-o", "plan.json"});
     EXPECT_EQ(hopeless.exit_code, 2);

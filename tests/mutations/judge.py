@@ -157,7 +157,7 @@ class Judge:
         """Ends the program if a test fails on right code, where it would notice every mutant. Runs each test once."""
         if name not in self.right:
             self.right[name] = (name in self.reached.seconds and self.reached.tests == self.tests_id or
-                                self.tree.make("all") and
+                                self.tree.make(self.tests[name].program) and
                                 reach.run(self.tree, self.tests[name], 1800)[0] == 0)
         if not self.right[name]:
             checkout.fail(f"{name} fails, although no code is wrong")

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <random>
 
 namespace {
@@ -73,6 +74,18 @@ ExpectedHit expect_hit_in_room(const scene::Scene& scene, const dvec3& eye, cons
 
 /// Balls are meshes with corners on the sphere, so their surface lies below the sphere by up to the
 /// height of a facet, which is small because the meshes are fine. Walls are exact.
+TEST(FirstSurface, EachTierHasItsName) {
+    const std::map<ReflectionTier, std::string> names{{ReflectionTier::none, "none"},
+                                                      {ReflectionTier::capture, "capture"},
+                                                      {ReflectionTier::environment, "environment"},
+                                                      {ReflectionTier::unknown, "unknown"},
+                                                      {ReflectionTier::traced, "traced"},
+                                                      {ReflectionTier::mirrored, "mirrored"}};
+    ASSERT_EQ(app::list_reflection_tiers().size(), names.size());
+    for (const auto& [tier, name] : names)
+        EXPECT_EQ(app::list_reflection_tiers().at(static_cast<std::size_t>(tier)).name, name);
+}
+
 TEST(FirstSurface, DrawnPixelsOfARoomHaveTheDistanceNormalAndNumbersOfAFormula) {
     scene::Scene scene = test::make_lit_room(3, 0);
     for (const scene::Object& object : scene.objects)

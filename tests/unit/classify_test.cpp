@@ -95,6 +95,7 @@ TEST(Classify, DielectricsAreMirrorsOnlyOnRequestAndIfSmoothEnough) {
 }
 
 TEST(Classify, LargestObjectsOfGlassAreMirrors) {
+    constexpr std::size_t kMost = 64;
     const Material glass{.name = "glass",
                          .albedo = vec3(1),
                          .roughness = 0,
@@ -105,17 +106,17 @@ TEST(Classify, LargestObjectsOfGlassAreMirrors) {
     find_mirrors(scene);
     EXPECT_TRUE(scene.objects[0].mirror);
     EXPECT_TRUE(scene.unsupported.empty());
-    for (std::size_t i = 1; i <= kMaxGlassMirrors; ++i) {
+    for (std::size_t i = 1; i <= kMost; ++i) {
         Object object = scene.objects[0];
         // The object in the middle of the list is the smallest.
-        const double size = i == kMaxGlassMirrors / 2 ? .5 : 1 + static_cast<double>(i);
+        const double size = i == kMost / 2 ? .5 : 1 + static_cast<double>(i);
         object.world_from_object = dmat4(size);
         object.world_from_object[3][3] = 1;
         scene.objects.push_back(object);
     }
     find_mirrors(scene);
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-        EXPECT_EQ(scene.objects[i].mirror, i != kMaxGlassMirrors / 2) << i;
+        EXPECT_EQ(scene.objects[i].mirror, i != kMost / 2) << i;
     ASSERT_EQ(scene.unsupported.size(), 1u);
     EXPECT_EQ(scene.unsupported[0].id, "glass-as-diffuse");
     scene.objects.pop_back();

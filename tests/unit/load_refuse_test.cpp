@@ -420,7 +420,9 @@ TEST_F(LoadRefusalTest, GlbHeadersThatContradictTheFileAreRefused) {
     std::memcpy(&length, whole.data() + 12, 4);
     EXPECT_THAT(with(4, 1), HasSubstr("wanted GLB version 2, found 1"));
     EXPECT_THAT(with(8, 12), HasSubstr("header: wanted 12 bytes"));
-    EXPECT_THAT(with(12, ~0u), HasSubstr("first chunk"));
+    EXPECT_THAT(with(12, ~0u),
+                HasSubstr("first chunk: wanted JSON of at most " +
+                          std::to_string(whole.size() - 20) + " bytes, found 4294967295"));
     EXPECT_THAT(with(16, 7), HasSubstr("first chunk"));
     EXPECT_THAT(with(20 + length, ~0u), HasSubstr("second chunk"));
     EXPECT_THAT(with(20 + length + 4, 7), HasSubstr("neither")) << "no binary chunk";

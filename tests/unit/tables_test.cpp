@@ -113,6 +113,19 @@ measure::Row make_row_of_colour(const vec3& colour) {
     return row;
 }
 
+TEST(Tables, MetricsAndStudiesSayWhatTheyAre) {
+    for (const measure::Metric& metric : measure::list_metrics()) {
+        EXPECT_FALSE(metric.help.empty()) << metric.name;
+        for (const std::string_view unit : {"ms", "bytes", "degrees"})
+            if (metric.name.ends_with("_" + std::string(unit)))
+                EXPECT_EQ(metric.unit, unit) << metric.name;
+        for (const measure::MetricColumn& column : metric.columns)
+            EXPECT_FALSE(column.title.empty()) << metric.name;
+    }
+    for (const app::Study& study : app::list_studies())
+        EXPECT_FALSE(study.help.empty()) << study.name;
+}
+
 TEST(Tables, RegisteredMetricIsInEveryReportFile) {
     const measure::Comparison made = report::sample::make_comparison(
         {make_row_of_colour({.25F, .5F, 0})});
