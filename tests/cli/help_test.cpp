@@ -1,6 +1,9 @@
 // Tests of the output of `catoptric help`, `--version` and `list`.
 #include "cli/program.hpp"
 
+#include <algorithm>
+#include <regex>
+#include <span>
 #include <sstream>
 
 namespace {
@@ -24,6 +27,28 @@ TEST_F(CommandLineTest, HelpFitsEightyColumns) {
     for (const Words& words : asked)
         for (const std::string& line : split_into_lines(run_cli(words).out))
             EXPECT_LE(line.size(), 80U) << words.front() << ": " << line;
+}
+
+TEST_F(CommandLineTest, HelpNamesOptionsByLowerCaseWords) {
+    const std::regex option("(^|[ ,])(--[^ ,=\\]\\[]*)"), name("--[a-z0-9]+(-[a-z0-9]+)*");
+    for (const std::string& verb : kProgramVerbs)
+        for (const std::string& line : split_into_lines(run_cli({verb, "--help"}).out)) {
+            std::smatch found;
+            if (line.starts_with("  -") && std::regex_search(line, found, option))
+                EXPECT_TRUE(std::regex_match(found[2].str(), name)) << verb << ": " << line;
+        }
+}
+
+TEST_F(CommandLineTest, ExamplesOfTheHelpAreCommands) {
+    for (const std::string& verb : kProgramVerbs) {
+        std::vector<std::string> lines = split_into_lines(run_cli({verb, "--help"}).out);
+        const auto begin = std::ranges::find(lines, "Examples:");
+        if (begin == lines.end()) continue;
+        const auto end = std::find(begin, lines.end(), "");
+        EXPECT_GE(end - begin, 2) << verb;
+        for (const std::string& line : std::span(begin + 1, end))
+            EXPECT_THAT(line, testing::StartsWith("  catoptric ")) << verb;
+    }
 }
 
 TEST_F(CommandLineTest, HelpShowsCommonOptionsFirst) {

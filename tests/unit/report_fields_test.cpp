@@ -455,6 +455,15 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
                                             {"Mirror 1", error(row.error_per_mirror[0].flip)},
                                             {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
 
+    // A row without errors of its own mirrors has as many cells as the others.
+    Comparison two_rows = make_comparison_of_distinct_figures(filler);
+    two_rows.rows.push_back(two_rows.rows.front());
+    two_rows.rows[1].error_per_mirror.pop_back();
+    const ReportTable by_mirror = make_mirror_table(two_rows);
+    ASSERT_EQ(by_mirror.rows.size(), 2u);
+    EXPECT_EQ(by_mirror.rows[0].size(), by_mirror.columns.size());
+    EXPECT_EQ(by_mirror.rows[1].size(), by_mirror.columns.size());
+
     const LookupErrorSummary& lookup = *row.lookup;
     EXPECT_EQ(cells_of_table_row_by_column(
                   make_lookup_table(make_comparison_of_distinct_figures(filler)), 0),

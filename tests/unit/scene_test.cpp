@@ -159,6 +159,20 @@ TEST(CornellMirrors, ClosedSceneHasAFrontWallThatOnlyTheCameraIgnores) {
 
 // ---- motion
 
+TEST(FlatMirrorRoom, WallsHaveTheirColours) {
+    const Scene scene = make_flat_mirror_room();
+    const std::map<std::string, std::string> paints{{"wall0", "red"},   {"wall1", "blue"},
+                                                    {"wall2", "white"}, {"wall3", "wood"},
+                                                    {"wall4", "white"}, {"wall5", "white"}};
+    std::size_t walls = 0;
+    for (const Object& object : scene.objects)
+        if (const auto found = paints.find(object.name); found != paints.end()) {
+            EXPECT_EQ(scene.materials[object.material].name, found->second) << object.name;
+            ++walls;
+        }
+    EXPECT_EQ(walls, paints.size());
+}
+
 TEST(Motion, BallFourMovesUpAndDown) {
     const Scene scene = make_cornell_mirrors();
     EXPECT_TRUE(is_animated(scene));

@@ -243,6 +243,14 @@ TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
         EXPECT_EQ(parse_viewer_settings(text), SavedViewerSettings()) << text;
 }
 
+TEST(ViewState, DifferencePictureIsTheAbsoluteDifferenceTimesTheGain) {
+    measure::Picture a(2, 1), b(2, 1);
+    a.pixels = {vec3(.5f, .25f, 0), vec3(1)};
+    b.pixels = {vec3(.25f, .5f, 0), vec3(0)};
+    const measure::Picture difference = make_difference_picture(a, b, 2);
+    EXPECT_THAT(difference.pixels, ElementsAre(vec3(.5f, .5f, 0), vec3(1)));
+}
+
 TEST(ViewTimes, TimesOfTheHostAreNamedInTheOrderOfWork) {
     TimeStatistics::FrameTimeSample sample;
     sample.frame.host = {.update = 1, .hierarchy = 2, .compile = 3, .record = 4};
