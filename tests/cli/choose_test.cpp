@@ -52,6 +52,9 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
     const std::vector<double> errors = measure_plan_errors(6, certificate["proof_seed"]);
     const auto failures = std::ranges::count_if(errors, [](double error) { return error > .5; });
     EXPECT_EQ(certificate["failures"], failures);
+    EXPECT_THAT(ended.out, HasSubstr("; at least 50 % of views have flip <= 0.5, with 90 % "
+                                     "confidence (6 views of 32x32, " +
+                                     std::to_string(failures) + " failures)"));
     EXPECT_NEAR(certificate["share_bound"], std::pow(.1, 1.0 / 6), 1e-9);
     // If the error bound were the second largest of six errors, its confidence would be too small:
     // P(Binomial(6, .5) <= 1) = 7/64 > .1. The bound is therefore the largest error.

@@ -263,6 +263,41 @@ std::string make_two_texel_jpeg() {
     return {kJpegBytes, sizeof kJpegBytes - 1};
 }
 
+/// Returns a TIFF file of one texel, red 200, green 40, blue 10, alpha 128. The colours are not
+/// multiplied by alpha.
+std::string make_one_texel_tiff() {
+    std::string bytes("II*\0\x08\0\0\0", 8);
+    const auto add_word = [&](unsigned word) {
+        bytes += static_cast<char>(word & 255U);
+        bytes += static_cast<char>(word >> 8U);
+    };
+    constexpr unsigned kShort = 3, kLong = 4, kAfterTags = 8 + 2 + 10 * 12 + 4;
+    const unsigned tags[10][4] = {{256, kLong, 1, 1},              // width
+                                  {257, kLong, 1, 1},              // height
+                                  {258, kShort, 4, kAfterTags},    // bits of each channel
+                                  {259, kShort, 1, 1},             // no compression
+                                  {262, kShort, 1, 2},             // RGB
+                                  {273, kLong, 1, kAfterTags + 8}, // place of the texel
+                                  {277, kShort, 1, 4},             // channels
+                                  {278, kLong, 1, 1},              // rows
+                                  {279, kLong, 1, 4},              // bytes
+                                  {338, kShort, 1, 2}};            // alpha is unassociated
+    add_word(10);
+    for (const auto& [tag, type, count, value] : tags)
+        for (const unsigned word : {tag, type, count, 0U, value, 0U}) add_word(word);
+    add_word(0), add_word(0);
+    for (int channel = 0; channel < 4; ++channel) add_word(8);
+    return bytes + "\xc8\x28\x0a\x80";
+}
+
+TEST_F(LoadSurfaceTest, ColoursOfImagesAreNotMultipliedByAlpha) {
+    SceneLoadBudgetUsage account({});
+    const std::shared_ptr<const Image> image = decode_image(make_one_texel_tiff(), "", "x",
+                                                            account);
+    ASSERT_TRUE(image);
+    EXPECT_THAT(image->texels, testing::ElementsAre(0x800a28c8U));
+}
+
 TEST_F(LoadSurfaceTest, JpegImagesAreDecoded) {
     SceneLoadBudgetUsage account({});
     const std::shared_ptr<const Image> image = decode_image(make_two_texel_jpeg(), "", "x",
