@@ -124,6 +124,11 @@ TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
         make_render_words("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
     process.out_path = (folder / "t.json").string();
     expect_exit_code(test::run_process(process), 2, {"t.json", "the same file as /dev/stdout"});
+    process = make_process_start({"graph", "room.obj", "--technique", "raytrace", "-q"});
+    process.out_path = (folder / "room.mtl").string(); // which this empties
+    expect_exit_code(test::run_process(process), 2,
+                     {"/dev/stdout", "the same file as", "room.mtl"});
+    write_input_file("room.mtl", kMaterials);
     process = make_process_start(
         make_render_words("room.obj", {"-o", "x.png", "--trace", "t.json"}));
     process.out_path = (folder / "t.json").string();

@@ -35,7 +35,7 @@ class Objects:
             if self.known.get(path, (0, ""))[0] != stamp:
                 bare = self.tree.path(BUILD, "bare")  # no *.o, which hashes() would take for code
                 subprocess.run(["objcopy", "--strip-debug", path, bare], check=True)
-                self.known[path] = (stamp, hashlib.sha1(open(bare, "rb").read()).hexdigest())
+                self.known[path] = (stamp, hashlib.sha1(pathlib.Path(bare).read_bytes()).hexdigest())
         return {path: value for path, (_, value) in self.known.items()}
 
     def differ(self, since=0):

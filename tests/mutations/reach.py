@@ -78,16 +78,16 @@ class Reach:
         """Returns the names of the tests to run for a change of a line, those most likely to fail soon first.
 
         These are the tests that run a line of the function around it (function_around()), because only the first line
-        of a basic block is recorded. If there is none, all tests are returned, or for a shader those that draw. A test
-        that has the name of the source comes first."""
+        of a basic block is recorded. If there is none, these are the tests that run a line of the file, or else all
+        tests. For a shader these are the tests that draw. A test that has the name of the source comes first."""
         if not source.endswith("pp"):
             drawing = {test for tests in self.lines.get(DRAWING, {}).values() for test in tests}
             return sorted(drawing, key=lambda test: (not named_like(test, source), self.seconds[test]))
-        first, last = function_around(text, line)
-        share = {}  # for each test the lines of the function that it runs
-        for number, tests in self.lines.get(source, {}).items():
-            for test in tests if first <= int(number) <= last else []:
-                share[test] = share.get(test, 0) + 1
+        share = {}  # for each test the lines of the function, or else of the file, that it runs
+        for first, last in [function_around(text, line), (1, 1 << 30)]:
+            for number, tests in self.lines.get(source, {}).items() if not share else []:
+                for test in tests if first <= int(number) <= last else []:
+                    share[test] = share.get(test, 0) + 1
         return sorted(share or self.seconds, key=lambda test: (not named_like(test, source),
                                                                (self.seconds[test] + .2) / share.get(test, 1)))
 

@@ -124,6 +124,7 @@ class Reached(unittest.TestCase):
         self.assertEqual(found.tests_for("f.cpp", 3, text), ["quick", "slow"])
         self.assertEqual(found.tests_for("f.cpp", 5, text), ["other"])
         self.assertEqual(sorted(found.tests_for("f.cpp", 8, text)), ["other", "quick", "slow"])
+        self.assertEqual(found.tests_for("g.cpp", 1, text), ["quick", "other", "slow"])
         self.assertEqual(found.tests_for("x.glsl", 1, text), ["other", "slow"])
         # The test that has the name of the source comes first.
         lines["engine/x/slow.cpp"] = lines["f.cpp"]
