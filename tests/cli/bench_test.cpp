@@ -211,6 +211,10 @@ TEST_F(BenchTuneCliTest, InvalidOptionsAreRefused) {
 }
 
 TEST(BenchAgainst, EachRoundGetsTheOptionsOfTheCommandLine) {
+    // An option is left out by its whole name.
+    EXPECT_THAT(cli::make_command_words_for_round({"--framesets=2", "--outputs"}, 5),
+                testing::ElementsAre("--framesets=2", "--outputs", "--json", "--quiet", "--rounds",
+                                     "1", "--frames", "5"));
     EXPECT_THAT(cli::make_command_words_for_round(
                     {"room.glb", "--against", "old/catoptric", "--size=64x64", "--rounds=8", "-q",
                      "-o", "x.json", "--frames", "99", "--json", "--techniques", "reuse", "march"},

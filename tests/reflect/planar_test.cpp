@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include <iostream>
+#include <memory>
 
 namespace {
 
@@ -241,6 +242,22 @@ TEST(Planar, OnlyVisibleMirrorsGetViews) {
     scene::Scene away = make_scene_with_flat_mirror();
     std::swap(away.cameras.front().eye, away.cameras.front().target);
     EXPECT_EQ(test::render_technique(away, "planar", kSmallPlanarPictureSize).scene_passes, 2);
+}
+
+TEST(Planar, CutOutPartOfAMirrorShowsWhatIsBehind) {
+    scene::Scene scene = make_scene_with_flat_mirror();
+    const scene::Object& object = *std::ranges::find(scene.objects, "mirror", &scene::Object::name);
+    auto halves = std::make_shared<scene::Image>();
+    halves->name = "halves", halves->size = {2, 1}, halves->texels = {0x00ffffffu, 0xffffffffu};
+    scene.meshes[object.mesh].uv[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    scene::Material& material = scene.materials[object.material];
+    material.alpha_cutoff = .5f;
+    material.albedo_texture = scene::Texture{.image = halves, .nearest = true};
+    const measure::Picture
+        planar = test::render_technique(scene, "planar", kSmallPlanarPictureSize).hdr,
+        truth = test::render_technique(scene, "raytrace", kSmallPlanarPictureSize).hdr;
+    const measure::Mask all(truth.pixels.size(), 255);
+    EXPECT_LE(share_of_masked_pixels_off(planar, truth, all), .03);
 }
 
 /// Tests a mirror seen from the front, from behind and by an orthographic camera. Objects behind

@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace catoptric::bvh {
 namespace {
@@ -43,6 +45,31 @@ std::vector<TriangleReference> sort_references_along_axis(std::vector<TriangleRe
     std::ranges::stable_sort(
         references, {}, [&](const TriangleReference& r) { return r.bounding_box_centre()[axis]; });
     return references;
+}
+
+TEST(BvhBuild, MedianDividesAlongTheWidestAxis) {
+    std::array<float, 3> size{1, 2, 4};
+    do {
+        std::vector<Triangle> triangles = make_random_triangles(99, 7);
+        std::vector<TriangleReference> references;
+        SimdBox centres;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const vec3 centre = triangles[i].a * vec3(size[0], size[1], size[2]);
+            references.push_back(
+                {load_simd_vector(centre, index_to_bits_in_float(i)), load_simd_vector(centre, 0)});
+            centres.add_point(references.back().lo);
+        }
+        const vec3 extent = centres.to_bounding_box().extent();
+        const int axis = extent.x > extent.y && extent.x > extent.z ? 0
+                         : extent.y > extent.z                      ? 1
+                                                                    : 2;
+        const std::size_t middle = partition_triangles_at_median(references, centres);
+        ASSERT_EQ(middle, 49u);
+        const auto place = [axis](const TriangleReference& r) { return r.lo[axis]; };
+        EXPECT_LE(std::ranges::max(std::span(references).first(middle), {}, place).lo[axis],
+                  std::ranges::min(std::span(references).subspan(middle), {}, place).lo[axis])
+            << size[0] << size[1] << size[2];
+    } while (std::ranges::next_permutation(size).found);
 }
 
 TEST(BvhDivision, SweepFindsTheCheapestDivision) {

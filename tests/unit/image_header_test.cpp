@@ -1,10 +1,12 @@
 // Tests of TIFF headers. The number of pixels that a header claims is compared with the file's size
 // before decoding.
+#include "core/image_codec.hpp"
 #include "core/image_header.hpp"
 #include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <string>
 
 namespace {
@@ -41,6 +43,26 @@ std::string make_tiff_bytes(std::uint32_t width, std::uint32_t height, std::uint
 
 ImageSizeAndChannels read_image_shape(const std::string& file) {
     return read_image_header(MemoryByteSource(file), "tiff", "a.tif").value();
+}
+
+TEST(ImageHeader, FormatIsFoundByTheFirstBytes) {
+    using namespace std::string_literals;
+    for (const auto& [bytes, format] :
+         std::map<std::string, std::string>{{"\x89PNG\r\n\x1a\n", "png"},
+                                            {"\xff\xd8\xff\xe0", "jpeg"},
+                                            {"\x76\x2f\x31\x01", "openexr"},
+                                            {"#?RADIANCE\n", "hdr"},
+                                            {"BM6", "bmp"},
+                                            {"GIF89a", "gif"},
+                                            {"GIF87a", "gif"},
+                                            {"II*\0"s, "tiff"},
+                                            {"MM\0*"s, "tiff"},
+                                            {"DDS |", "dds"},
+                                            {"8BPS", "psd"},
+                                            {"RIFF\x24\0\0\0WEBPVP8 "s, "webp"},
+                                            {"RIFF\x24\0\0\0WAVEfmt "s, ""},
+                                            {"glTF", ""}})
+        EXPECT_EQ(detect_image_format(bytes), format) << bytes;
 }
 
 TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {
