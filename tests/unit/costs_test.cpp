@@ -168,6 +168,16 @@ std::string costs_error_text(const std::string& text) {
                                   [&] { report::read_device_costs(text, "c.json"); });
 }
 
+TEST(Costs, CostMayBeLessThanANanosecond) {
+    const measure::DeviceCosts costs = report::read_device_costs(
+        R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given",
+            "costs": [{"work": "draws", "ns": 0}, {"work": "vertices", "ns": 0.25}]})",
+        "c.json");
+    ASSERT_EQ(costs.units.size(), 2u);
+    EXPECT_EQ(costs.units[0].ns, 0);
+    EXPECT_EQ(costs.units[1].ns, .25);
+}
+
 TEST(Costs, FolderInPlaceOfAFileIsRefused) {
     EXPECT_EQ(test::catch_error_text(Failure::bad_data, [] { report::read_costs_file("."); }),
               ".: wanted a file with costs of a device, found something else");
