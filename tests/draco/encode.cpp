@@ -1,12 +1,13 @@
 // Program `encode_draco METHOD BITS`: writes the test mesh `BentGrid` to stdout, compressed by
-// Draco. The code is a separate program, because Debian's libdraco exports symbols of another
-// version of tinygltf.
+// Draco. METHOD is edgebreaker, sequential, or described: sequential, with metadata. The code is a
+// separate program, because Debian's libdraco exports symbols of another version of tinygltf.
 #include "support/bent_grid.hpp"
 
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -32,9 +33,14 @@ int main(int count, char** words) {
     add(draco::GeometryAttribute::TEX_COORD, grid.uv, 2);
     const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
     draco::Encoder encoder;
-    encoder.SetEncodingMethod(std::string(words[1]) == "sequential"
-                                  ? draco::MESH_SEQUENTIAL_ENCODING
-                                  : draco::MESH_EDGEBREAKER_ENCODING);
+    encoder.SetEncodingMethod(std::string(words[1]) == "edgebreaker"
+                                  ? draco::MESH_EDGEBREAKER_ENCODING
+                                  : draco::MESH_SEQUENTIAL_ENCODING);
+    if (std::string(words[1]) == "described") {
+        auto metadata = std::make_unique<draco::GeometryMetadata>();
+        metadata->AddEntryString("name", "grid");
+        mesh->AddMetadata(std::move(metadata));
+    }
     const int bits = std::atoi(words[2]);
     for (const auto type : {draco::GeometryAttribute::POSITION, draco::GeometryAttribute::NORMAL,
                             draco::GeometryAttribute::TEX_COORD})

@@ -5,6 +5,7 @@
 #include "measure/views.hpp"
 #include "report/text.hpp"
 #include "support/numbers.hpp"
+#include "support/refusal.hpp"
 #include "unit/report_sample.hpp"
 
 #include <gmock/gmock.h>
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <vector>
 
 namespace {
 
@@ -69,6 +71,18 @@ double mean_square_difference(const Picture& a, const Picture& b) {
         sum += glm::dot(difference, difference) / 3;
     }
     return sum / double(a.pixels.size());
+}
+
+TEST(Halves, HalvesOfAnotherSizeAreRefused) {
+    const Picture small(2, 3), wide(4, 3);
+    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(wide, wide,
+                                                                                      0);
+    EXPECT_EQ(test::catch_error_text(Failure::bad_data,
+                                     [&] {
+                                         measure::compute_difference_from_halves(
+                                             small, halves, {}, std::vector<float>(6));
+                                     }),
+              "halves of a reference: wanted the size of the picture, 2x3, found 4x3");
 }
 
 TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
