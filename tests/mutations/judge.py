@@ -167,7 +167,8 @@ class Judge:
         # Tests that are newer than the record of what tests run may run any line.
         wanted = [name for name in self.tests if name not in self.reached.seconds]
         wanted += [name for name in self.reached.tests_for(record["file"], record["line"], text) if name in self.tests]
-        wanted.sort(key=lambda name: name not in record.get("first", []))
+        first = record.get("first", [])
+        wanted = [*first, *(name for name in wanted if name not in first)]
         # Most mutants fall to the first test, so its program alone is linked at first.
         program = self.tests[wanted[0]].program if wanted else "all"
         begin = time.time_ns()
@@ -188,7 +189,7 @@ class Judge:
             if name in passed:
                 continue
             taken = sum(self.reached.seconds.get(other, 0) for other in passed)
-            if taken + usual > most_seconds and name not in record.get("first", []):
+            if taken + usual > most_seconds and name not in first:
                 left_out = True
                 continue
             if not self.tree.make(test.program, jobs=1):
