@@ -7,11 +7,28 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace {
 
 using nlohmann::json;
+
+/// Returns the cells of a line of CSV. A cell in quotes may hold commas.
+std::vector<std::string> split_csv_line(const std::string& line) {
+    std::vector<std::string> cells{""};
+    bool is_quoted = false;
+    for (const char letter : line) {
+        if (letter == '"')
+            is_quoted = !is_quoted;
+        else if (letter == ',' && !is_quoted)
+            cells.emplace_back();
+        else if (letter != '\r')
+            cells.back() += letter;
+    }
+    return cells;
+}
 
 class Sweep : public CommandLineTest {
 protected:
@@ -87,6 +104,28 @@ TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
     const std::string table = read_output_file("merged/errors.csv");
     EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 6 * 2);
     EXPECT_THAT(table, testing::HasSubstr("scene,view,seed,time,label,"));
+    // The table of errors has all errors of all rows.
+    std::istringstream summary(read_output_file("merged/summary.csv"));
+    std::string line;
+    std::getline(summary, line);
+    const std::vector<std::string> header = split_csv_line(line);
+    for (const json& group : merged["groups"])
+        for (const json& row : group["rows"]) {
+            ASSERT_TRUE(std::getline(summary, line)) << row["label"];
+            const std::vector<std::string> cells = split_csv_line(line);
+            ASSERT_EQ(cells.size(), header.size()) << line;
+            std::map<std::string, std::string> found;
+            for (std::size_t i = 0; i < cells.size(); ++i) found[header[i]] = cells[i];
+            EXPECT_EQ(found["scene"], group["scene"]);
+            EXPECT_EQ(found["label"], row["label"]);
+            EXPECT_EQ(found["views"], "6");
+            for (const std::string metric : {"flip", "rmse", "mae"})
+                for (const std::string part : {"mean", "median", "largest"})
+                    EXPECT_NEAR(std::stod(found[metric + "_" + part]), row["error"][metric][part],
+                                1e-6)
+                        << metric << ' ' << part;
+        }
+    EXPECT_FALSE(std::getline(summary, line));
 }
 
 // As in `compare`, the seed of drawn views is also the seed of random rays.
