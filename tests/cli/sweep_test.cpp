@@ -104,7 +104,7 @@ TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
     const std::string table = read_output_file("merged/errors.csv");
     EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 6 * 2);
     EXPECT_THAT(table, testing::HasSubstr("scene,view,seed,time,label,"));
-    // The table of errors has all errors of all rows.
+    // The summary has a line for each row, with the errors of merged.json.
     std::istringstream summary(read_output_file("merged/summary.csv"));
     std::string line;
     std::getline(summary, line);

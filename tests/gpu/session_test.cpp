@@ -172,7 +172,6 @@ TEST(Session, ResumedSequenceContinues) {
         << "without one that goes on, a frame begins without history";
 }
 
-/// A capture in other scene units cannot serve as history.
 TEST(Session, WatcherIsToldOfEveryFrameAndCanStop) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {"reuse:face=16"},
                                                    kSessionPictureSize);
@@ -195,6 +194,7 @@ TEST(Session, WatcherIsToldOfEveryFrameAndCanStop) {
     }
 }
 
+/// A capture in other scene units cannot serve as history.
 TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");

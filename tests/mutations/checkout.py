@@ -37,8 +37,10 @@ class Checkout:
 
     def tests_id(self):
         """Returns a text that differs if what is committed in a folder of tests differs. Mutations are no tests."""
-        folders = sorted(os.path.join("tests", name) for name in os.listdir(self.path("tests")) if name != "mutations")
-        return hashlib.sha1(self.content_id(folders).encode()).hexdigest()
+        listed = subprocess.run(["git", "ls-tree", "HEAD", "tests/"], cwd=self.folder, capture_output=True, text=True,
+                                check=True).stdout.splitlines()
+        folders = [line for line in listed if not line.endswith("\ttests/mutations")]
+        return hashlib.sha1("\n".join(folders).encode()).hexdigest()
 
     @contextlib.contextmanager
     def replaced(self, texts):

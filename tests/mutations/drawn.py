@@ -9,8 +9,8 @@ object code and no SPIR-V, are recorded and replaced by another draw. Results ar
 
 A mutant of C++ is judged by the tests that run its function (reach.py), which a run of all tests finds out first. Tests
 that are quick and run much of the function come first, and the first that fails ends the search. Mutants are judged in
---jobs worktrees of the last commit, under out/mutants (judge.py). A mutant whose tests take longer than --most-seconds
-is "undecided". Such mutants, and survivors if there are new tests, are continued by a later run with --again. Two
+--jobs worktrees of the last commit, under out/mutants (judge.py). Tests that would take longer than --most-seconds in
+sum are left out, and a mutant that the others do not notice is "undecided". Such mutants, and survivors if there are new tests, are continued by a later run with --again. Two
 members of a record in FILE are written by hand: "first" is a list of tests to run before others, and "equal" says why
 the mutant does the same as the code, so that no test can notice it.
 """
@@ -226,4 +226,5 @@ def main(arguments):
     for worker in workers:
         worker.join()
     report(draws.records)
-    return 1 if any(record["outcome"] in ("survived", "undecided") for record in draws.records) else 0
+    return 1 if any(record["outcome"] in ("survived", "undecided") and "equal" not in record
+                    for record in draws.records) else 0

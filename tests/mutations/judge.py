@@ -86,7 +86,7 @@ class Judge:
         if not self.tree.make("all"):
             checkout.fail(f"{folder}: the code that is right does not build")
         self.tests_id = self.tree.tests_id()
-        self.right = {}  # {test: whether it passes on right code}, of tests that noticed a mutant
+        self.right = set()  # tests that passed on right code after they had noticed a mutant
         # A test that needs the machine for itself cannot run beside other judges.
         self.tests = {name: test for name, test in reach.tests_of(self.tree).items() if not test.alone}
         self.commands = {entry["file"]: entry["command"] for entry in
@@ -155,12 +155,14 @@ class Judge:
 
     def require_pass(self, name):
         """Ends the program if a test fails on right code, where it would notice every mutant. Runs each test once."""
-        if name not in self.right:
-            self.right[name] = (name in self.reached.seconds and self.reached.tests == self.tests_id or
-                                self.tree.make(self.tests[name].program) and
-                                reach.run(self.tree, self.tests[name], 1800)[0] == 0)
-        if not self.right[name]:
-            checkout.fail(f"{name} fails, although no code is wrong")
+        if name in self.right or name in self.reached.seconds and self.reached.tests == self.tests_id:
+            return
+        if not self.tree.make(self.tests[name].program):
+            checkout.fail(f"{name} does not build, although no code is wrong")
+        code, output = reach.run(self.tree, self.tests[name], 1800)
+        if code != 0:
+            checkout.fail(f"{name} fails, although no code is wrong:\n{output[-2000:]}")
+        self.right.add(name)
 
     def outcome(self, record, text, most_seconds):
         """Returns the outcome of the mutant that the worktree holds now. `text` is the file's correct text."""
@@ -168,6 +170,9 @@ class Judge:
         wanted = [name for name in self.tests if name not in self.reached.seconds]
         wanted += [name for name in self.reached.tests_for(record["file"], record["line"], text) if name in self.tests]
         first = record.get("first", [])
+        for name in first:
+            if name not in self.tests:
+                checkout.fail(f"{record['file']}:{record['line']}: there is no test '{name}' to run first")
         wanted = [*first, *(name for name in wanted if name not in first)]
         # Most mutants fall to the first test, so its program alone is linked at first.
         program = self.tests[wanted[0]].program if wanted else "all"
@@ -188,7 +193,7 @@ class Judge:
             test, usual = self.tests[name], self.reached.seconds.get(name, 10)
             if name in passed:
                 continue
-            taken = sum(self.reached.seconds.get(other, 0) for other in passed)
+            taken = sum(self.reached.seconds.get(other, 10) for other in passed)
             if taken + usual > most_seconds and name not in first:
                 left_out = True
                 continue

@@ -72,8 +72,6 @@ ExpectedHit expect_hit_in_room(const scene::Scene& scene, const dvec3& eye, cons
     return hit;
 }
 
-/// Balls are meshes with corners on the sphere, so their surface lies below the sphere by up to the
-/// height of a facet, which is small because the meshes are fine. Walls are exact.
 TEST(FirstSurface, EachTierHasItsName) {
     const std::map<ReflectionTier, std::string> names{{ReflectionTier::none, "none"},
                                                       {ReflectionTier::capture, "capture"},
@@ -86,6 +84,8 @@ TEST(FirstSurface, EachTierHasItsName) {
         EXPECT_EQ(app::list_reflection_tiers().at(static_cast<std::size_t>(tier)).name, name);
 }
 
+/// Balls are meshes with corners on the sphere, so their surface lies below the sphere by up to the
+/// height of a facet, which is small because the meshes are fine. Walls are exact.
 TEST(FirstSurface, DrawnPixelsOfARoomHaveTheDistanceNormalAndNumbersOfAFormula) {
     scene::Scene scene = test::make_lit_room(3, 0);
     for (const scene::Object& object : scene.objects)

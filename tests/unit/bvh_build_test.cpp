@@ -1,5 +1,6 @@
 // Tests of BVH construction. Divisions are compared with all possible divisions, and trees with
 // trees built by other numbers of threads.
+#include "bvh/split.hpp"
 #include "bvh/subtree.hpp"
 #include "core/shader_math.hpp"
 #include "support/hierarchies.hpp"

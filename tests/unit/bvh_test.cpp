@@ -46,6 +46,7 @@ TEST(Bvh, BoxOutsideTheCoreGrowsByTwiceTheRoundingErrorOfItsDistance) {
     const BoundingBox core{vec3(-1), vec3(3)}; // its middle is (1, 1, 1)
     EXPECT_EQ(compute_box_padding({vec3(-1), vec3(3)}, core), 0);
     const float gamma = f32::rounding_error_gamma_bound(16);
+    // The largest distances from the middle along an axis are 6 - 1 and 1 - (-9).
     EXPECT_FLOAT_EQ(compute_box_padding({{0, 0, 2}, {1, 1, 6}}, core), 2 * gamma * 5);
     EXPECT_FLOAT_EQ(compute_box_padding({{0, -9, 2}, {1, 1, 6}}, core), 2 * gamma * 10);
 }

@@ -95,7 +95,7 @@ TEST(Classify, DielectricsAreMirrorsOnlyOnRequestAndIfSmoothEnough) {
 }
 
 TEST(Classify, LargestObjectsOfGlassAreMirrors) {
-    constexpr std::size_t kMost = 64;
+    constexpr std::size_t kMost = 64; // kMaxGlassMirrors, which may not change unnoticed
     const Material glass{.name = "glass",
                          .albedo = vec3(1),
                          .roughness = 0,

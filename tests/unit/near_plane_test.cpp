@@ -22,7 +22,7 @@ const shared::View& find_cube_view_of_direction(const std::vector<shared::View>&
         views, {}, [&](const shared::View& view) { return dot(view.forward, direction); });
 }
 
-TEST(NearPlane, NearPlaneOfCubeFacesIsAPowerOfTwoOfAtMostHalfTheGap) {
+TEST(NearPlane, NearPlaneOfCubeFacesIsTheLargestPowerOfTwoOfAtMostHalfTheGap) {
     for (const auto& [gap, near] : {std::pair(1.f, .5f), {1.5f, .5f}, {2.f, 1.f}, {.3f, .125f}})
         for (const shared::View& view : render::make_cube_views(kEyeNearSurface, gap))
             EXPECT_EQ(view.near, near) << gap;

@@ -455,7 +455,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
                                             {"Mirror 1", error(row.error_per_mirror[0].flip)},
                                             {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
 
-    // A row without errors of its own mirrors has as many cells as the others.
+    // A row that lacks the error of a mirror has as many cells as the others.
     Comparison two_rows = make_comparison_of_distinct_figures(filler);
     two_rows.rows.push_back(two_rows.rows.front());
     two_rows.rows[1].error_per_mirror.pop_back();

@@ -11,6 +11,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 namespace {
 
 using namespace catoptric;
@@ -218,6 +220,7 @@ TEST(RequireSuggest, UnseenMirrorCostsOneSmallCapture) {
         ASSERT_EQ(suggestion.plan,
                   is_mirror ? "1=march 2,3=planar 4=reuse:face=64" : "1=march 2,3=planar");
         costs.at(is_mirror ? 1 : 0) = suggestion.candidates.front().cost;
+        // The capture of the mirror draws all triangles once more.
         if (!is_mirror) costs[0] += static_cast<double>(scene::triangle_count(scene));
     }
     const PictureCostTable cost;

@@ -114,14 +114,18 @@ measure::Row make_row_of_colour(const vec3& colour) {
 }
 
 TEST(Tables, MetricsAndStudiesSayWhatTheyAre) {
+    int units = 0;
     for (const measure::Metric& metric : measure::list_metrics()) {
         EXPECT_FALSE(metric.help.empty()) << metric.name;
         for (const std::string_view unit : {"ms", "bytes", "degrees"})
-            if (metric.name.ends_with("_" + std::string(unit)))
+            if (metric.name.ends_with("_" + std::string(unit))) {
                 EXPECT_EQ(metric.unit, unit) << metric.name;
+                ++units;
+            }
         for (const measure::MetricColumn& column : metric.columns)
             EXPECT_FALSE(column.title.empty()) << metric.name;
     }
+    EXPECT_GT(units, 5);
     for (const app::Study& study : app::list_studies())
         EXPECT_FALSE(study.help.empty()) << study.name;
 }
