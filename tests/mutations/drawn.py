@@ -10,9 +10,10 @@ object code and no SPIR-V, are recorded and replaced by another draw. Results ar
 A mutant of C++ is judged by the tests that run its function (reach.py), which a run of all tests finds out first. Tests
 that are quick and run much of the function come first, and the first that fails ends the search. Mutants are judged in
 --jobs worktrees of the last commit, under out/mutants (judge.py). Tests that would take longer than --most-seconds in
-sum are left out, and a mutant that the others do not notice is "undecided". Such mutants, and survivors if there are new tests, are continued by a later run with --again. Two
-members of a record in FILE are written by hand: "first" is a list of tests to run before others, and "equal" says why
-the mutant does the same as the code, so that no test can notice it.
+sum are left out, and a mutant that the others do not notice is "undecided". Such mutants, and survivors if there are
+new tests, are continued by a later run with --again. Two members of a record in FILE are written by hand: "first" is a
+list of tests to run before others, and "equal" says why the mutant does the same as the code, so that no test can
+notice it.
 """
 import argparse
 import contextlib
@@ -107,8 +108,8 @@ def report(records, out=sys.stdout):
                 outcome = "equal" if "equal" in record else record["outcome"]
                 count[outcome] = count.get(outcome, 0) + 1
         killed, judged = count.get("killed", 0), sum(count.get(outcome, 0) for outcome in (*JUDGED, "equal"))
-        print(f"| {folder} | {killed} | {count.get('equal', 0)} | {count.get('survived', 0)} | {count.get('undecided', 0)} | "
-              f"{f'{killed / judged:.2f}' if judged else ''} | {count.get('does not compile', 0)} | "
+        print(f"| {folder} | {killed} | {count.get('equal', 0)} | {count.get('survived', 0)} | "
+              f"{count.get('undecided', 0)} | {f'{killed / judged:.2f}' if judged else ''} | {count.get('does not compile', 0)} | "
               f"{count.get('same code', 0)} |", file=out)
     for record in records:
         if record["outcome"] in ("survived", "undecided"):

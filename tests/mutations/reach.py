@@ -83,13 +83,17 @@ class Reach:
         if not source.endswith("pp"):
             drawing = {test for tests in self.lines.get(DRAWING, {}).values() for test in tests}
             return sorted(drawing, key=lambda test: (not named_like(test, source), self.seconds[test]))
-        share = {}  # for each test the lines of the function, or else of the file, that it runs
-        for first, last in [function_around(text, line), (1, 1 << 30)]:
-            for number, tests in self.lines.get(source, {}).items() if not share else []:
-                for test in tests if first <= int(number) <= last else []:
-                    share[test] = share.get(test, 0) + 1
+        share = self.count_lines(source, *function_around(text, line)) or self.count_lines(source, 1, 1 << 30)
         return sorted(share or self.seconds, key=lambda test: (not named_like(test, source),
                                                                (self.seconds[test] + .2) / share.get(test, 1)))
+
+    def count_lines(self, source, first, last):
+        """Returns for each test how many of these lines of a source it runs, both ends counted, if it runs any."""
+        counts = {}
+        for number, tests in self.lines.get(source, {}).items():
+            for test in tests if first <= int(number) <= last else []:
+                counts[test] = counts.get(test, 0) + 1
+        return counts
 
     def save(self, path):
         pathlib.Path(path).write_text(json.dumps(vars(self)))
