@@ -1,6 +1,7 @@
 // Tests of `catoptric sweep`: results equal those of `compare`, whether one process or several
 // processes that are killed run the pieces. All other results are refused.
 #include "cli/program.hpp"
+#include "support/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -14,21 +15,6 @@
 namespace {
 
 using nlohmann::json;
-
-/// Returns the cells of a line of CSV. A cell in quotes may hold commas.
-std::vector<std::string> split_csv_line(const std::string& line) {
-    std::vector<std::string> cells{""};
-    bool is_quoted = false;
-    for (const char letter : line) {
-        if (letter == '"')
-            is_quoted = !is_quoted;
-        else if (letter == ',' && !is_quoted)
-            cells.emplace_back();
-        else if (letter != '\r')
-            cells.back() += letter;
-    }
-    return cells;
-}
 
 class Sweep : public CommandLineTest {
 protected:
@@ -108,11 +94,11 @@ TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
     std::istringstream summary(read_output_file("merged/summary.csv"));
     std::string line;
     std::getline(summary, line);
-    const std::vector<std::string> header = split_csv_line(line);
+    const std::vector<std::string> header = test::split_csv_fields(line);
     for (const json& group : merged["groups"])
         for (const json& row : group["rows"]) {
             ASSERT_TRUE(std::getline(summary, line)) << row["label"];
-            const std::vector<std::string> cells = split_csv_line(line);
+            const std::vector<std::string> cells = test::split_csv_fields(line);
             ASSERT_EQ(cells.size(), header.size()) << line;
             std::map<std::string, std::string> found;
             for (std::size_t i = 0; i < cells.size(); ++i) found[header[i]] = cells[i];

@@ -8,6 +8,7 @@
 #include "measure/statistics.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
+#include "support/csv.hpp"
 
 #include <gmock/gmock.h>
 #include <memory>
@@ -318,19 +319,6 @@ TEST(ReportFields, JsonReportHoldsEachFigureUnderItsName) {
     EXPECT_THAT(found, testing::UnorderedElementsAreArray(wanted)) << "a figure nobody looks at";
 }
 
-/// Returns the fields of the first line of a CSV text that has no quotes.
-std::vector<std::string> split_csv_fields(const std::string& line) {
-    std::vector<std::string> fields(1);
-    for (const char c : line) {
-        if (c == '\r') break;
-        if (c == ',')
-            fields.emplace_back();
-        else
-            fields.back() += c;
-    }
-    return fields;
-}
-
 /// Returns the number in a CSV column. "name#i" means entry i of the list in column "name".
 double find_number_in_csv_column(const std::map<std::string, std::string>& line,
                                  const std::string& column) {
@@ -351,8 +339,8 @@ bool is_test_registered_metric_name(const std::string& name) {
 TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
     const DistinctRowFiller filler;
     const std::string csv = to_csv(make_comparison_of_distinct_figures(filler), CsvColumnSet::all);
-    const std::vector<std::string> names = split_csv_fields(csv),
-                                   cells = split_csv_fields(csv.substr(csv.find('\n') + 1));
+    const std::vector<std::string> names = test::split_csv_fields(csv),
+                                   cells = test::split_csv_fields(csv.substr(csv.find('\n') + 1));
     ASSERT_EQ(names.size(), cells.size());
     std::map<std::string, std::string> found;
     for (std::size_t i = 0; i < names.size(); ++i)
