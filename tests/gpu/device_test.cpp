@@ -3,6 +3,8 @@
 #include "gpu/vulkan.hpp"
 #include "support/device.hpp"
 
+#include <gmock/gmock.h>
+
 namespace {
 
 using namespace catoptric;
@@ -62,6 +64,22 @@ TEST(Device, ResultsOfVulkanAreNamedAsVulkanNamesThem) {
     EXPECT_OWN_NAME(VK_SUBOPTIMAL_KHR);
 #undef EXPECT_OWN_NAME
     EXPECT_STREQ(gpu::vk_result_name(static_cast<VkResult>(-123456)), "an unnamed VkResult");
+}
+
+TEST(Device, MessagesOfTheValidationLayerAreErrors) {
+    gpu::GpuDevice device({.validate = true});
+    device.check_validation();
+    VkFenceCreateInfo create{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    create.flags = 0x40; // no flag of a fence
+    VkFence fence = VK_NULL_HANDLE;
+    ASSERT_EQ(vkCreateFence(device.device_handle(), &create, nullptr, &fence), VK_SUCCESS);
+    vkDestroyFence(device.device_handle(), fence, nullptr);
+    ASSERT_EQ(device.validation_messages().size(), 1u);
+    EXPECT_THAT(device.validation_messages().front(),
+                testing::HasSubstr("VUID-VkFenceCreateInfo-flags-parameter"));
+    test::expect_error([&] { device.check_validation(); }, Failure::internal,
+                       {"the validation layer has 1 message(s), the first: ",
+                        device.validation_messages().front()});
 }
 
 TEST(Device, LayeredRenderingCanBeSwitchedOff) {

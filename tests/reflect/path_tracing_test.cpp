@@ -118,6 +118,19 @@ TEST(PathTracing, WhiteSurfacesBelowAWhiteSkyAreWhite) {
                              2e-4); // 2e-4: error of the table of lobe albedos
 }
 
+/// The walls of a closed box of white metal emit .3 and reflect all light. A path's weight changes
+/// around 1, so a path that its chance to end makes too dark or too bright is noticed.
+TEST(PathTracing, RoughWhiteMetalLosesNoLightInManyReflections) {
+    constexpr int kDepth = 8;
+    scene::Scene furnace = make_half_white_furnace(.3f);
+    furnace.has_multiple_scattering = true;
+    scene::Material& wall = furnace.materials.front();
+    wall.albedo = vec3(1), wall.metallic = 1, wall.roughness = 1;
+    expect_mean_radiance(furnace,
+                         "raytrace:indirect=paths,rays=256,depth=" + std::to_string(kDepth),
+                         .3 * (kDepth + 1), 2e-3); // 2e-3: error of the table of lobe albedos
+}
+
 /// A black board above a floor hides a part of the sky. The form factor of the board gives the size
 /// of this part.
 TEST(PathTracing, ObjectsHideTheEnvironment) {

@@ -174,6 +174,19 @@ TEST(RequireSight, SightFollowsAMovingWall) {
     EXPECT_THAT(model.left_out, IsEmpty());
 }
 
+TEST(RequireSight, SightFollowsAMovingMirror) {
+    scene::Scene scene = make_hall_with_partition();
+    RequiredWorkModelBuilder requirements(scene);
+    const auto sees = [&] {
+        return requirements.make_work_model_for_request({scene, scene.cameras[0]}).mirrors[0].sees;
+    };
+    EXPECT_THAT(sees(), ElementsAre(1, 2));
+    scene.objects.back().world_from_object[3] = {1.5, 0, 1, 1}; // out from behind the partition
+    EXPECT_THAT(sees(), ElementsAre(1, 2, 3));
+    scene.objects.back().world_from_object[3] = {0, 0, 5, 1};
+    EXPECT_THAT(sees(), ElementsAre(1, 2));
+}
+
 TEST(RequireSight, MaskedAndCameraHiddenWallsHideNoMirror) {
     for (const bool is_masked : {true, false}) {
         scene::Scene scene = make_hall_with_partition();

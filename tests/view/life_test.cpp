@@ -209,6 +209,7 @@ TEST_F(ViewFaultTest, DeviceThatCannotPresentIsRefused) {
     const test::ProcessResult ended = run_view_with_fault(
         "vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
     EXPECT_EQ(ended.exit_code, 69) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("no usable Vulkan device: '"));
     EXPECT_THAT(ended.err, HasSubstr("lacks a way to show pictures in this window"));
 }
 

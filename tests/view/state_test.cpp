@@ -163,6 +163,19 @@ TEST(ViewInputs, MousePositionIsConvertedToPixels) {
     EXPECT_EQ(pixels_per_unit({872, 512}, {0, 0}), dvec2(1));
 }
 
+TEST(ViewInputs, EachKeyIsBoundOnceAndDescribed) {
+    std::set<int> codes;
+    std::set<std::string> names, descriptions;
+    for (const KeyBinding& key : list_key_bindings()) {
+        EXPECT_TRUE(codes.insert(key.code).second) << key.name;
+        EXPECT_TRUE(names.insert(key.name).second) << key.name;
+        EXPECT_TRUE(descriptions.insert(key.does).second) << key.name;
+        EXPECT_STRNE(key.name, "") << key.does;
+        EXPECT_STRNE(key.does, "") << key.name;
+    }
+    EXPECT_FALSE(codes.empty());
+}
+
 TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
     ViewState state;
     state.plan = parse_plan_text("hybrid"), state.other = parse_plan_text("reuse");
