@@ -180,8 +180,10 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
     EXPECT_EQ(mine["costs"][0]["on_front"], true);
     EXPECT_EQ(report["rows"][0]["costs"][0]["ms"], 5);
     EXPECT_EQ(report["rows"][0]["costs"][0]["on_front"], false);
-    EXPECT_THAT(read_output_file("out/report.md"),
-                testing::ContainsRegex("mine *[|] card +[|] +4[.]50 [|] +– [|] +1 [|]"));
+    const std::string markdown = read_output_file("out/report.md");
+    EXPECT_THAT(markdown, testing::ContainsRegex("mine *[|] card +[|] +4[.]50 [|] +– [|] +1 [|]"));
+    EXPECT_THAT(markdown, testing::HasSubstr("As stated by the files of --row-times. Times on the "
+                                             "comparison's own device rank their rows"));
 
     write_input_file("bad.json", R"({"schema": "catoptric/row-times/1", "device": "card",
                                      "rows": [{"row": "mine", "ms": [1, 0]}]})");

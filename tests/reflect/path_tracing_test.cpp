@@ -131,6 +131,11 @@ TEST(PathTracing, RoughWhiteMetalLosesNoLightInManyReflections) {
                          .3 * (kDepth + 1), 2e-3); // 2e-3: error of the table of lobe albedos
 }
 
+/// Form factor of a square board of side 2 from a point 1 below its middle: the share of the
+/// floor's light that would come from where the board is.
+const double kShareOfSkyBehindBoard = 4 * std::sqrt(2.) * std::atan(std::sqrt(.5)) /
+                                      (2 * test::kPi);
+
 /// A black board above a floor hides a part of the sky. The form factor of the board gives the size
 /// of this part.
 TEST(PathTracing, ObjectsHideTheEnvironment) {
@@ -139,8 +144,34 @@ TEST(PathTracing, ObjectsHideTheEnvironment) {
     test::add_quad(scene, "board", black, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
     scene.cameras.front() = {
         .eye = {1.5, .5, 0}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = .1};
-    const double a = std::sqrt(2.), quarter = 2 / a * std::atan(1 / a) / (2 * test::kPi);
-    expect_mean_radiance(scene, "raytrace:indirect=paths,rays=256,depth=3", .5 * (1 - 4 * quarter));
+    expect_mean_radiance(scene, "raytrace:indirect=paths,rays=256,depth=3",
+                         .5 * (1 - kShareOfSkyBehindBoard));
+}
+
+/// A lamp of two boards above a floor: the lower board hides the upper one, so only light from the
+/// lower board arrives.
+TEST(PathTracing, PartsOfALampHideEachOther) {
+    scene::Scene scene = make_floor_below_white_sky({.name = "grey", .albedo = vec3(.5f)});
+    scene.environment.reset();
+    const std::size_t lamp = test::add_material(
+        scene, {.name = "lamp", .albedo = vec3(0), .emission = vec3(1)});
+    scene::Mesh boards{.name = "lamp"};
+    for (const auto& [height, half] : {std::pair(1., 1.), std::pair(1.2, .5)}) {
+        const auto first = static_cast<std::uint32_t>(boards.positions.size());
+        for (const auto& [x, z] :
+             {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
+            boards.positions.push_back({x * half, height, z * half});
+            boards.normals.push_back({0, -1, 0});
+        }
+        boards.triangles.push_back({first, first + 1, first + 2});
+        boards.triangles.push_back({first, first + 2, first + 3});
+    }
+    test::add_mesh(scene, boards, lamp);
+    scene.cameras.front() = {
+        .eye = {1.5, .5, 0}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = .1};
+    for (const std::string lamps : {"sampled", "met"})
+        expect_mean_radiance(scene, "raytrace:indirect=paths,rays=1024,depth=3,lamps=" + lamps,
+                             .5 * kShareOfSkyBehindBoard);
 }
 
 /// Returns a room with a small lamp, a rough metal object, a plastic object and a mirror.
