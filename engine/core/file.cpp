@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -58,6 +59,15 @@ FileHandle open_new_file(const fs::path& temporary, const fs::path& path) {
     return file;
 }
 
+/// Returns the path of a new temporary of this target: TARGET.partial-PROCESS-NUMBER. Threads of a
+/// process may write the same target, each through a temporary of its own.
+fs::path make_temporary_path(const fs::path& target) {
+    static std::atomic<std::uint64_t> number = 0;
+    fs::path path = target;
+    path += kTemporaryFileSuffix + std::to_string(::getpid()) + "-" + std::to_string(++number);
+    return path;
+}
+
 /// Removes temporaries of this target whose processes have ended. A program that gets a second
 /// signal cannot remove its own.
 void remove_stale_temporaries(const fs::path& target) {
@@ -70,7 +80,7 @@ void remove_stale_temporaries(const fs::path& target) {
         int process = 0;
         const char *first = name.data() + beginning.size(), *last = name.data() + name.size();
         const auto [end, wrong] = std::from_chars(first, last, process);
-        if (wrong != std::errc() || end != last || process <= 0) continue;
+        if (wrong != std::errc() || process <= 0 || (end != last && *end != '-')) continue;
         if (::kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), error);
     }
 }
@@ -86,15 +96,16 @@ fs::path resolve_real_path(const fs::path& path) {
 }
 
 PartialFile::PartialFile(fs::path path)
-    : named_(std::move(path)), target_(resolve_all_links(named_)), temporary_(target_) {
+    : named_(std::move(path)), target_(resolve_all_links(named_)) {
     std::error_code error;
     const fs::file_status status = fs::status(target_, error);
     check(target_.has_filename() && (!fs::exists(status) || fs::is_regular_file(status)),
           Failure::cannot_create, named_.string(), ": wanted a file name, found ",
           fs::is_directory(status) || !target_.has_filename() ? "a folder" : "a device or pipe");
-    temporary_ += kTemporaryFileSuffix + std::to_string(::getpid());
     remove_stale_temporaries(target_);
-    fs::remove(temporary_, error); // left by a dead process with our process id
+    do
+        temporary_ = make_temporary_path(target_);
+    while (fs::exists(temporary_, error)); // left by a dead process with our process id
 }
 
 PartialFile::~PartialFile() {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <future>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -79,15 +80,30 @@ TEST_F(File, PartialFilesOfEndedProcessesAreRemoved) {
     const pid_t dead = ::fork();
     if (dead == 0) ::_exit(0);
     ::waitpid(dead, nullptr, 0);
+    const std::string stale = "x.partial-" + std::to_string(dead); // of a process that ended
     for (const std::string& name :
-         {"x.partial-" + std::to_string(dead), // partial file of a process that ended
-          "x.partial-" + std::to_string(::getppid()), std::string("x.partial-1k"),
-          std::string("y.partial-") + std::to_string(dead)})
+         {stale, stale + "-1", "x.partial-" + std::to_string(::getppid()) + "-1",
+          std::string("x.partial-1k"), std::string("y.partial-") + std::to_string(dead)})
         std::ofstream(folder / name) << "part";
     catoptric::write_file(folder / "x", "whole");
-    EXPECT_FALSE(fs::exists(folder / ("x.partial-" + std::to_string(dead))));
+    EXPECT_FALSE(fs::exists(folder / stale));
+    EXPECT_FALSE(fs::exists(folder / (stale + "-1")));
     EXPECT_EQ(count_folder_entries(), 4)
         << "x, a living process's, no process's, and another file's";
+}
+
+/// Several engines of one process may write the same file, such as a cache, each in its thread.
+TEST_F(File, ThreadsThatWriteTheSameFileReplaceItWhole) {
+    const std::string one(1 << 20, 'a'), other(1 << 20, 'b');
+    const auto write_often = [&](const std::string& content) {
+        for (int i = 0; i < 40; ++i) catoptric::write_file(folder / "x", content);
+    };
+    std::future<void> beside = std::async(std::launch::async, write_often, other);
+    EXPECT_NO_THROW(write_often(one));
+    EXPECT_NO_THROW(beside.get());
+    const std::string found = catoptric::read_file(folder / "x");
+    EXPECT_TRUE(found == one || found == other) << found.size() << " bytes of both writers";
+    EXPECT_EQ(count_folder_entries(), 1);
 }
 
 /// Replacing a file neither adds nor removes permissions. The permissions are set before the bytes
