@@ -43,7 +43,7 @@ std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
     if (is_number && index < devices.size()) return index;
     std::vector<std::string> names;
     for (const DeviceProperties& info : devices) {
-        if (!is_number && info.name.find(wanted) != std::string::npos) return names.size();
+        if (info.name.find(wanted) != std::string::npos) return names.size();
         names.push_back(info.name);
     }
     fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),

@@ -71,7 +71,8 @@ void check_image_bindings(const GpuDevice& device, const std::string& name,
     std::uint32_t images = 0;
     for (const ShaderBinding& binding : bindings)
         if (binding.kind == ShaderBindingKind::sampled_image ||
-            binding.kind == ShaderBindingKind::texture)
+            binding.kind == ShaderBindingKind::texture ||
+            binding.kind == ShaderBindingKind::texel_buffer)
             images += binding.count;
     const std::uint32_t most = device.vulkan_limits().maxPerStageDescriptorSampledImages;
     check(images <= most, Failure::exhausted, "pipeline '", name, "' samples ", images,

@@ -188,6 +188,9 @@ private:
             result.count = constants_.at(type->words[1]);
             type = &types_.at(type->words[0]);
         }
+        check(type->op == kTypeImage || type->op == kTypeSampledImage, Failure::internal,
+              "shader '", name_, "': '", result.name,
+              "' is an array of something else than textures");
         const bool has_sampler = type->op == kTypeSampledImage;
         if (has_sampler) type = &types_.at(type->words[0]);
         const std::uint32_t dim = type->words[1], arrayed = type->words[3],

@@ -40,7 +40,7 @@ void PassCommands::bind_pipeline(gpu::RasterPipelineState state) {
     pipeline_name_ = state.vertex + "+" + state.fragment;
     pipeline_ = &frame_recorder_.pipeline_store().find_or_make_raster_pipeline(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
-    dirty_ = true;
+    dirty_ = true, is_pushed_ = false;
 }
 
 void PassCommands::bind_pipeline(const gpu::ComputePipelineState& state) {
@@ -53,7 +53,7 @@ void PassCommands::bind_pipeline(const gpu::ComputePipelineState& state) {
     pipeline_ = &frame_recorder_.pipeline_store().find_or_make_compute_pipeline(
         frame_recorder_.frame_work_counter() ? counting : state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
-    dirty_ = true;
+    dirty_ = true, is_pushed_ = false;
 }
 
 void PassCommands::check_pass_declares_resource(ImageHandle image, std::string_view name) const {

@@ -156,7 +156,12 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     const double waited_for_place = wait_ms_;
     const auto wait = [this] { finish_all_frames_in_flight(); };
     memory_.find_or_allocate_heap_memory(shape, index, shapes_, wait);
-    kept_.find_or_create_images(shape, wait);
+    kept_.find_or_create_images(shape, [this](const PersistentImage& replaced) {
+        finish_all_frames_in_flight();
+        for (FrameInFlightResources& other : slots_)
+            if (other.shape)
+                std::ranges::replace(other.shape->kept, &replaced, nullptr);
+    });
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
     times.compile_ms = compile_ms_ + elapsed_milliseconds(begin) - (wait_ms_ - waited_for_place);

@@ -61,11 +61,11 @@ void PersistentImages::create_image(const ImageDesc& desc, PersistentImage& kept
 
 PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
                                                          ImageLifetime lifetime,
-                                                         const std::function<void()>& wait) {
+                                                         const ReplaceHandler& release) {
     auto found = all_.find(desc.name);
     if (found != all_.end() &&
         (found->second.copies[0].desc != desc || found->second.lifetime != lifetime)) {
-        wait();
+        release(found->second);
         all_.erase(found);
         found = all_.end();
     }
@@ -79,12 +79,12 @@ PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
 }
 
 void PersistentImages::find_or_create_images(CompiledRenderGraph& shape,
-                                             const std::function<void()>& wait) {
+                                             const ReplaceHandler& release) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
         if (shape.is_persistent(i))
             shape.kept[i] = &find_or_create_images(shape.outline.list_images()[i],
-                                                   shape.outline.image_lifetime(i), wait);
+                                                   shape.outline.image_lifetime(i), release);
 }
 
 void PersistentImages::write(const Graph& graph, const CompiledRenderGraph& shape) {

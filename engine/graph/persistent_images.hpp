@@ -18,9 +18,11 @@ class PersistentImages {
 public:
     explicit PersistentImages(gpu::GpuDevice& device) : image_device_(device) {}
 
-    /// Finds or makes the persistent images that the planned graph uses. Calls `wait` before it
-    /// destroys an image that frames in flight may use.
-    void find_or_create_images(CompiledRenderGraph& shape, const std::function<void()>& wait);
+    /// Called before an image is destroyed that frames in flight and planned graphs may use.
+    using ReplaceHandler = std::function<void(const PersistentImage&)>;
+    /// Finds or makes the persistent images that the planned graph uses. An image whose description
+    /// or lifetime differs is replaced, after a call of `release`.
+    void find_or_create_images(CompiledRenderGraph& shape, const ReplaceHandler& release);
     /// Stores the content hashes that the submitted frame sets.
     void write(const Graph& graph, const CompiledRenderGraph& shape);
     /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
@@ -37,7 +39,7 @@ public:
 private:
     void create_image(const ImageDesc& desc, PersistentImage& kept);
     PersistentImage& find_or_create_images(const ImageDesc& desc, ImageLifetime lifetime,
-                                           const std::function<void()>& wait);
+                                           const ReplaceHandler& release);
 
     gpu::GpuDevice& image_device_;
     SuspendedPersistentImages all_;

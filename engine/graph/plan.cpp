@@ -31,18 +31,27 @@ bool does_image_outlive_frame(ImageLifetime lifetime) {
 }
 
 /// Returns the bytes of the largest allocation. Each image that outlives the frame has its own
-/// allocation; all other resources of a heap share one.
+/// allocation. A heap has one for all other outputs, and one for the rest.
 std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan) {
-    std::uint64_t bytes = 0;
+    std::uint64_t largest = 0;
+    std::vector<std::uint64_t> begin(plan.heap_bytes), end(plan.heap_bytes.size()); // of outputs
+    const auto add = [&](const MemoryPlacement& placement) {
+        if (!placement.used) return;
+        if (!placement.alone) largest = std::max(largest, placement.offset + placement.bytes);
+        else if (placement.bytes > 0) {
+            begin[placement.heap] = std::min(begin[placement.heap], placement.offset);
+            end[placement.heap] = std::max(end[placement.heap], placement.offset + placement.bytes);
+        }
+    };
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used)
-            bytes = std::max(bytes, plan.images[i].bytes +
-                                        (does_image_outlive_frame(graph.image_lifetime(i))
-                                             ? 0
-                                             : plan.images[i].offset));
-    for (const MemoryPlacement& buffer : plan.buffers)
-        if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
-    return bytes;
+        if (does_image_outlive_frame(graph.image_lifetime(i)))
+            largest = std::max(largest, plan.images[i].used ? plan.images[i].bytes : 0);
+        else
+            add(plan.images[i]);
+    for (const MemoryPlacement& buffer : plan.buffers) add(buffer);
+    for (std::size_t heap = 0; heap < begin.size(); ++heap)
+        if (end[heap] > 0) largest = std::max(largest, end[heap] - begin[heap]);
+    return largest;
 }
 
 void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphLimits& limits) {

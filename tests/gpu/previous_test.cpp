@@ -2,6 +2,8 @@
 // content.
 #include "gpu/steps.hpp"
 
+#include <stdexcept>
+
 namespace {
 
 using namespace catoptric;
@@ -37,6 +39,28 @@ TEST(Previous, HistoryBelongsToItsRunner) {
         EXPECT_EQ(test::read_resource_values<float>(runner, image),
                   expected_step_texels(std::vector<float>(kStepImageWidth * kHeight, 0.0f), 5));
     }
+}
+
+/// A frame that fails may have replaced images of the frame before.
+TEST(Previous, ReplacedImageIsNotReadBack) {
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
+    graph::Graph graph(runner.make_history());
+    const graph::ImageHandle image = add_step_image(graph, "kept");
+    add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
+    graph.mark_as_graph_output(image);
+    test::run_graph(runner, graph);
+
+    graph::Graph other(runner.make_history());
+    const graph::ImageHandle larger = other.add_image(
+        {"kept", TexelFormat::r32f, 2 * kStepImageWidth, kHeight});
+    other.add_pass("step")
+        .reads(other.previous_contents(larger), graph::ResourceUse::sampled)
+        .writes(larger, graph::ResourceUse::storage_write)
+        .record([](graph::PassCommands&) { throw std::runtime_error("no commands"); });
+    other.mark_as_graph_output(larger);
+    EXPECT_THROW(test::run_graph(runner, other), std::runtime_error);
+    test::expect_error([&] { runner.read_back_resource(image); }, Failure::internal,
+                       {"image 'kept' is read after"});
 }
 
 TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {

@@ -237,6 +237,33 @@ TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
         Failure::internal, {"pass 'lonely'", "wants 4 bytes of push constants, got 8"});
 }
 
+/// Push constants stay for the pass, so the next pipeline gets them too, if they have its size.
+TEST(Binding, PushConstantsOfThePipelineBeforeAreChecked) {
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
+    graph::Graph graph;
+    const graph::ImageHandle picture = graph.add_image({"picture", TexelFormat::rgba32f, 8, 8});
+    const graph::BufferHandle counts = graph.add_buffer({"counts", 1024});
+    graph.add_pass("two")
+        .writes(picture, graph::ResourceUse::storage_write)
+        .writes(counts, graph::ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
+            commands.bind_resource("picture", picture);
+            for (const char* name : {"Counts", "counters", "arguments", "List"})
+                commands.bind_resource(name, counts);
+            commands.push_constants(1u);
+            for (int turn = 0; turn < 2; ++turn) {
+                commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
+                commands.dispatch(1, 1);
+            }
+            commands.bind_pipeline(gpu::ComputePipelineState{"trace_list.comp#first", {}});
+            commands.dispatch(1, 1);
+        });
+    graph.mark_as_graph_output(counts);
+    test::expect_error(
+        [&] { test::run_graph(runner, graph); }, Failure::internal,
+        {"pass 'two'", "trace_list.comp#first wants 8 bytes of push constants, got 4"});
+}
+
 TEST(Binding, UnknownConstantIsRefused) {
     test::expect_error(
         [] {

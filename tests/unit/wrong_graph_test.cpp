@@ -556,6 +556,21 @@ TEST_F(WrongGraphTest, MemoryOverTheAllocationLimitIsRefused) {
               "largest is 'cubes' with 12288");
 }
 
+/// Outputs of a heap have an allocation of their own, and the limit holds for each allocation.
+TEST_F(WrongGraphTest, OutputsAndOtherImagesAreAllocatedApart) {
+    const ImageHandle picture = g.add_image(
+        {.name = "picture", .width = 8, .height = 8, .layers = 24});
+    add_writing_pass(cubes);
+    g.add_pass("view")
+        .reads(cubes, ResourceUse::sampled)
+        .writes(picture, ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(24)
+        .record(record_no_commands);
+    g.mark_as_graph_output(picture);
+    const GraphLimits limits{.max_allocation = 12288};
+    EXPECT_EQ(plan_graph(g, limits, make_default_requirement_queries()).bytes, 24576u);
+}
+
 TEST_F(WrongGraphTest, GraphAtEveryLimitIsAccepted) {
     add_writing_pass(cubes);
     g.mark_as_graph_output(cubes);
