@@ -130,8 +130,12 @@ int GltfWriter::gltf_node_of_rig_attachment(const RigAttachment& follows) {
 void GltfWriter::finish_motion() {
     if (motion.channels.empty()) return;
     const auto goes_on = [](const auto& thing) { return is_repeating_motion(thing.motion); };
+    const auto camera_goes_on = [](const Camera& camera) {
+        return !camera.follows.rig || camera.follows.rig->repeats;
+    };
     const bool all = std::ranges::all_of(scene.objects, goes_on) &&
-                     std::ranges::all_of(scene.punctual, goes_on);
+                     std::ranges::all_of(scene.punctual, goes_on) &&
+                     std::ranges::all_of(scene.cameras, camera_goes_on);
     if (all) motion.extras = make_catoptric_extras({{"repeats", tinygltf::Value(true)}});
     model.animations = {std::move(motion)};
 }

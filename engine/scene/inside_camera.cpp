@@ -128,7 +128,7 @@ std::vector<dvec3> list_places_of_interest(const Scene& scene) {
         const Mesh& mesh = scene.meshes[object.mesh];
         const bool counts = is_mirror(scene, object) ||
                             is_visibly_emissive(scene.materials[object.material]);
-        if (!counts || mesh.triangles.empty() || objects++ == kMaxInterestObjects) continue;
+        if (!counts || mesh.triangles.empty() || objects++ >= kMaxInterestObjects) continue;
         const std::size_t step = (mesh.triangles.size() + kMaxInterestPlaces - 1) /
                                  kMaxInterestPlaces;
         for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {

@@ -163,7 +163,10 @@ void add_mtl_statement(MtlLibrary& library, const ObjLine& line, UnreadStatement
         context.notes.add_note("statements before the first newmtl, left out",
                                line.describe_line_place());
     } else if (!add_statement_to_mtl_material(line, library.drafts.back())) {
-        if (line.keyword != "map_Kd" && line.keyword != "Ka") unread.count_statement(line);
+        // Maps that are not used are listed with the material (add_map_to_mtl_material).
+        constexpr std::string_view kKnownStatements[] = {"Ka", "map_Kd", "map_d", "norm"};
+        if (std::ranges::find(kKnownStatements, line.keyword) == std::end(kKnownStatements))
+            unread.count_statement(line);
         if (is_map_statement(line.keyword)) add_map_to_mtl_material(line, context, library);
     }
 }

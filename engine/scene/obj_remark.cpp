@@ -18,12 +18,14 @@ dvec3 parse_vector_at(const std::vector<double>& list, std::size_t first) {
 }
 
 Camera parse_camera_comment(const ObjLine& line, const CommentWordList& words) {
-    const std::vector<double> n = parse_word_numbers(line, words, 1, 10);
+    const bool is_orthographic = words.size() > 11;
+    const std::vector<double> n = parse_word_numbers(line, words, 1, is_orthographic ? 11 : 10);
     const Camera camera{.name = std::string(words[0]),
                         .eye = parse_vector_at(n, 0),
                         .target = parse_vector_at(n, 3),
                         .up = parse_vector_at(n, 6),
-                        .vertical_fov_degrees = n[9]};
+                        .vertical_fov_degrees = n[9],
+                        .orthographic_height = is_orthographic ? n[10] : 0};
     const dvec3 side = normalized_or_zero(glm::cross(camera.target - camera.eye, camera.up));
     check(side != dvec3(0), Failure::bad_data, line.describe_line_place(), ": camera ",
           quote_text_with_escapes(camera.name),
@@ -31,6 +33,9 @@ Camera parse_camera_comment(const ObjLine& line, const CommentWordList& words) {
     check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.describe_line_place(), ": camera ",
           quote_text_with_escapes(camera.name),
           " wants a field of view between 0 and 180 degrees, found ", n[9]);
+    check(!is_orthographic || n[10] > 0, Failure::bad_data, line.describe_line_place(),
+          ": camera ", quote_text_with_escapes(camera.name), " wants a height above 0, found ",
+          n.back());
     return camera;
 }
 

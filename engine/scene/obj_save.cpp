@@ -86,7 +86,11 @@ std::string format_object_comments(const Object& object, const std::string& name
 std::string format_camera_comment(const Camera& camera, const std::string& name) {
     return "# catoptric camera " + name + " " + format_vector(camera.eye) + " " +
            format_vector(camera.target) + " " + format_vector(camera.up) + " " +
-           format_shortest_number(camera.vertical_fov_degrees) + "\n";
+           format_shortest_number(camera.vertical_fov_degrees) +
+           (camera.orthographic_height > 0
+                ? " " + format_shortest_number(camera.orthographic_height)
+                : "") +
+           "\n";
 }
 
 /// Returns the vertices, in world space, and the faces of a mesh. `first` counts the vertices

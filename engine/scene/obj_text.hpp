@@ -112,7 +112,8 @@ void read_material_library(const std::filesystem::path& real, const std::string&
 std::vector<Material> make_library_materials(const MtlLibrary& library, ObjReadContext& context);
 
 /// The contents of the `# catoptric` comments, by object name:
-///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
+///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov [HEIGHT]
+///       (HEIGHT: that of an orthographic picture, in world units)
 ///   # catoptric motion OBJECT harmonic ax ay az period
 ///   # catoptric motion OBJECT step|linear|cubic N, then N times: t x y z
 ///       (cubic: t, in-tangent, value, out-tangent)

@@ -18,6 +18,8 @@ namespace catoptric::scene {
 
 namespace {
 
+constexpr std::string_view kRoughnessOptionPrefix = ",roughness=";
+
 /// Replaces `value` if `stronger` is set.
 template <typename Value>
 void replace_value_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
@@ -150,7 +152,6 @@ bool name_matches_pattern(const std::string& pattern, const std::string& name) {
 }
 
 MirrorOverride read_mirror_override(const std::string& option, const std::string& whole) {
-    constexpr std::string_view kRoughnessOptionPrefix = ",roughness=";
     MirrorOverride wish;
     std::string text = whole;
     if (const std::size_t at = text.rfind(kRoughnessOptionPrefix); at != text.npos) {
@@ -215,6 +216,9 @@ std::string make_mirror_pattern(const std::string& name) {
     if (size < name.size()) pattern += '*';
     if (pattern.find('=') != pattern.npos)
         pattern += "=1"; // else the pattern's end might read as a reflectance
+    // A name may hold what looks like the option of a roughness. A set of one comma equals a comma.
+    for (std::size_t at = 0; (at = pattern.find(kRoughnessOptionPrefix, at)) != pattern.npos;)
+        pattern.replace(at, 1, "[,]");
     return pattern;
 }
 

@@ -165,6 +165,7 @@ TEST_F(LoadObj, NormalMapsAreReadAndHeightMapsAreListed) {
     ASSERT_TRUE(mapped.materials[0].normal_texture);
     EXPECT_FALSE(mapped.materials[0].normal_texture->srgb);
     EXPECT_THAT(list_unsupported_feature_ids(mapped), testing::IsEmpty());
+    EXPECT_THAT(mapped.warnings, testing::IsEmpty());
     const Scene height = load_obj_statements("Kd 1 1 1\nmap_Bump bumps.png\n");
     EXPECT_FALSE(height.materials[0].normal_texture);
     EXPECT_THAT(list_unsupported_feature_ids(height), ElementsAre("normal-texture"));

@@ -4,6 +4,7 @@
 
 #include "scene/build.hpp"
 #include "scene/motion.hpp"
+#include "scene/pose.hpp"
 
 #include <cmath>
 
@@ -154,6 +155,35 @@ TEST_F(SaveSceneTest, SavedRigsLoadUnchanged) {
         EXPECT_LT(glm::distance(now.cameras[0].eye, wanted.cameras[0].eye), 1e-6);
         EXPECT_LT(glm::distance(now.cameras[0].target, wanted.cameras[0].target), 1e-6);
     }
+}
+
+TEST_F(SaveSceneTest, MotionOfACameraThatEndsDoesNotRepeat) {
+    Scene scene = make_square_scene();
+    NodeRig rig{.repeats = false};
+    rig.nodes.push_back({.rotations = std::make_shared<const RotationTrack>(RotationTrack{
+                             .times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}})});
+    scene.cameras = {{.name = "c",
+                      .eye = {0, 0, 5},
+                      .target = {0, 1, 4},
+                      .follows = {.rig = std::make_shared<const NodeRig>(rig)}}};
+    const Scene found = save_and_load_scene(scene);
+    for (const double t : {.25, 1., 1.25})
+        EXPECT_LT(glm::distance(camera_at_time(found.cameras[0], t).target,
+                                camera_at_time(scene.cameras[0], t).target),
+                  1e-6)
+            << t;
+}
+
+TEST_F(SaveSceneTest, ObjKeepsOrthographicCameras) {
+    Scene scene = make_square_scene();
+    scene.cameras = {{.name = "seen", .eye = {0, 0, 5}, .vertical_fov_degrees = 30},
+                     {.name = "plan", .eye = {0, 0, 5}, .orthographic_height = 3}};
+    save_obj(scene, folder / "x.obj");
+    const Scene found = load((folder / "x.obj").string());
+    ASSERT_EQ(found.cameras.size(), 2u);
+    EXPECT_EQ(found.cameras[0].orthographic_height, 0);
+    EXPECT_EQ(found.cameras[1].orthographic_height, 3);
+    EXPECT_EQ(found.cameras[1].eye, scene.cameras[1].eye);
 }
 
 } // namespace

@@ -149,6 +149,12 @@ TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
                                                      make_mirror_pattern(scene.objects[1].name));
     apply_edit(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
+    // Names that hold the texts of options.
+    for (const std::string name : {"a,roughness=.5", "a=.5,roughness=.5", "a=1,1,1"}) {
+        const MirrorOverride read = read_mirror_override("--mirror", make_mirror_pattern(name));
+        EXPECT_TRUE(name_matches_pattern(read.pattern, name)) << read.pattern;
+        EXPECT_EQ(read.roughness, MirrorOverride().roughness) << name;
+    }
     EXPECT_TRUE(name_matches_pattern(make_mirror_pattern("\x1b[2J\xff"), "\x1b[2J\xff"));
     EXPECT_EQ(make_mirror_pattern("\x1b\xff"), "??");
     const std::string longest(100, 'n'), wide = std::string(59, 'n') + "\xc3\xa4 and more";
