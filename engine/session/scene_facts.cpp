@@ -19,7 +19,8 @@
 
 namespace catoptric::app {
 
-measure::CameraFacts make_camera_facts(const scene::Camera& camera) {
+measure::CameraFacts make_camera_facts(const scene::Camera& moving, double seconds) {
+    const scene::Camera camera = scene::camera_at_time(moving, seconds);
     return {camera.name,
             camera.eye,
             camera.target,
@@ -43,7 +44,8 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     const scene::Scene& now = *at_time;
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(now, space);
-    const shared::View view = render::make_camera_view(request.camera, space, size, 0);
+    const shared::View view = render::make_camera_view(
+        scene::camera_at_time(request.camera, request.time), space, size, 0);
     // With more tests than this, building a BVH would be faster.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
                                                              16 * (geometry.indices.size() / 3));
@@ -123,7 +125,7 @@ measure::SceneFacts make_scene_facts(const Request& request, const std::vector<i
                               scene::hash_scene(scene),
                               scene::hash_scene(scene) ==
                                   scene::hash_scene(scene::make_cornell_mirrors()),
-                              make_camera_facts(request.camera)};
+                              make_camera_facts(request.camera, request.time)};
     facts.contents = std::make_shared<measure::SceneContents>(
         measure::SceneContents{list_light_facts(scene), make_environment_facts(scene),
                                list_unsupported_features(scene, seen)});

@@ -26,7 +26,8 @@ list_unsupported_features(const scene::Scene& scene, const std::vector<int>& see
 std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene);
 std::optional<measure::EnvironmentFacts> make_environment_facts(const scene::Scene& scene);
 
-measure::CameraFacts make_camera_facts(const scene::Camera& camera);
+/// Returns the camera, which may follow a moving node, at an instant in seconds.
+measure::CameraFacts make_camera_facts(const scene::Camera& moving, double seconds);
 
 /// Returns a size of the same aspect ratio whose longest side is 128.
 uvec2 compute_thumbnail_size(uvec2 size);

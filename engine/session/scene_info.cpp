@@ -142,7 +142,7 @@ SceneInfo make_scene_info(const Request& request) {
     info.mirrors = list_mirror_info(*scene::SceneAtTime(scene, request.time), seen);
     if (info.mirrors.empty()) info.mirror_options = suggest_mirror_options(scene);
     for (const scene::Camera& camera : scene.cameras)
-        info.cameras.push_back(make_camera_facts(camera));
+        info.cameras.push_back(make_camera_facts(camera, request.time));
     return info;
 }
 

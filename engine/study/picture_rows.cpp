@@ -101,7 +101,7 @@ void check_folder_shows_views(const std::string& folder, const std::vector<measu
     const nlohmann::json list = document.is_object() ? document.value("views", nlohmann::json())
                                                      : nlohmann::json();
     for (std::size_t i = 0; i <= drawn.size(); ++i) {
-        const measure::CameraFacts camera = i == 0 ? make_camera_facts(base.camera)
+        const measure::CameraFacts camera = i == 0 ? make_camera_facts(base.camera, base.time)
                                                    : drawn[i - 1].camera;
         const nlohmann::json wanted{{"camera", nlohmann::json(report::make_camera_json(camera))},
                                     {"name", view_picture_name(i)},

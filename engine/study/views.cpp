@@ -207,7 +207,8 @@ std::vector<measure::View> draw_random_views(const Request& request, int count,
     if (!(period > 0)) cameras = make_seeded_cameras(request.scene, request.time, seeds);
     for (std::size_t i = 0; i < views.size(); ++i)
         views[i].camera = make_camera_facts(
-            period > 0 ? make_seeded_camera(request.scene, views[i].time, seeds[i]) : cameras[i]);
+            period > 0 ? make_seeded_camera(request.scene, views[i].time, seeds[i]) : cameras[i],
+            views[i].time);
     return views;
 }
 

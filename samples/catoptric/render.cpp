@@ -241,7 +241,7 @@ private:
                                     const app::TechniqueResult& part) {
         std::string text;
         if (origin_) {
-            origin_->camera = app::make_camera_facts(spec.camera);
+            origin_->camera = app::make_camera_facts(spec.camera, spec.time);
             origin_->time = spec.time;
             text = make_picture_origin_json(*origin_);
         }

@@ -269,10 +269,11 @@ private:
 
     /// Returns the view of a piece: a view drawn from the piece's seed, or the view of the options.
     static measure::View make_view(const SweepJson& view, const app::Request& base) {
-        if (view.is_null()) return {app::make_camera_facts(base.camera), base.time, base.seed};
+        if (view.is_null())
+            return {app::make_camera_facts(base.camera, base.time), base.time, base.seed};
         const auto seed = view["seed"].get<std::uint64_t>();
         const auto time = view["time"].get<double>();
-        return {app::make_camera_facts(app::make_seeded_camera(base.scene, time, seed)), time,
+        return {app::make_camera_facts(app::make_seeded_camera(base.scene, time, seed), time), time,
                 seed};
     }
 

@@ -43,7 +43,7 @@ struct ViewsOptions {
 /// Returns view 0, which is the comparison's own camera, and the drawn views.
 std::vector<measure::View> list_views(const app::Request& request, int count) {
     std::vector<measure::View> views{
-        {app::make_camera_facts(request.camera), request.time, request.seed}};
+        {app::make_camera_facts(request.camera, request.time), request.time, request.seed}};
     for (measure::View& view : app::draw_random_views(request, count)) views.push_back(view);
     return views;
 }

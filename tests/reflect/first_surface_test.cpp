@@ -185,7 +185,6 @@ TEST(FirstSurface, ObjectsOfBuiltInScenesAreThoseThatTheProcessorFinds) {
     for (const char* name : {"cornell-mirrors", "flat", "room", "gallery"}) {
         app::Request request = test::make_test_request(scene::load(name), {"raytrace"}, {80, 60});
         request.time = .4;
-        request.camera = scene::camera_at_time(request.camera, request.time);
         const app::FirstSurfaces found = trace_first_surfaces_of(request);
         const std::vector<int> wanted = app::find_visible_objects(request, request.size);
         std::size_t different = 0, mirrors = 0;
