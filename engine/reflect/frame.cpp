@@ -173,7 +173,8 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
         }
         const auto found = std::ranges::find_if(
             looks.looks, [&](const render::MirrorShader& other) {
-                return other.fragment == look.fragment && other.constants == look.constants;
+                return other.fragment == look.fragment && other.constants == look.constants &&
+                       other.images == look.images;
             });
         looks.of_mirror.push_back(static_cast<std::uint32_t>(found - looks.looks.begin()));
         if (found == looks.looks.end()) looks.looks.push_back(std::move(look));

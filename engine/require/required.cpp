@@ -88,6 +88,8 @@ RequiredWorkModelBuilder::Impl::needed_capture_faces_of_mirror(const PictureFrus
     const dvec3 flat = world.list_mesh_shapes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || thing.is_glass || !model.mirrors[mirror].is_captured)
         return kAllCubeFaceBits;
+    // The filter of a rough mirror's levels reads texels on both sides of the mirror's plane.
+    if (thing.has_lobe) return kAllCubeFaceBits;
     viewers.clear();
     // For an orthographic camera all faces are kept, because its rays start in a plane and not at
     // one eye point.

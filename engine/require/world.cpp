@@ -5,6 +5,7 @@
 #include "scene/light.hpp"
 #include "scene/light_kind.hpp"
 #include "scene/material_facts.hpp"
+#include "scene/rough_reflectors.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -91,6 +92,7 @@ void VisibilityScene::set_layout(const scene::Scene& now) {
         thing.seen_by_camera = object.seen_by_camera;
         thing.is_mirror = scene::is_mirror(now, object);
         thing.is_glass = scene::is_glass(now.materials[object.material]);
+        thing.has_lobe = thing.is_mirror && scene::may_reflect_by_lobe(now, object);
         thing.casts_shadow = scene::emitted_radiance(now.materials[object.material]) == vec3(0) &&
                              (!thing.is_glass || now.tints_glass_shadows);
         thing.tight_rest = scene::bounds(now, object);

@@ -38,6 +38,7 @@ struct VisibilityObject {
     std::optional<scene::Sphere> sphere;
     bool seen_by_camera = true, is_mirror = false, casts_shadow = true;
     bool is_glass = false;          ///< rays pass through (scene::is_glass)
+    bool has_lobe = false;          ///< a mirror that may be rough (scene::may_reflect_by_lobe)
     bool is_mover = false;          ///< whether the object has a motion or was ever moved
     bool has_moved = false;         ///< whether the object moved since the previous instant
     Bounds<double> tight_rest;      ///< bounds of its vertices at rest

@@ -22,7 +22,7 @@ TEXEL_LIST(2, surface_texels, vec4, samplerBuffer, STORED_FOR_VERTICES)
 layout(set = 0, binding = 3, scalar) uniform Lights { Light lights[kMaxLights]; };
 TEXEL_LIST(4, probe_texels, vec4, samplerBuffer, STORED_FOR_VERTICES)
 layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
-// lib/captures.glsl declares the bindings 6, 7, 8, 17 and 18 for captures.
+// lib/captures.glsl declares the bindings 6, 7, 8, 17, 18 and 31 for captures.
 #define BVH_NODES_BINDING 9
 #define BVH_TRIANGLES_BINDING 10
 #define NORMALS_BINDING 11
@@ -33,12 +33,12 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define FIRST_LAYER_BINDING 16
 #define FIRST_HITS_BINDING 19 // places of triangles in the BVH (lib/whitted.glsl)
 #define MIRROR_NODES_BINDING 30 // tree over the mirrors' bounds (lib/next_mirror.glsl)
-#define LAMPS_BINDING 31 // triangles that emit light (lib/lamps.glsl)
 // lib/rough.glsl uses the bindings 32 and 33, and lib/light_probes.glsl 34 to 36.
 #define GLASS_DEPTHS_BINDING 37  // optical depths of glass (lib/shadow.glsl)
 #define SHADOW_DEPTHS_BINDING 38 // the shadow map without comparison (lib/soft_shadow.glsl, glass_shadow.frag)
 #define GLASS_BACKS_BINDING 39   // back faces of glass in the camera's view (lib/refraction.glsl)
-// Bindings from 20 on belong to the techniques. lib/material.glsl uses these bindings:
+// Bindings 20 to 27 belong to techniques and single passes. lib/environment.glsl uses the bindings 28 and 29, and
+// lib/material.glsl these:
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41
 #define TEXELS_BINDING 42
@@ -47,6 +47,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define OPAQUE_LEVELS_BINDING 45  // its box-filtered levels
 #define LAMP_EXTENTS_BINDING 46   // a LampExtent for each light (lib/soft_shadow.glsl)
 #define AMBIENT_OCCLUSION_BINDING 47 // share of light that near surfaces let through (lib/ambient_occlusion.glsl)
+#define LAMPS_BINDING 48             // triangles that emit light (lib/lamps.glsl)
 // Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
 // Reads the surface of an object.

@@ -16,7 +16,7 @@ layout(set = 0, binding = 8) uniform sampler linear_texels;
 layout(set = 0, binding = 18) uniform sampler nearest_texels;
 // The capture table is a uniform buffer, because the software driver reads storage buffers with a branch. Arithmetic
 // around a branch is rounded differently from arithmetic in shaders that do not read the table.
-// The binding number makes the table the last uniform buffer. Mesa 22.3's software driver crashes if a shader uses a
+// The binding number puts the table after frame, lights and sky. Mesa 22.3's software driver crashes if a shader uses a
 // value from a constant index of the fourth uniform buffer. Indices into this table are computed.
 layout(set = 0, binding = 31, scalar) uniform Captures { CaptureLookupTable captures; };
 

@@ -175,6 +175,20 @@ TEST(RequiredFrames, StillSceneNeedsOnlyViewAndCompose) {
 
 // The first mirror is out of sight and has no capture. The options of the captures must come from a
 // mirror that has one.
+/// The filtered levels of a rough mirror show light from all around, also from behind its plane.
+TEST(RequiredFrames, RoughFlatMirrorsKeepTheirPictures) {
+    for (const char* technique : {"reuse:face=16", "secant:face=16"}) {
+        scene::Scene scene = test::make_mirror_hall();
+        test::make_mirrors_rough(scene, .5f);
+        RequiredAndFullSessions pair(scene, {technique});
+        for (const double side : {-1., 1.}) { // views along the mirror on the wall
+            pair.frame_spec.camera.eye = {1.8 * side, 0, 1.4};
+            pair.frame_spec.camera.target = {-1.5 * side, 0, 1.9};
+            EXPECT_EQ(pair.render_until_pictures_are_equal(2), 0) << technique;
+        }
+    }
+}
+
 TEST(RequiredFrames, FirstMirrorNeedsNoCapture) {
     scene::Scene scene = test::make_mirror_hall();
     test::add_ball(scene, "outside", scene.objects.back().material, {9, 0, 0}, .5, 2);
