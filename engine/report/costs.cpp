@@ -119,7 +119,7 @@ void check_json_schema(const CostJsonValue& document, const char* wanted, const 
         schema.fail_with_expected_value(std::string(what) + ", schema '" + wanted + "'");
 }
 
-Json read_costs_json(const std::filesystem::path& file, const char* what = "costs of a device") {
+Json read_costs_json(const std::filesystem::path& file, const char* what) {
     return parse_json<Json>(file.string(), read_json_text(file, what, kMaxCostFileBytes));
 }
 
@@ -177,11 +177,11 @@ measure::DeviceCosts read_device_costs(const std::string& text, const std::strin
 }
 
 measure::DeviceCosts read_costs_file(const std::filesystem::path& file) {
-    return read_costs_document(read_costs_json(file), file.string());
+    return read_costs_document(read_costs_json(file, "costs of a device"), file.string());
 }
 
 OtherDeviceTimes read_times_file(const std::filesystem::path& file) {
-    const Json json = read_costs_json(file);
+    const Json json = read_costs_json(file, "times of rows");
     const CostJsonValue document{json, file.string() + ":"};
     check_json_schema(document, kMeasuredTimesSchema, "times of rows");
     document.check_member_names({"schema", "device", "note", "work", "rows"});

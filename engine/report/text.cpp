@@ -97,7 +97,7 @@ std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
                        stopped ? stopped->what() : "the run had not ended when this was written");
 }
 
-std::string describe_incomplete_run(const Comparison& comparison) {
+std::string describe_unfinished_phase(const Comparison& comparison) {
     if (comparison.complete) return "";
     const bool in_lag = comparison.lag && !comparison.lag->complete;
     const bool has_all = comparison.rows.size() == comparison.asked;
@@ -112,10 +112,15 @@ std::string describe_incomplete_run(const Comparison& comparison) {
                               return (measure::has_known_time(row) || !row.views.empty()) &&
                                      row.views.size() < comparison.views.size();
                           });
-    return describe_incomplete_run(comparison.rows.size(), comparison.asked, comparison.stopped) +
-           (in_rounds ? fmt::format("; {} of {} rounds", measured, comparison.rounds) : "") +
+    return (in_rounds ? fmt::format("; {} of {} rounds", measured, comparison.rounds) : "") +
            (in_views ? "; their errors over views were not measured to the end" : "") +
            (in_lag ? "; their lag was not measured to its end" : "");
+}
+
+std::string describe_incomplete_run(const Comparison& comparison) {
+    if (comparison.complete) return "";
+    return describe_incomplete_run(comparison.rows.size(), comparison.asked, comparison.stopped) +
+           describe_unfinished_phase(comparison);
 }
 
 std::string join_texts(const std::vector<std::string>& parts, std::string_view between) {

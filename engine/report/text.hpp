@@ -42,6 +42,9 @@ std::string format_row_settings(const Row& row);
 /// Returns how many of the requested rows a run has, and why it has no more: "4 of 8 rows: ...".
 std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
                                     const std::optional<Error>& stopped);
+/// Returns which phase of a comparison that ended early is not finished, such as "; 1 of 3 rounds".
+/// Empty if it ended between rows or is complete.
+std::string describe_unfinished_phase(const Comparison& comparison);
 /// Returns how much of a comparison, including its lag, is finished, and why it ended early. Empty
 /// if the comparison is complete.
 std::string describe_incomplete_run(const Comparison& comparison);

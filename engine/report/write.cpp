@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 void create_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error); // an existing folder is no error
-    const bool is_file = fs::exists(folder) && !fs::is_directory(folder);
+    std::error_code ignored;
+    const bool is_file = fs::exists(folder, ignored) && !fs::is_directory(folder, ignored);
     check(!is_file, Failure::cannot_create, folder.string(),
           ": the folder cannot be created: wanted a folder or nothing, found a file");
     check(!error, Failure::cannot_create, folder.string(),

@@ -17,6 +17,7 @@
 #include "parse.hpp"
 #include "progress.hpp"
 #include "report/tables.hpp"
+#include "report/text.hpp"
 #include "report/writer.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
@@ -203,18 +204,11 @@ std::vector<std::string> find_broken_rows(const report::Comparison& comparison) 
     return broken;
 }
 
-/// Returns the phase of a run that was stopped after all its rows were measured.
-std::string describe_stopped_phase(const report::Comparison& comparison) {
-    if (comparison.lag) return ", while their lag was measured";
-    const bool in_views = !comparison.views.empty() && comparison.rows.size() == comparison.asked;
-    return in_views ? ", while their views were rendered" : "";
-}
-
 /// Throws the error that ended the comparison early, if any.
 void check_not_stopped(const CompareOptions& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         throw_incomplete_run(*comparison.stopped, comparison.rows.size(), comparison.asked,
-                             describe_stopped_phase(comparison), options.folder);
+                             report::describe_unfinished_phase(comparison), options.folder);
 }
 
 /// Writes the reports of one or several scenes.

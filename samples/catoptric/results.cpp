@@ -3,6 +3,7 @@
 #include "options.hpp"
 #include "output_checks.hpp"
 #include "parse.hpp"
+#include "report/json.hpp"
 #include "results_site.hpp"
 #include "verbs.hpp"
 
@@ -36,6 +37,11 @@ int run_results(const ResultsOptions& options) {
     if (adds) {
         check_folder_can_be_made(words[2]);
         const AddedReport added = add_report_to_site(words[1], words[2]);
+        if (options.manners.json)
+            print_result(report::serialise_json({{"schema", "catoptric/results-added/1"},
+                                                 {"report", added.name},
+                                                 {"comparisons", added.comparisons},
+                                                 {"known", added.is_known}}));
         print_note_unless_quiet(
             options.manners,
             added.is_known ? "the site has this report: " + added.name
@@ -44,6 +50,11 @@ int run_results(const ResultsOptions& options) {
         return 0;
     }
     const BuiltSite built = build_site(words[1]);
+    if (options.manners.json)
+        print_result(report::serialise_json({{"schema", "catoptric/results-built/1"},
+                                             {"index", words[1] + "/index.html"},
+                                             {"pages", built.pages},
+                                             {"reports", built.reports}}));
     print_note_unless_quiet(options.manners, fmt::format("written: {}/index.html, {} pages from {} "
                                                          "reports",
                                                          words[1], built.pages, built.reports));

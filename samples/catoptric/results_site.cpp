@@ -216,6 +216,10 @@ std::vector<SiteComparison> list_runs_of_section(const std::vector<SiteCompariso
     std::vector<SiteComparison> list;
     std::ranges::copy_if(runs, std::back_inserter(list),
                          [&](const SiteComparison& run) { return run.section == section; });
+    if (!list.empty())
+        std::erase_if(list, [latest = list.back().hash](const SiteComparison& run) {
+            return run.hash != latest;
+        });
     return list;
 }
 

@@ -43,16 +43,18 @@ constexpr std::array<std::string_view, 3> kPathOptions{"root", "environment", "d
 constexpr std::array<std::string_view, 2> kPathOptionWords{"studio", "none"};
 /// Options of `compare` that a sweep refuses, because the sweep sets them itself or because they
 /// write files. Options of studies are refused, too.
-constexpr std::array<std::string_view, 20> kRefusedOptions{"output",        "techniques",
-                                                           "axis",          "row",
-                                                           "together",      "max-ms",
-                                                           "max-flip",      "baseline",
-                                                           "max-flip-rise", "max-time-ratio",
-                                                           "summary",       "junit",
-                                                           "csv",           "json",
-                                                           "quiet",         "verbose",
-                                                           "progress",      "reference-seconds",
-                                                           "help",          "version"};
+constexpr std::string_view kRefusedOptions[] = {"output",        "techniques",
+                                                "axis",          "row",
+                                                "together",      "max-ms",
+                                                "max-flip",      "baseline",
+                                                "max-flip-rise", "max-time-ratio",
+                                                "summary",       "junit",
+                                                "csv",           "json",
+                                                "figures",       "crop",
+                                                "inline",        "cameras-per-instant",
+                                                "quiet",         "verbose",
+                                                "progress",      "reference-seconds",
+                                                "help",          "version"};
 
 std::string describe(const SweepJson& value) { return report::describe_json_value(value); }
 
@@ -150,7 +152,7 @@ void check_option_name(const std::string& name, const CompletionOption*& option,
                        const std::vector<CompletionOption>& known, const SweepPlace& place) {
     const auto found = std::ranges::find(known, "--" + name, &CompletionOption::name);
     place.check(found != known.end(), "'compare' has no option '--", name, "'");
-    const bool is_refused = std::ranges::find(kRefusedOptions, name) != kRefusedOptions.end() ||
+    const bool is_refused = std::ranges::find(kRefusedOptions, name) != std::end(kRefusedOptions) ||
                             std::ranges::find(app::list_studies(), name, &app::Study::name) !=
                                 app::list_studies().end();
     place.check(!is_refused, "a sweep cannot set this option of compare",

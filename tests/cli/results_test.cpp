@@ -99,6 +99,23 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
     }
 }
 
+TEST_F(ResultsSite, JsonOptionPrintsOneDocument) {
+    write_input_file("report.json", report_of_one_scene().dump());
+    for (const bool is_known : {false, true}) {
+        const test::ProcessResult added = run_cli({"results", "add", "report.json", "s", "--json"});
+        ASSERT_EQ(added.exit_code, 0) << added.err;
+        const json document = json::parse(added.out);
+        EXPECT_EQ(document["schema"], "catoptric/results-added/1");
+        EXPECT_EQ(document["known"], is_known);
+        EXPECT_EQ(document["comparisons"], 1);
+        EXPECT_TRUE(std::filesystem::exists(
+            folder / "s/reports" / document["report"].get<std::string>()));
+    }
+    const test::ProcessResult built = run_cli({"results", "build", "s", "--json"});
+    EXPECT_EQ(json::parse(built.out), json::parse(R"({"schema": "catoptric/results-built/1",
+        "index": "s/index.html", "pages": 2, "reports": 1})"));
+}
+
 /// If a report compares both models (`everything` and `required`), each row's label names its
 /// model. Otherwise only the report's member `model` names it.
 TEST_F(ResultsSite, LabelsNameTheModelOnce) {

@@ -574,6 +574,9 @@ TEST_F(Sweep, RefusalsNameTheMember) {
         65, {"axes: wanted a sweep of at most 1000000 pieces"});
     refuse([](json& s) { s["options"]["output"] = "x"; }, 65,
            {"sweep.json.options.output", "cannot set this option"});
+    for (const char* name : {"figures", "crop", "inline", "cameras-per-instant"})
+        refuse([&](json& s) { s["options"][name] = "1"; }, 65,
+               {"options." + std::string(name), "cannot set this option"});
     refuse([](json& s) { s["options"]["views"] = 6; }, 65, {"options.views"});
     refuse([](json& s) { s["options"]["reference-seconds"] = 6; }, 65, {"its knob 'rays'"});
     refuse([](json& s) { s["options"]["reference"] = "x.exr"; }, 65, {"wanted a technique"});
