@@ -24,7 +24,7 @@ void main() {
     if (details != 0u && surface.reflectance != vec3(0))
         shown += surface.reflectance * environment_radiance(reflect_above_facet(normalize(direction_from_viewer()), n,
             normalize(facet)));
-    write_captured_surface(shown);
+    write_fragment_outputs(shown);
     if (has_blending != 0u && drawn_parts == kDrawBlendedParts) out_colour.a = fragment_alpha();
 #ifdef FIRST_HIT
     bool reflects = details != 0u && surface.reflectance != vec3(0);

@@ -15,5 +15,5 @@ void main() {
         Surface surface = find_surface_at_fragment(n, facet);
         shown = shade_drawn_fragment(surface, n, facet);
     }
-    write_captured_surface(shown);
+    write_fragment_outputs(shown);
 }

@@ -11,7 +11,7 @@ layout(location = 0) out vec4 out_colour;
 
 const vec3 kMarginColour = vec3(.08), kDividerColour = vec3(1, .8, .2);
 
-vec3 draw_window_pixel(ivec2 pixel) {
+vec3 read_canvas_pixel(ivec2 pixel) {
     return unpackUnorm4x8(canvas[uint(pixel.y) * screening.size.x + uint(pixel.x)]).rgb;
 }
 
@@ -19,10 +19,10 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     out_colour = vec4(kMarginColour, 1);
     if (any(greaterThanEqual(pixel, ivec2(screening.size)))) return;
-    vec3 a = (screening.from_canvas & 1u) != 0u ? draw_window_pixel(pixel) : texelFetch(first, pixel, 0).rgb;
+    vec3 a = (screening.from_canvas & 1u) != 0u ? read_canvas_pixel(pixel) : texelFetch(first, pixel, 0).rgb;
     out_colour = vec4(a, 1);
     if (screening.kind == kDisplayFirstPicture) return;
-    vec3 b = (screening.from_canvas & 2u) != 0u ? draw_window_pixel(pixel) : texelFetch(second, pixel, 0).rgb;
+    vec3 b = (screening.from_canvas & 2u) != 0u ? read_canvas_pixel(pixel) : texelFetch(second, pixel, 0).rgb;
     if (screening.kind == kDisplayDifference) {
         out_colour = vec4(abs(a - b) * screening.gain, 1);
         return;

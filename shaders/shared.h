@@ -1,7 +1,7 @@
 // Structures that C++ and GLSL share. The layout is scalar: members follow each other without padding, so the size of
 // a structure is the sum of its members' sizes. Assertions below check sizes, tests/gpu/layout_test.cpp checks offsets.
-// All lengths and positions are in scene units: world positions minus the scene's centre, times a power of two, so
-// that the scene is about 1 in size (render::Frame).
+// All lengths and positions are in scene units: world positions minus an origin, times a power of two, so that the
+// scene is about 1 in size (render::SceneUnitTransform).
 #ifndef CATOPTRIC_SHARED_H
 #define CATOPTRIC_SHARED_H
 
@@ -159,7 +159,7 @@ struct Probe {
 // Kinds of mirror: constant, with the same reflectance at any angle; metal, by Schlick's approximation; lit, which also
 // has diffuse or emitted light that only captures show. Bodies of glass are lit mirrors, told apart by the model of the
 // body that comes closest (engine/scene/glass_body.hpp).
-const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorNeedsDiffuseLight = 2u, kMirrorThinGlass = 3u, kMirrorGlassSphere = 4u,
+const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorLit = 2u, kMirrorThinGlass = 3u, kMirrorGlassSphere = 4u,
            kMirrorGlassBox = 5u;
 
 // Models of the glass body behind the drawn surface (shaders/lib/refraction.glsl). None: no light passes. Auto: the model that

@@ -22,7 +22,7 @@ void main() {
 #ifdef LAYERED
     gl_Layer = int(drawn_view_layer());
 #endif
-    write_drawn_pixel(view, Surface(vec3(0), vec3(0), vec3(0), 0u, 0u, vec3(0), 0.0));
+    write_drawn_object(view, Surface(vec3(0), vec3(0), vec3(0), 0u, 0u, vec3(0), 0.0));
     out_normal = vec3(0);
     out_from_eye = view.forward;
     if (orthographic == 0u)

@@ -65,7 +65,7 @@ void RayTracingPrototype::upload(const WhittedTracerScene& scene,
     std::vector<vec4> corners, normals, surfaces;
     for (std::size_t i = 0; i < hierarchy.triangles.size(); i += 3) {
         const vec4* const at = &hierarchy.triangles[i];
-        const std::size_t number = bvh::integer_from_float_bits(at[1].w);
+        const std::size_t number = bvh::unpack_number(at[1].w);
         const vec3 a(at[0]);
         corners.emplace_back(a, static_cast<float>(scene.triangle_objects[number]));
         corners.emplace_back(vec3(at[1]) - a, 0), corners.emplace_back(vec3(at[2]) - a, 0);

@@ -19,7 +19,7 @@ constexpr std::uint32_t kMaxBvhTriangles = f32::kBvhIndexMask;
 constexpr std::size_t kTrianglesPerTask = 8192; // triangles that one task of a thread reads
 
 /// The references that have been written for a list of triangles.
-struct PartitionedTriangleReferences {
+struct WrittenTriangleReferences {
     /// The references of triangles that cast shadows, and the references of all other triangles.
     /// Both lie in one run.
     std::array<TriangleReferenceSpanRange, 2> parts;
@@ -30,39 +30,38 @@ struct PartitionedTriangleReferences {
 
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
 /// `core` means that all triangles lie in the core.
-PartitionedTriangleReferences write_triangle_references(std::span<const Triangle> triangles,
-                                                        std::size_t first, const BoundingBox& core,
-                                                        TriangleReference* into) {
-    PartitionedTriangleReferences written;
+WrittenTriangleReferences write_triangle_references(std::span<const Triangle> triangles,
+                                                    std::size_t first, const BoundingBox& core,
+                                                    TriangleReference* into) {
+    WrittenTriangleReferences written;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         if (!is_finite_triangle(t)) continue;
         BoundingBox box = compute_triangle_bounds(t.a, t.b, t.c, t.flags);
         if (!core.empty()) box = expand_bounding_box(box, compute_box_padding(box, core));
-        const TriangleReference r{load_simd_vector(box.lo, index_to_bits_in_float(first + i)),
+        const TriangleReference r{load_simd_vector(box.lo, pack_number(first + i)),
                                   load_simd_vector(box.hi, 0)};
         const bool is_shadowless = (t.flags & kCastsNoShadowFlag) != 0;
         if (is_shadowless) written.shadowless.push_back(written.reference_count());
-        written.parts[is_shadowless ? 1 : 0].add_triangle_reference_to_bin(r);
+        written.parts[is_shadowless ? 1 : 0].add_reference(r);
         *into++ = r;
     }
     return written;
 }
 
 /// Writes references to all finite triangles, on several threads.
-PartitionedTriangleReferences write_references_in_parallel(std::span<const Triangle> triangles,
-                                                           const BoundingBox& core,
-                                                           TriangleReferences into,
-                                                           unsigned threads) {
-    std::vector<PartitionedTriangleReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
-                                                    kTrianglesPerTask);
+WrittenTriangleReferences write_references_in_parallel(std::span<const Triangle> triangles,
+                                                       const BoundingBox& core,
+                                                       TriangleReferences into, unsigned threads) {
+    std::vector<WrittenTriangleReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
+                                                kTrianglesPerTask);
     run_in_parallel(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kTrianglesPerTask,
                           count = std::min(kTrianglesPerTask, triangles.size() - first);
         runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,
                                             &into[first]);
     });
-    PartitionedTriangleReferences all;
+    WrittenTriangleReferences all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::size_t before = all.reference_count();
         if (before < i * kTrianglesPerTask) // an earlier task had triangles that are not finite
@@ -81,7 +80,7 @@ PartitionedTriangleReferences write_references_in_parallel(std::span<const Trian
 /// with all references, or two parts: triangles that cast shadows, and others. In the second case,
 /// the references are sorted into the two parts.
 std::vector<TriangleReferenceSpanRange>
-partition_out_shadowless_triangles(const PartitionedTriangleReferences& written,
+partition_out_shadowless_triangles(const WrittenTriangleReferences& written,
                                    TriangleReferences references) {
     const auto& [casters, others] = written.parts;
     if (casters.count == 0 || others.count == 0 ||
@@ -120,7 +119,7 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core,
                            nullptr,
                            leaf,
                            copies};
-    const PartitionedTriangleReferences written = write_references_in_parallel(
+    const WrittenTriangleReferences written = write_references_in_parallel(
         triangles, core, work.buffers[0], threads);
     const std::vector<TriangleReferenceSpanRange> parts = partition_out_shadowless_triangles(
         written, work.buffers[0]);
@@ -137,8 +136,8 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core,
     SimdBox bounds;
     for (const TriangleReferenceSpanRange& part : parts) bounds.add_box(part.box);
     const BoundingBox slack = core.empty() ? bounds.to_bounding_box() : core;
-    bvh.nodes[0] = vec4(slack.lo, index_to_bits_in_float(count_triangles(bvh)));
-    bvh.nodes[1] = vec4(slack.hi, index_to_bits_in_float(count_nodes(bvh)));
+    bvh.nodes[0] = vec4(slack.lo, pack_number(count_triangles(bvh)));
+    bvh.nodes[1] = vec4(slack.hi, pack_number(count_nodes(bvh)));
     if (parts.size() == 2)
         write_bvh_traversal_start(bvh, float_to_bits(bvh.nodes[4].w),
                                   float_to_bits(bvh.nodes[5].w));

@@ -62,7 +62,7 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 ///                        b.xyz, original triangle number   (of a sphere: its radius, 0, 0)
 ///                        c.xyz, flags
 ///
-/// Words. Bit 31 is clear and bit 30 is set. Bit 29 is clear, or the bits after it are clear. Read
+/// Words. Bit 31 is clear, bit 30 is set, and bits 27 to 29 are never all set. Read
 /// as a float, a word is therefore never denormal, infinite or NaN, and no device changes its bits.
 /// A child's word holds its triangle count in bits 27..29 and the place of its first triangle in
 /// bits 0..26. Count 0 means an inner node, whose place is in bits 0..26 (0: no child). All other
@@ -77,11 +77,12 @@ struct Bvh {
     std::vector<vec4> nodes;
     std::vector<vec4> triangles;
     std::size_t dropped = 0; ///< triangles left out because a coordinate is not finite
-    std::size_t copies = 0; ///< triangles left out as copies of one with a lower number (see build)
+    std::size_t copies =
+        0; ///< triangles left out as copies of one with a lower number (see build_bvh)
     /// Node of the first instance's record (bvh/tlas.hpp); 0: no instances. The record of instance
     /// i begins kBvhNodesPerInstance * i nodes later.
     std::uint32_t first_record = 0;
-    double cost = 0; ///< result of the function `cost`; `refit_bvh` updates it incrementally
+    double cost = 0; ///< result of `compute_sah_cost`; `refit_bvh` updates it incrementally
 };
 
 /// Builds a hierarchy with the binned surface area heuristic. Where a path would grow deeper than

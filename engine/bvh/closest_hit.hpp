@@ -4,7 +4,6 @@
 #include "bvh/words.hpp"
 
 #include <array>
-#include <bit>
 #include <optional>
 #include <type_traits>
 
@@ -48,7 +47,7 @@ using f32::make_ray_shear, f64::make_ray_shear;
 using f32::transform_ray_to_object_space, f64::transform_ray_to_object_space;
 
 template <typename Real>
-Vec3<Real> read_triangle_corner(const vec4& texel) {
+Vec3<Real> read_texel_xyz(const vec4& texel) {
     return Vec3<Real>(vec3(texel));
 }
 
@@ -60,10 +59,10 @@ using InstanceRayTransform =
 template <typename Real>
 InstanceRayTransform<Real> read_instance_ray_transform(const Bvh& bvh, std::uint32_t record) {
     const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
-    return {read_triangle_corner<Real>(texel[0]), read_triangle_corner<Real>(texel[1]),
-            read_triangle_corner<Real>(texel[2]), read_triangle_corner<Real>(texel[4]),
-            read_triangle_corner<Real>(texel[5]), read_triangle_corner<Real>(texel[6]),
-            read_triangle_corner<Real>(texel[3]), read_triangle_corner<Real>(texel[7])};
+    return {read_texel_xyz<Real>(texel[0]), read_texel_xyz<Real>(texel[1]),
+            read_texel_xyz<Real>(texel[2]), read_texel_xyz<Real>(texel[4]),
+            read_texel_xyz<Real>(texel[5]), read_texel_xyz<Real>(texel[6]),
+            read_texel_xyz<Real>(texel[3]), read_texel_xyz<Real>(texel[7])};
 }
 
 /// The closest hit that the traversal has found, and the state that a triangle test needs.
@@ -87,31 +86,31 @@ struct ClosestHitSearch {
     void intersect_ray_with_stored_triangle(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
         const vec4* of = &bvh.nodes[4 * std::size_t{record}];
-        const std::uint32_t triangle = integer_from_float_bits(texel[1].w) +
-                                       (record ? integer_from_float_bits(of[2].w) : 0);
-        const std::uint32_t flags = integer_from_float_bits(record ? of[3].w : texel[2].w);
+        const std::uint32_t triangle = unpack_number(texel[1].w) +
+                                       (record ? unpack_number(of[2].w) : 0);
+        const std::uint32_t flags = unpack_number(record ? of[3].w : texel[2].w);
         const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
-        if (skips != 0 && hits_back_face(read_triangle_corner<Real>(texel[0]),
-                                         read_triangle_corner<Real>(texel[1]),
-                                         read_triangle_corner<Real>(texel[2]), ray.direction))
+        if (skips != 0 &&
+            hits_back_face(read_texel_xyz<Real>(texel[0]), read_texel_xyz<Real>(texel[1]),
+                           read_texel_xyz<Real>(texel[2]), ray.direction))
             return;
         Real t;
         Vec3<Real> weights;
         if ((flags & f32::kBvhSpherePrimitive) != 0) {
-            if (!intersect_sphere_robustly(read_triangle_corner<Real>(texel[0]), Real{texel[1].x},
-                                           ray, Real{f32::kLargestFloat}, t))
+            if (!intersect_sphere_robustly(read_texel_xyz<Real>(texel[0]), Real{texel[1].x}, ray,
+                                           Real{f32::kLargestFloat}, t))
                 return;
             weights = {1, 0, 0};
         } else if (!intersect_triangle_watertight(
-                       read_triangle_corner<Real>(texel[0]), read_triangle_corner<Real>(texel[1]),
-                       read_triangle_corner<Real>(texel[2]), ray.origin, shear, t, weights)) {
+                       read_texel_xyz<Real>(texel[0]), read_texel_xyz<Real>(texel[1]),
+                       read_texel_xyz<Real>(texel[2]), ray.origin, shear, t, weights)) {
             return;
         }
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
             best = RayHit<Real>{t,        normalise_barycentric_weights(weights),
-                                triangle, integer_from_float_bits((record ? of[1] : texel[0]).w),
+                                triangle, unpack_number((record ? of[1] : texel[0]).w),
                                 place,    record};
         }
     }
@@ -130,8 +129,8 @@ template <typename Real>
 auto make_conservative_box_test_rays(const Bvh& bvh, const Ray<Real>& ray) {
     const vec4* header = bvh.nodes.data();
     const Real times = header[2].x > 0 ? Real{header[2].x} : Real{1};
-    return make_box_ray(ray, read_triangle_corner<Real>(header[0]),
-                        read_triangle_corner<Real>(header[1]), times);
+    return make_box_ray(ray, read_texel_xyz<Real>(header[0]), read_texel_xyz<Real>(header[1]),
+                        times);
 }
 
 template <typename Real>
@@ -153,11 +152,11 @@ find_hit_in_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low, Rea
             ++count.nodes;
             const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_word_index(child)}];
             Real near_0, near_1;
-            const bool meets_0 = intersect_box_slabs(read_triangle_corner<Real>(node[0]),
-                                                     read_triangle_corner<Real>(node[1]), boxes,
+            const bool meets_0 = intersect_box_slabs(read_texel_xyz<Real>(node[0]),
+                                                     read_texel_xyz<Real>(node[1]), boxes,
                                                      search.t_max, near_0);
-            const bool meets_1 = intersect_box_slabs(read_triangle_corner<Real>(node[2]),
-                                                     read_triangle_corner<Real>(node[3]), boxes,
+            const bool meets_1 = intersect_box_slabs(read_texel_xyz<Real>(node[2]),
+                                                     read_texel_xyz<Real>(node[3]), boxes,
                                                      search.t_max, near_1);
             const bool second_first = meets_1 && (!meets_0 || near_1 < near_0);
             const std::uint32_t first = float_to_bits(node[second_first ? 1 : 0].w);
@@ -178,8 +177,8 @@ find_hit_in_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low, Rea
             search.enter_instance_subtree(
                 record, transform_ray_to_object_space(
                             read_instance_ray_transform<Real>(bvh, record), ray, low));
-            boxes = make_box_ray(search.ray, read_triangle_corner<Real>(texel[8]),
-                                 read_triangle_corner<Real>(texel[9]), Real{1});
+            boxes = make_box_ray(search.ray, read_texel_xyz<Real>(texel[8]),
+                                 read_texel_xyz<Real>(texel[9]), Real{1});
             stack.at(waiting++) = f32::kBvhReturnFromInstance;
             child = float_to_bits(texel[0].w);
             continue;

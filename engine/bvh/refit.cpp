@@ -9,9 +9,9 @@ namespace catoptric::bvh {
 
 namespace {
 
-BoundingBox decode_node_bounds(const vec4* stored) {
+BoundingBox stored_triangle_bounds(const vec4* stored) {
     return compute_triangle_bounds(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]),
-                                   integer_from_float_bits(stored[2].w));
+                                   unpack_number(stored[2].w));
 }
 
 /// Returns the bounds of a child, from the corners and nodes below it.
@@ -24,7 +24,7 @@ BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const Boun
         return box;
     }
     for (std::uint32_t i = 0; i < f32::bvh_word_triangle_count(child); ++i) {
-        const BoundingBox triangle = decode_node_bounds(
+        const BoundingBox triangle = stored_triangle_bounds(
             &bvh.triangles[3 * std::size_t{f32::bvh_word_index(child) + i}]);
         box.add(expand_bounding_box(triangle, compute_box_padding(triangle, core)));
     }
@@ -49,9 +49,9 @@ bool have_bit_identical_vectors(const vec3& a, const vec3& b) {
 /// they changed.
 bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     vec4* texel = &bvh.triangles[3 * place];
-    const std::size_t number = integer_from_float_bits(texel[1].w);
-    check(number < triangles.size(), Failure::internal, "a hierarchy of ", triangles.size(),
-          " triangles is refitted to number ", number);
+    const std::size_t number = unpack_number(texel[1].w);
+    check(number < triangles.size(), Failure::internal, "refit of a BVH: wanted numbers below ",
+          triangles.size(), ", found triangle ", number);
     const Triangle& t = triangles[number];
     const std::array corners{t.a, t.b, t.c};
     bool moved = false;
@@ -61,7 +61,7 @@ bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle>
         moved = true;
     }
     check(!moved || is_finite_triangle(t), Failure::internal,
-          "a hierarchy is refitted to finite triangles, number ", number, " is none");
+          "refit of a BVH: wanted finite coordinates, triangle ", number, " has others");
     return moved;
 }
 
@@ -82,7 +82,7 @@ ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> 
     ChangedBvhRegion reach;
     std::vector<char> moves(count_triangles(bvh)), holds(count_nodes(bvh));
     for (std::uint32_t place = 0; place < moves.size(); ++place) {
-        if (!objects[integer_from_float_bits(bvh.triangles[3 * std::size_t{place}].w)]) continue;
+        if (!objects[unpack_number(bvh.triangles[3 * std::size_t{place}].w)]) continue;
         moves[place] = 1;
         reach.triangles.push_back(place);
     }
@@ -117,7 +117,7 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
     BoundingBox slack = core;
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
-            slack.add(decode_node_bounds(&bvh.triangles[i]));
+            slack.add(stored_triangle_bounds(&bvh.triangles[i]));
     // The padding of far triangles depends on the core, so a new core changes every box.
     if (reach && vec3(bvh.nodes[0]) == slack.lo && vec3(bvh.nodes[1]) == slack.hi)
         for (const std::uint32_t place : reach->boxes) refit_stored_node_box(bvh, place, slack);

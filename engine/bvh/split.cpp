@@ -34,8 +34,8 @@ CentroidToBinMapping::CentroidToBinMapping(const SimdBox& centres)
     lowest_centre[3] = bins_per_unit[3] = 0;
 }
 
-void SahSplitBins::add_triangle_references_of_bins(std::span<const TriangleReference> references,
-                                                   const CentroidToBinMapping& binning) {
+void SahSplitBins::add_references(std::span<const TriangleReference> references,
+                                  const CentroidToBinMapping& binning) {
     for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kReferencePrefetchDistance);
         // The minimum also puts NaN into the last bin.
@@ -51,7 +51,7 @@ void SahSplitBins::add_triangle_references_of_bins(std::span<const TriangleRefer
     }
 }
 
-void SahSplitBins::add_triangle_references_of_bins(const SahSplitBins& other) {
+void SahSplitBins::add_bins(const SahSplitBins& other) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t k = 0; k < kSplitBinCount; ++k) {
             extents_[axis][k].add_box(other.extents_[axis][k]);
@@ -71,10 +71,9 @@ std::array<SimdBox, 2> SahSplitBins::extents(const BinnedSahSplit& split) const 
     return sides;
 }
 
-SplitTriangleRanges partition_triangles_by_bin_split(const TriangleReferenceSpanRange& part,
-                                                     const SahSplitBins& bins,
-                                                     const BinnedSahSplit& split,
-                                                     const std::array<SimdBox, 2>& centres) {
+SplitTriangleRanges make_split_ranges(const TriangleReferenceSpanRange& part,
+                                      const SahSplitBins& bins, const BinnedSahSplit& split,
+                                      const std::array<SimdBox, 2>& centres) {
     const std::size_t left = bins.left_triangle_count_of_split(split);
     const std::array<SimdBox, 2> boxes = bins.extents(split);
     return {
@@ -83,10 +82,10 @@ SplitTriangleRanges partition_triangles_by_bin_split(const TriangleReferenceSpan
                                    boxes[1], centres[1]}};
 }
 
-void BinnedSahSplit::scatter_references_to_bins(std::span<const TriangleReference> references,
-                                                const CentroidToBinMapping& binning,
-                                                std::array<TriangleReference*, 2> to,
-                                                std::array<SimdBox, 2>& centres) const {
+void BinnedSahSplit::scatter_references_to_sides(std::span<const TriangleReference> references,
+                                                 const CentroidToBinMapping& binning,
+                                                 std::array<TriangleReference*, 2> to,
+                                                 std::array<SimdBox, 2>& centres) const {
     const auto k = static_cast<std::size_t>(axis);
     const float lo = binning.lowest_centre[k], bins_per_unit = binning.bins_per_unit[k],
                 end = static_cast<float>(first_right);

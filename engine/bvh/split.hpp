@@ -16,7 +16,7 @@ struct TriangleReference {
     SimdFloat4 lo; ///< low corner of the box; the fourth element is the triangle's number as a word
     SimdFloat4 hi;
 
-    std::uint32_t triangle_index_of_reference() const { return integer_from_float_bits(lo[3]); }
+    std::uint32_t triangle_index_of_reference() const { return unpack_number(lo[3]); }
     /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
     SimdFloat4 bounding_box_centre() const { return lo * .5f + hi * .5f; }
     SimdBox triangle_bounding_box() const { return {lo, hi}; }
@@ -28,10 +28,11 @@ using TriangleReferences = std::span<TriangleReference>;
 struct TriangleReferenceSpanRange {
     std::size_t first = 0, count = 0; ///< place among all references
     bool in_second = false;           ///< lies in the second of the two buffers
-    bool is_heap = false; ///< all centres are equal, copies are gone, and the order is by number
+    bool has_single_centre =
+        false; ///< all centres are equal, copies are gone, and the order is by number
     SimdBox box, centres;
 
-    void add_triangle_reference_to_bin(const TriangleReference& r) {
+    void add_reference(const TriangleReference& r) {
         box.add_box(r.triangle_bounding_box()), centres.add_point(r.bounding_box_centre()), ++count;
     }
 };
@@ -56,9 +57,9 @@ struct BinnedSahSplit;
 /// The contents of the bins of each axis.
 class SahSplitBins {
 public:
-    void add_triangle_references_of_bins(std::span<const TriangleReference> references,
-                                         const CentroidToBinMapping& binning);
-    void add_triangle_references_of_bins(const SahSplitBins& other);
+    void add_references(std::span<const TriangleReference> references,
+                        const CentroidToBinMapping& binning);
+    void add_bins(const SahSplitBins& other);
     std::size_t left_triangle_count_of_split(const BinnedSahSplit& split) const;
     /// Returns the bounds of both sides.
     std::array<SimdBox, 2> extents(const BinnedSahSplit& split) const;
@@ -77,20 +78,19 @@ struct BinnedSahSplit {
 
     /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
     /// to `centres`.
-    void scatter_references_to_bins(std::span<const TriangleReference> references,
-                                    const CentroidToBinMapping& binning,
-                                    std::array<TriangleReference*, 2> to,
-                                    std::array<SimdBox, 2>& centres) const;
+    void scatter_references_to_sides(std::span<const TriangleReference> references,
+                                     const CentroidToBinMapping& binning,
+                                     std::array<TriangleReference*, 2> to,
+                                     std::array<SimdBox, 2>& centres) const;
 };
 
 using SplitTriangleRanges = std::array<TriangleReferenceSpanRange, 2>;
 
 /// Returns the two ranges of references into which a split divides a node, in the buffer that does
 /// not hold the node. `centres`: bounds of the centres on each side.
-SplitTriangleRanges partition_triangles_by_bin_split(const TriangleReferenceSpanRange& part,
-                                                     const SahSplitBins& bins,
-                                                     const BinnedSahSplit& split,
-                                                     const std::array<SimdBox, 2>& centres);
+SplitTriangleRanges make_split_ranges(const TriangleReferenceSpanRange& part,
+                                      const SahSplitBins& bins, const BinnedSahSplit& split,
+                                      const std::array<SimdBox, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
 /// Returns nothing if no plane does so, for example because one bin holds all references.

@@ -17,11 +17,12 @@ public:
         : build_workspace_(work), first_(first), subtree_(subtree) {}
 
     std::uint32_t build_subtree_of_range(TriangleReferenceSpanRange part, std::uint32_t depth) {
-        if (part.count > kMaxLeafTriangles && part.centres.is_single_point() && !part.is_heap) {
+        if (part.count > kMaxLeafTriangles && part.centres.is_single_point() &&
+            !part.has_single_centre) {
             part.count = remove_duplicate_triangles(build_workspace_.references_of_range(part),
                                                     build_workspace_.input, build_workspace_.copies)
                              .size();
-            part.is_heap = true;
+            part.has_single_centre = true;
         }
         if (part.count <= build_workspace_.most &&
             (static_cast<double>(part.count) <= kBvhNodeVisitCost || depth == kMaxTreeDepth))
@@ -47,11 +48,11 @@ private:
         subtree_.nodes.resize(place + 4, vec4(0));
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t child = build_subtree_of_range(sides[i], depth + 1);
-            vec4* texel = &subtree_.nodes[place]; // taken after `add_triangle_reference_to_bin`,
+            vec4* texel = &subtree_.nodes[place]; // taken after the recursion,
                                                   // which reallocates the nodes
             texel[2 * i] = vec4(simd_to_vec3(sides[i].box.lo), texel[2 * i].w);
             texel[2 * i + 1] = vec4(simd_to_vec3(sides[i].box.hi), texel[2 * i + 1].w);
-            texel[i].w = integer_to_float_bits(child);
+            texel[i].w = pack_word(child);
         }
         return f32::kBvhNormalFloatBit | static_cast<std::uint32_t>(place / 4 + 1);
     }
@@ -63,9 +64,9 @@ private:
         vec4* texel = build_workspace_.triangles + 3 * first;
         for (const TriangleReference& r : references) {
             const Triangle& t = build_workspace_.input[r.triangle_index_of_reference()];
-            *texel++ = vec4(t.a, index_to_bits_in_float(t.object));
+            *texel++ = vec4(t.a, pack_number(t.object));
             *texel++ = vec4(t.b, r.lo[3]);
-            *texel++ = vec4(t.c, index_to_bits_in_float(t.flags));
+            *texel++ = vec4(t.c, pack_number(t.flags));
         }
         subtree_.triangles += part.count;
         return encode_leaf_child_word(part.count, first);
@@ -76,32 +77,34 @@ private:
         const TriangleReferences references = build_workspace_.references_of_range(part);
         const CentroidToBinMapping binning(part.centres);
         SahSplitBins bins;
-        bins.add_triangle_references_of_bins(references, binning);
+        bins.add_references(references, binning);
         const std::optional<BinnedSahSplit> best = find_best_binned_sah_split(
             bins, max_triangles_below_tree_depth(build_workspace_, depth + 1));
         if (!best) return split_range_in_halves(part);
         TriangleReference* into = build_workspace_.scratch_buffer_of_range(part).data();
         std::array<SimdBox, 2> centres;
-        best->scatter_references_to_bins(
+        best->scatter_references_to_sides(
             references, binning, {into, into + bins.left_triangle_count_of_split(*best)}, centres);
-        return partition_triangles_by_bin_split(part, bins, *best, centres);
+        return make_split_ranges(part, bins, *best, centres);
     }
 
     SplitTriangleRanges split_range_in_halves(const TriangleReferenceSpanRange& part) const {
         return split_triangle_range_at(
-            part, part.is_heap ? part.count / 2
-                               : partition_triangles_at_median(
-                                     build_workspace_.references_of_range(part), part.centres));
+            part, part.has_single_centre
+                      ? part.count / 2
+                      : partition_triangles_at_median(build_workspace_.references_of_range(part),
+                                                      part.centres));
     }
 
     SplitTriangleRanges split_triangle_range_at(const TriangleReferenceSpanRange& part,
                                                 std::size_t middle) const {
         SplitTriangleRanges sides{
-            TriangleReferenceSpanRange{part.first, 0, part.in_second, part.is_heap},
-            TriangleReferenceSpanRange{part.first + middle, 0, part.in_second, part.is_heap}};
+            TriangleReferenceSpanRange{part.first, 0, part.in_second, part.has_single_centre},
+            TriangleReferenceSpanRange{part.first + middle, 0, part.in_second,
+                                       part.has_single_centre}};
         const TriangleReferences references = build_workspace_.references_of_range(part);
         for (std::size_t i = 0; i < part.count; ++i)
-            sides[i < middle ? 0 : 1].add_triangle_reference_to_bin(references[i]);
+            sides[i < middle ? 0 : 1].add_reference(references[i]);
         return sides;
     }
 

@@ -16,9 +16,7 @@ namespace {
 
 constexpr double kFloatBoxRoundingError = 0x1p-22; // relative error of a box that becomes float
 
-BoundingBox compute_object_space_bounds(const Bvh& tree) {
-    return {vec3(tree.nodes[0]), vec3(tree.nodes[1])};
-}
+BoundingBox read_stored_core(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
 
 /// Returns the bounds of everything below a node.
 BoundingBox compute_node_bounds(const Bvh& bvh, std::size_t node) {
@@ -53,12 +51,12 @@ void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t ro
     const auto row = [&](int i) {
         return vec3(own_from_scene[0][i], own_from_scene[1][i], own_from_scene[2][i]);
     };
-    const BoundingBox own = compute_object_space_bounds(*instance.tree);
+    const BoundingBox own = read_stored_core(*instance.tree);
     const std::array<vec4, 4 * f32::kBvhNodesPerInstance> texels{
         vec4(row(0), std::bit_cast<float>(root)),
-        vec4(row(1), integer_to_float_bits(instance.object)),
-        vec4(row(2), integer_to_float_bits(instance.shift)),
-        vec4(centre, integer_to_float_bits(instance.flags)),
+        vec4(row(1), pack_word(instance.object)),
+        vec4(row(2), pack_word(instance.shift)),
+        vec4(centre, pack_word(instance.flags)),
         vec4(vec3(instance.scene_from_own[0]), 0),
         vec4(vec3(instance.scene_from_own[1]), 0),
         vec4(vec3(instance.scene_from_own[2]), 0),
@@ -71,7 +69,7 @@ void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t ro
 /// Returns the bounds of the instance in scene units, padded for rounding to float. The bounds
 /// include the exact sphere, if the instance has one.
 BoundingBox compute_instance_bounds(const BvhInstance& instance) {
-    BoundingBox own = compute_object_space_bounds(*instance.tree);
+    BoundingBox own = read_stored_core(*instance.tree);
     if (instance.radius > 0) own.add(BoundingBox{vec3(-instance.radius), vec3(instance.radius)});
     Bounds<double> box;
     for (int corner = 0; corner < 8; ++corner)
@@ -100,17 +98,16 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
         boxes.push_back({box.lo, box.hi, box.hi, static_cast<std::uint32_t>(i), 0});
     }
     Bvh top = build_bvh(boxes, core, 1);
-    check(top.dropped == 0, Failure::exhausted,
-          "a thing in a space of its own has no finite place");
+    check(top.dropped == 0, Failure::exhausted, "an instance has bounds that are not finite");
     for (std::size_t node = 1; node < count_nodes(top); ++node)
         for (std::size_t side = 0; side < 2; ++side) {
             float& child = top.nodes[4 * node + side].w;
             const std::uint32_t leaf = float_to_bits(child);
             if (leaf == f32::kBvhEmptyChild || f32::is_bvh_word_inner_node(leaf)) continue;
-            const std::uint32_t number = integer_from_float_bits(
+            const std::uint32_t number = unpack_number(
                 top.triangles[3 * f32::bvh_word_index(leaf) + 1].w);
-            child = integer_to_float_bits(f32::kBvhInstanceMarker << f32::kBvhCountShift |
-                                          (first_record + f32::kBvhNodesPerInstance * number));
+            child = pack_word(f32::kBvhInstanceMarker << f32::kBvhCountShift |
+                              (first_record + f32::kBvhNodesPerInstance * number));
         }
     top.triangles.clear();
     return top;
@@ -166,7 +163,7 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
                                         : f32::kBvhEmptyChild;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
-    BoundingBox core = compute_object_space_bounds(flat);
+    BoundingBox core = read_stored_core(flat);
     for (const BvhInstance& instance : instances) {
         worst = std::max(worst, max_matrix_rounding_amplification(instance.scene_from_own));
         if (count_triangles(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
@@ -185,8 +182,8 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
         count_nodes(result) <= f32::kBvhIndexMask && count_triangles(result) <= f32::kBvhIndexMask,
         Failure::exhausted, "bounding volume hierarchy wants ", count_nodes(result), " nodes and ",
         count_triangles(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
-    result.nodes[0] = vec4(core.lo, index_to_bits_in_float(count_triangles(result)));
-    result.nodes[1] = vec4(core.hi, index_to_bits_in_float(count_nodes(result)));
+    result.nodes[0] = vec4(core.lo, pack_number(count_triangles(result)));
+    result.nodes[1] = vec4(core.hi, pack_number(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
     write_bvh_traversal_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));

@@ -96,15 +96,14 @@ private:
             cuts.push_back({i, CentroidToBinMapping(part.centres)});
         }
         run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
-            pieces[i].bins.add_triangle_references_of_bins(pieces[i].references,
-                                                           cuts[pieces[i].cut].binning);
+            pieces[i].bins.add_references(pieces[i].references, cuts[pieces[i].cut].binning);
         });
         choose_branch_split_planes(cuts, pieces);
         run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
             const ParallelBranchSplitPlan& cut = cuts[pieces[i].cut];
             if (cut.split)
-                cut.split->scatter_references_to_bins(pieces[i].references, cut.binning,
-                                                      pieces[i].to, pieces[i].centres);
+                cut.split->scatter_references_to_sides(pieces[i].references, cut.binning,
+                                                       pieces[i].to, pieces[i].centres);
         });
         return create_child_bvh_branches(cuts, pieces);
     }
@@ -112,7 +111,7 @@ private:
     void choose_branch_split_planes(std::vector<ParallelBranchSplitPlan>& cuts,
                                     std::vector<ParallelBranchWorkChunk>& pieces) const {
         for (const ParallelBranchWorkChunk& piece : pieces)
-            cuts[piece.cut].bins.add_triangle_references_of_bins(piece.bins);
+            cuts[piece.cut].bins.add_bins(piece.bins);
         std::vector<std::array<TriangleReference*, 2>> to;
         for (ParallelBranchSplitPlan& cut : cuts) {
             const ParallelBvhBranch& branch = branches_[cut.branch];
@@ -144,8 +143,8 @@ private:
             const std::size_t sides = branches_.size();
             const ParallelBvhBranch& branch = branches_[cuts[i].branch];
             const std::uint32_t depth = branch.depth + 1;
-            const SplitTriangleRanges parts = partition_triangles_by_bin_split(
-                branch.part, cuts[i].bins, *cuts[i].split, centres[i]);
+            const SplitTriangleRanges parts = make_split_ranges(branch.part, cuts[i].bins,
+                                                                *cuts[i].split, centres[i]);
             branches_[cuts[i].branch].sides = sides;
             for (const TriangleReferenceSpanRange& part : parts) branches_.push_back({part, depth});
             next.insert(next.end(), {sides, sides + 1});
@@ -227,9 +226,9 @@ private:
 std::size_t build_bvh_in_parallel(const BvhBuildWorkspace& work,
                                   std::span<const TriangleReferenceSpanRange> parts,
                                   unsigned threads, std::vector<vec4>& nodes) {
-    ParallelBvhBuilder crown(work, threads);
-    crown.build_bvh_from_root(parts);
-    return crown.append_bvh_nodes_to(nodes);
+    ParallelBvhBuilder builder(work, threads);
+    builder.build_bvh_from_root(parts);
+    return builder.append_bvh_nodes_to(nodes);
 }
 
 } // namespace catoptric::bvh

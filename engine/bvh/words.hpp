@@ -11,14 +11,12 @@
 namespace catoptric::bvh {
 
 inline std::uint32_t float_to_bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-inline float integer_to_float_bits(std::uint32_t number) {
+inline float pack_word(std::uint32_t number) {
     return std::bit_cast<float>(number | f32::kBvhNormalFloatBit);
 }
-inline float index_to_bits_in_float(std::size_t number) {
-    return integer_to_float_bits(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
+inline float pack_number(std::size_t number) {
+    return pack_word(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
 }
-inline std::uint32_t integer_from_float_bits(float word) {
-    return float_to_bits(word) & f32::kBvhIdMask;
-}
+inline std::uint32_t unpack_number(float word) { return float_to_bits(word) & f32::kBvhIdMask; }
 
 } // namespace catoptric::bvh

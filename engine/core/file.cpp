@@ -103,8 +103,7 @@ PartialFile::PartialFile(fs::path path)
           Failure::cannot_create, named_.string(), ": wanted a file name, found ",
           fs::is_directory(status) || !target_.has_filename() ? "a folder" : "a device or pipe");
     remove_stale_temporaries(target_);
-    do
-        temporary_ = make_temporary_path(target_);
+    do temporary_ = make_temporary_path(target_);
     while (fs::exists(temporary_, error)); // left by a dead process with our process id
 }
 

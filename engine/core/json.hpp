@@ -17,7 +17,7 @@ using JsonMemoryUseCallback = std::function<void(std::uint64_t bytes)>;
 
 /// Checks that `text` is JSON, without storing values. Throws `bad_data` if it is not JSON or nests
 /// 64 levels deep or more. The message has file, line, column (from 1, in bytes), what was expected
-/// and what was found.
+/// and what was found; that of the nesting has the file.
 void check_json_syntax(const std::string& file, std::string_view text,
                        const JsonMemoryUseCallback& spends = {});
 

@@ -54,7 +54,7 @@ std::size_t TechniqueKnobSettings::value_index(const TechniqueKnob& knob) const 
     return static_cast<std::size_t>(found - knobs_.begin());
 }
 
-bool TechniqueKnobSettings::has_knob_named(const TechniqueKnob& knob) const {
+bool TechniqueKnobSettings::has_knob(const TechniqueKnob& knob) const {
     return std::ranges::any_of(
         knobs_, [&](const TechniqueKnob& known) { return is_same_knob(known, knob); });
 }

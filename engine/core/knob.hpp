@@ -1,6 +1,5 @@
 #pragma once
 
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,7 +44,7 @@ public:
     bool is_special(const TechniqueKnob& knob) const;
     /// Returns whether the technique has this knob. Another knob of the same name, with other
     /// choices or another special word, does not count.
-    bool has_knob_named(const TechniqueKnob& knob) const;
+    bool has_knob(const TechniqueKnob& knob) const;
 
     /// Sets a knob from text. Throws `Failure::usage`, naming the nearest knob or the range.
     void set_knob_from_text(std::string_view owner, std::string_view knob, std::string_view text);

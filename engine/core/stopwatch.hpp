@@ -6,6 +6,11 @@ namespace catoptric {
 
 using SteadyClock = std::chrono::steady_clock;
 
+/// Returns the milliseconds since `begin`.
+inline double elapsed_milliseconds(SteadyClock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
+}
+
 /// Adds the milliseconds from its construction to its destruction to a sum.
 class Stopwatch {
 public:
@@ -15,10 +20,7 @@ public:
     Stopwatch& operator=(const Stopwatch&) = delete;
 
     /// Returns the milliseconds since construction.
-    double elapsed_ms() const {
-        const std::chrono::duration<double, std::milli> life = SteadyClock::now() - begin_;
-        return life.count();
-    }
+    double elapsed_ms() const { return elapsed_milliseconds(begin_); }
 
 private:
     double& sum_ms_;

@@ -96,11 +96,10 @@ UniqueMemory allocate_buffer_memory(const GpuDevice& device, VkBuffer buffer,
     return memory;
 }
 
-void copy_buffer_and_wait(GpuDevice& device, const std::string& doing, VkBuffer from,
-                          std::uint64_t from_offset, VkBuffer to, std::uint64_t to_offset,
+void copy_buffer_and_wait(GpuDevice& device, const std::string& doing, VkBuffer from, VkBuffer to,
                           std::uint64_t bytes) {
     device.submit_one_time_commands(doing, [&](VkCommandBuffer commands) {
-        const VkBufferCopy region{from_offset, to_offset, bytes};
+        const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, from, to, 1, &region);
     });
 }
@@ -143,9 +142,8 @@ void GpuBuffer::write_contents(std::uint64_t offset, std::span<const std::byte> 
         std::memcpy(static_cast<std::byte*>(mapped_) + offset, data.data(), data.size());
         return;
     }
-    upload_.replace_pending_upload_by_later(
-        *buffer_device_,
-        buffer_device_->uploads().copy_write_into_staging_block(buffer_, offset, data));
+    upload_.set_ticket(*buffer_device_,
+                       buffer_device_->uploads().stage_write(buffer_, offset, data));
 }
 
 std::vector<std::byte> GpuBuffer::read_contents() const {
@@ -159,8 +157,8 @@ std::vector<std::byte> GpuBuffer::read_contents() const {
                                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
     const UniqueMemory memory = allocate_buffer_memory(
         *buffer_device_, staging, BufferMemoryPreference::host_reads, "read-back", mapped);
-    copy_buffer_and_wait(*buffer_device_, "read back buffer '" + name_ + "'", buffer_, 0, staging,
-                         0, bytes_);
+    copy_buffer_and_wait(*buffer_device_, "read back buffer '" + name_ + "'", buffer_, staging,
+                         bytes_);
     std::memcpy(data.data(), mapped, bytes_);
     return data;
 }

@@ -21,7 +21,7 @@ GpuDevice::GpuDevice(const DeviceOptions& options)
         if (options.given)
             adopt_external_device(*options.given);
         else
-            create_instance(options), set_active_shader_variant_choices(options);
+            create_instance(options), choose_physical_device(options);
         read_physical_device(options);
         if (!options.given) create_device();
         make_one_time_command_pool();
@@ -50,22 +50,22 @@ void GpuDevice::close() {
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
-void GpuDevice::abandon_lost_device(const Error& why) {
+void GpuDevice::abandon_device(const Error& why) {
     abandoned_ = some_device_abandoned = true;
     if (!why_abandoned_) why_abandoned_ = why;
 }
 
-void GpuDevice::throw_if_device_lost(VkResult result, const std::string& doing) try {
+void GpuDevice::check_result_and_abandon_if_lost(VkResult result, const std::string& doing) try {
     throw_unless_vk_success(result, doing);
 } catch (const Error& error) {
-    if (error.failure == Failure::device_lost) abandon_lost_device(error);
+    if (error.failure == Failure::device_lost) abandon_device(error);
     throw;
 }
 
-void GpuDevice::check_wait_and_abandon_if_lost(VkResult result, const std::string& doing) try {
+void GpuDevice::check_wait_or_abandon(VkResult result, const std::string& doing) try {
     throw_unless_vk_success(result, doing);
 } catch (const Error& error) {
-    abandon_lost_device(error);
+    abandon_device(error);
     throw;
 }
 
@@ -147,8 +147,8 @@ void GpuDevice::submit_one_time_commands_and_wait(const std::string& doing) {
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    throw_if_device_lost(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
-    check_wait_and_abandon_if_lost(vkQueueWaitIdle(queue_), doing);
+    check_result_and_abandon_if_lost(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
+    check_wait_or_abandon(vkQueueWaitIdle(queue_), doing);
 }
 
 void GpuDevice::check_validation() const {

@@ -30,7 +30,7 @@ std::vector<DeviceProperties> list_devices();
 class StagedUploads;
 
 /// A device made by the caller with DeviceFeatures::enable_features. All handles must outlive the
-/// Device.
+/// GpuDevice.
 struct ExternalDeviceHandles {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -59,7 +59,7 @@ bool has_abandoned_device();
 ///
 /// A device that is lost, or that cannot be waited for, may still use its resources. It becomes
 /// *abandoned*: it takes no more work, and neither it, its instance nor its objects are destroyed.
-/// Their memory is lost until the process ends. Another Device may be made.
+/// Their memory is lost until the process ends. Another GpuDevice may be made.
 class GpuDevice {
 public:
     /// Opens a device. Throws `no_device` if there is none, it cannot be opened or it lacks a
@@ -131,10 +131,10 @@ public:
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
     /// Throws as `throw_unless_vk_success` does, for a call that submits work or asks about its
     /// result. If the device is lost, it becomes abandoned.
-    void throw_if_device_lost(VkResult result, const std::string& doing);
+    void check_result_and_abandon_if_lost(VkResult result, const std::string& doing);
     /// Throws as `throw_unless_vk_success` does, for a call that waits for the device. If the wait
     /// fails, the device becomes abandoned.
-    void check_wait_and_abandon_if_lost(VkResult result, const std::string& doing);
+    void check_wait_or_abandon(VkResult result, const std::string& doing);
     bool is_abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.
     void check_device_not_abandoned() const;
@@ -167,12 +167,12 @@ public:
 private:
     void close();
     void create_instance(const DeviceOptions& options);
-    void set_active_shader_variant_choices(const DeviceOptions& options);
+    void choose_physical_device(const DeviceOptions& options);
     void adopt_external_device(const ExternalDeviceHandles& given);
     void read_physical_device(const DeviceOptions& options);
     void create_device();
     void make_one_time_command_pool();
-    void abandon_lost_device(const Error& why);
+    void abandon_device(const Error& why);
     void begin_one_time_commands(const std::string& doing);
     void submit_one_time_commands_and_wait(const std::string& doing);
 

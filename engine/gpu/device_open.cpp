@@ -82,7 +82,7 @@ void GpuDevice::create_instance(const DeviceOptions& options) {
     if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
-void GpuDevice::set_active_shader_variant_choices(const DeviceOptions& options) {
+void GpuDevice::choose_physical_device(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = list_physical_devices(instance_);
     std::vector<DeviceProperties> infos = describe_all_devices(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)

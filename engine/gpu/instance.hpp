@@ -28,7 +28,7 @@ bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface);
 /// (LP_NATIVE_VECTOR_WIDTH). None if the variable is unset or no number.
 std::optional<long> read_llvmpipe_vector_width_request();
 
-/// Returns the index of the queue family that can draw, dispatch and copy, or -1.
+/// Returns the index of the queue family that can draw, dispatch, copy and write timestamps, or -1.
 int find_queue_family(VkPhysicalDevice device);
 
 /// The device features that the engine enables, as one chain. Not copyable, because it points into

@@ -50,8 +50,7 @@ std::string describe_raster_pipeline(const RasterPipelineState& state,
 }
 
 /// Orders constants by name, then by the bits of the value, so that NaN compares equal to itself.
-bool is_shader_constant_ordered_before(const ShaderConstantValues& a,
-                                       const ShaderConstantValues& b) {
+bool are_constants_ordered_before(const ShaderConstantValues& a, const ShaderConstantValues& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
         return x.first != y.first
                    ? x.first < y.first
@@ -60,10 +59,10 @@ bool is_shader_constant_ordered_before(const ShaderConstantValues& a,
 }
 
 template <typename State>
-bool are_shader_constants_ordered_before(const State& a, const State& b) {
-    if (is_shader_constant_ordered_before(a.constants, b.constants)) return true;
-    return !is_shader_constant_ordered_before(b.constants, a.constants) &&
-           is_shader_constant_ordered_before(a.features, b.features);
+bool is_state_ordered_before(const State& a, const State& b) {
+    if (are_constants_ordered_before(a.constants, b.constants)) return true;
+    return !are_constants_ordered_before(b.constants, a.constants) &&
+           are_constants_ordered_before(a.features, b.features);
 }
 
 void check_image_bindings(const GpuDevice& device, const std::string& name,
@@ -242,20 +241,20 @@ const ShaderStage& PipelineStore::find_or_make_shader_stage(const std::string& s
     return *stages_.emplace(std::move(key), std::move(stage)).first->second;
 }
 
-bool PipelineStore::ShaderConstantValuesLess::operator()(const RasterPipelineKeyView& a,
-                                                         const RasterPipelineKeyView& b) const {
+bool PipelineStore::PipelineRequestLess::operator()(const RasterPipelineKeyView& a,
+                                                    const RasterPipelineKeyView& b) const {
     const auto first = [](const RasterPipelineKeyView& view) {
         const auto& [state, attachments] = view;
         return std::tie(state.hidden, state.blending, attachments.depth, attachments.colour,
                         state.fragment, state.vertex);
     };
     const auto order = first(a) <=> first(b);
-    return order != 0 ? order < 0 : are_shader_constants_ordered_before(a.first, b.first);
+    return order != 0 ? order < 0 : is_state_ordered_before(a.first, b.first);
 }
 
-bool PipelineStore::ShaderConstantValuesLess::operator()(const ComputePipelineState& a,
-                                                         const ComputePipelineState& b) const {
-    return a.shader != b.shader ? a.shader < b.shader : are_shader_constants_ordered_before(a, b);
+bool PipelineStore::PipelineRequestLess::operator()(const ComputePipelineState& a,
+                                                    const ComputePipelineState& b) const {
+    return a.shader != b.shader ? a.shader < b.shader : is_state_ordered_before(a, b);
 }
 
 const Pipeline& PipelineStore::find_or_make_raster_pipeline(const RasterPipelineState& state,

@@ -90,7 +90,7 @@ private:
     using RasterPipelineKey = std::pair<RasterPipelineState, AttachmentFormats>;
     using RasterPipelineKeyView = std::pair<const RasterPipelineState&, const AttachmentFormats&>;
     /// An order of the requests, so that a lookup builds no name.
-    struct ShaderConstantValuesLess {
+    struct PipelineRequestLess {
         using is_transparent = void;
         bool operator()(const RasterPipelineKeyView& a, const RasterPipelineKeyView& b) const;
         bool operator()(const ComputePipelineState& a, const ComputePipelineState& b) const;
@@ -110,8 +110,8 @@ private:
     std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>,
              std::unique_ptr<ShaderStage>>
         stages_;
-    std::map<RasterPipelineKey, Pipeline, ShaderConstantValuesLess> rasters_;
-    std::map<ComputePipelineState, Pipeline, ShaderConstantValuesLess> computes_;
+    std::map<RasterPipelineKey, Pipeline, PipelineRequestLess> rasters_;
+    std::map<ComputePipelineState, Pipeline, PipelineRequestLess> computes_;
     double ms_ = 0;
 };
 

@@ -17,8 +17,8 @@ inline std::uint32_t constant_value_as_bits(const std::variant<std::uint32_t, fl
 /// Bits of a shader's constants by their constant_id.
 using ShaderConstantBits = std::map<std::uint32_t, std::uint32_t>;
 
-/// Returns the values of all constants that `shader` has: first those of features that the device
-/// lacks, then `constants`, then `features`.
+/// Returns the bits of those constants in the lists that `shader` has. A later list overrides an
+/// earlier one: features that the device lacks, then `constants`, then `features`.
 ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderReflection& shader,
                                       const ShaderConstantValues& constants,
                                       const ShaderConstantValues& features);

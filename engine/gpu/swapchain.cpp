@@ -50,14 +50,14 @@ bool Swapchain::check_swapchain_result(VkResult result, const std::string& doing
     if (result == VK_SUCCESS) return true;
     lost_ |= result == VK_ERROR_SURFACE_LOST_KHR;
     if (lost_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
-    presenting_device_.throw_if_device_lost(result, doing);
+    presenting_device_.check_result_and_abandon_if_lost(result, doing);
     return false;
 }
 
 void Swapchain::wait_idle() {
     presenting_device_.check_device_not_abandoned();
-    presenting_device_.check_wait_and_abandon_if_lost(
-        vkQueueWaitIdle(presenting_device_.vulkan_queue()), "wait for the window's pictures");
+    presenting_device_.check_wait_or_abandon(vkQueueWaitIdle(presenting_device_.vulkan_queue()),
+                                             "wait for the window's pictures");
 }
 
 bool Swapchain::create_swapchain_images(uvec2 size) {

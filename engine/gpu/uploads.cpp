@@ -60,7 +60,7 @@ void StagedUploads::wait(StagedWriteTicket ticket) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket;
-    upload_device_.check_wait_and_abandon_if_lost(
+    upload_device_.check_wait_or_abandon(
         vkWaitSemaphores(upload_device_.device_handle(), &wait, ~std::uint64_t{0}),
         kUploadActivityForErrors);
     ended_ = ticket;
@@ -95,9 +95,8 @@ void StagedUploads::order_overlapping_staged_writes(StagingBlock& block,
     block.targets.push_back(target);
 }
 
-StagedUploads::StagedWriteTicket
-StagedUploads::copy_write_into_staging_block(VkBuffer to, std::uint64_t offset,
-                                             std::span<const std::byte> data) {
+StagedUploads::StagedWriteTicket StagedUploads::stage_write(VkBuffer to, std::uint64_t offset,
+                                                            std::span<const std::byte> data) {
     upload_device_.check_device_not_abandoned();
     while (!data.empty()) {
         StagingBlock& block = open_staging_block();
@@ -132,7 +131,7 @@ void StagedUploads::submit() {
     submit.pCommandBufferInfos = &commands;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &signal;
-    upload_device_.throw_if_device_lost(
+    upload_device_.check_result_and_abandon_if_lost(
         vkQueueSubmit2(upload_device_.vulkan_queue(), 1, &submit, VK_NULL_HANDLE),
         kUploadActivityForErrors);
     block.ends = ++submitted_;

@@ -20,23 +20,23 @@ class GpuDevice;
 /// flight. Copies are submitted before the next frame. Work submitted after them sees their writes.
 class StagedUploads {
 public:
-    /// The number of a write; 0: none. Larger numbers end later.
+    /// The number of the submit that ends a write; 0: none. Larger numbers end later.
     using StagedWriteTicket = std::uint64_t;
 
     explicit StagedUploads(GpuDevice& device);
     ~StagedUploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
-    /// Throws as GpuDevice::throw_if_device_lost and check_wait_and_abandon_if_lost do.
-    StagedWriteTicket copy_write_into_staging_block(VkBuffer to, std::uint64_t offset,
-                                                    std::span<const std::byte> data);
+    /// Throws as GpuDevice::check_result_and_abandon_if_lost and check_wait_or_abandon do.
+    StagedWriteTicket stage_write(VkBuffer to, std::uint64_t offset,
+                                  std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
     void wait_for_staged_write(StagedWriteTicket ticket);
 
 private:
-    /// Bytes of `to` that a block's commands write.
+    /// Bytes of `buffer` that a block's commands write.
     struct UploadWriteRange {
         VkBuffer buffer;
         std::uint64_t first, end;
@@ -73,8 +73,7 @@ public:
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void replace_pending_upload_by_later(GpuDevice& device,
-                                         StagedUploads::StagedWriteTicket ticket) {
+    void set_ticket(GpuDevice& device, StagedUploads::StagedWriteTicket ticket) {
         device_ = &device, ticket_ = ticket;
     }
 

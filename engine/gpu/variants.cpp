@@ -4,7 +4,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::array<ShaderBuildVariant, kShaderVariantCount> kShaderVariants{
+constexpr std::array<ShaderVariant, kShaderVariantCount> kShaderVariants{
     {{"groups",
       {"scattered", "in order"},
       "groups_in_order",
@@ -20,7 +20,7 @@ constexpr std::array<ShaderBuildVariant, kShaderVariantCount> kShaderVariants{
 
 } // namespace
 
-std::span<const ShaderBuildVariant, kShaderVariantCount> list_shader_variants() {
+std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants() {
     return kShaderVariants;
 }
 

@@ -11,13 +11,13 @@ namespace catoptric::gpu {
 
 inline constexpr std::size_t kShaderVariantCount = 3;
 
-struct ShaderBuildVariant {
+struct ShaderVariant {
     std::string_view name;
     std::array<std::string_view, 2> choices; ///< names of the default and of the alternative
     std::string_view constant;               ///< shader constant that gets the index of the choice
     std::string_view help;
 };
-std::span<const ShaderBuildVariant, kShaderVariantCount> list_shader_variants();
+std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants();
 
 /// The index of the choice for each variant, in the table's order.
 using ShaderVariantChoices = std::array<std::uint8_t, kShaderVariantCount>;

@@ -91,7 +91,7 @@ public:
     const RunLengthArray<T>& layer_runs_of_resource(const ResourceAccess& a) const {
         return mip_layer_values_of_resource(a).runs;
     }
-    std::uint32_t layer_count_of_access(const ResourceAccess& a) const {
+    std::uint32_t layer_count_of_resource(const ResourceAccess& a) const {
         return mip_layer_values_of_resource(a).layers;
     }
 

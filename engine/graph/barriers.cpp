@@ -98,9 +98,9 @@ void for_each_subresource_rectangle(std::uint32_t first, std::uint32_t end, std:
     }
 }
 
-/// Returns the access history of an imported image at the beginning of a frame. Its contents are
+/// Returns the access history of an image at the beginning of a frame, whose contents are
 /// ready for every shader stage that accesses it by this use.
-SubresourceAccessHistory access_history_of_imported_resource(ResourceUse use) {
+SubresourceAccessHistory make_history_with_readers(ResourceUse use) {
     const AccessState compute{.nothing = false, .use = use, .write = false, .raster = false};
     AccessState raster = compute;
     raster.raster = true;
@@ -113,10 +113,10 @@ SubresourceAccessHistory access_history_of_imported_resource(ResourceUse use) {
 /// Returns the state of an image at the start of a frame.
 SubresourceAccessHistory access_history_at_frame_start(const Graph& graph, std::uint32_t image) {
     if (graph.image_lifetime(image) == ImageLifetime::persistent)
-        return access_history_of_imported_resource(ResourceUse::sampled);
+        return make_history_with_readers(ResourceUse::sampled);
     if (graph.image_lifetime(image) == ImageLifetime::imported &&
         graph.resource_use_on_import(image))
-        return access_history_of_imported_resource(*graph.resource_use_on_import(image));
+        return make_history_with_readers(*graph.resource_use_on_import(image));
     return {};
 }
 
@@ -125,8 +125,7 @@ class BarrierPlanningTracker {
 public:
     BarrierPlanningTracker(const Graph& graph, const GraphPlan& plan)
         : tracked_graph_(graph), plan_(plan), states_(graph),
-          previous_(graph, access_history_of_imported_resource(ResourceUse::sampled)),
-          users_(plan) {
+          previous_(graph, make_history_with_readers(ResourceUse::sampled)), users_(plan) {
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
             if (const SubresourceAccessHistory state = access_history_at_frame_start(graph, i);
                 !state.accesses_to_wait_for_before_write().empty())
@@ -210,7 +209,7 @@ private:
                              std::vector<PlannedBarrier>& barriers) const {
         // A buffer has no layout, so it needs no barrier if there is nothing to wait for.
         if (access.is_buffer && before.nothing && shared.empty()) return;
-        for_each_subresource_rectangle(first, end, states_.layer_count_of_access(access),
+        for_each_subresource_rectangle(first, end, states_.layer_count_of_resource(access),
                                        [&](std::uint32_t first_mip, std::uint32_t mips,
                                            std::uint32_t first_layer, std::uint32_t layers) {
                                            append_barrier(barriers, {.is_buffer = access.is_buffer,
@@ -237,7 +236,7 @@ void add_output_barriers(const ResourceAccess& whole, const ValuesPerSubresource
     const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
         if (!is_wanted) return;
         for_each_subresource_rectangle(
-            first, end, wanted.layer_count_of_access(whole),
+            first, end, wanted.layer_count_of_resource(whole),
             [&](std::uint32_t first_mip, std::uint32_t mips, std::uint32_t first_layer,
                 std::uint32_t layers) {
                 ResourceAccess part = whole;

@@ -212,7 +212,7 @@ bool is_image_binding(gpu::ShaderBindingKind kind) {
            kind == ShaderBindingKind::storage_image;
 }
 
-const char* image_descriptor_kind_name(bool image, bool sampler) {
+const char* bound_resource_kind_name(bool image, bool sampler) {
     return image ? "an image" : sampler ? "a sampler" : "a buffer";
 }
 
@@ -226,8 +226,8 @@ void PassCommands::check_binding_kind(const gpu::ShaderBinding& binding,
                sampler = std::holds_alternative<TextureFilter>(bound);
     check(wants_image == image && wants_sampler == sampler, Failure::internal, "pass '", pass_.name,
           "': '", binding.name, "' of ", pipeline_name_, " is ",
-          image_descriptor_kind_name(wants_image, wants_sampler), ", bound is ",
-          image_descriptor_kind_name(image, sampler));
+          bound_resource_kind_name(wants_image, wants_sampler), ", bound is ",
+          bound_resource_kind_name(image, sampler));
 }
 
 void PassCommands::write_image_descriptors(const gpu::ShaderBinding& binding,
@@ -266,10 +266,11 @@ void PassCommands::write_buffer_descriptor(const gpu::ShaderBinding& binding,
 
 /// Returns the name under which a pass binds the resource of this binding. A list of texels has two
 /// bindings, a texel buffer and a storage buffer, with one name (shaders/lib/texels.glsl).
-std::string_view PassCommands::find_bound_image_list(const gpu::ShaderBinding& binding) {
-    constexpr std::string_view kStorageImageNameSuffix = "_in_storage";
+std::string_view PassCommands::bound_name_of_binding(const gpu::ShaderBinding& binding) {
+    constexpr std::string_view kStorageBufferNameSuffix = "_in_storage";
     std::string_view name = binding.name;
-    if (name.ends_with(kStorageImageNameSuffix)) name.remove_suffix(kStorageImageNameSuffix.size());
+    if (name.ends_with(kStorageBufferNameSuffix))
+        name.remove_suffix(kStorageBufferNameSuffix.size());
     return name;
 }
 
@@ -309,7 +310,7 @@ void PassCommands::write_bound_descriptors() {
             const gpu::ShaderBinding& binding = pipeline_->bindings[i];
             const bool is_work = binding.name == kWorkBufferName &&
                                  frame_recorder_.frame_work_counter();
-            const auto bound = bound_.find(find_bound_image_list(binding));
+            const auto bound = bound_.find(bound_name_of_binding(binding));
             check(is_work || bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
             if (!is_work) check_binding_kind(binding, bound->second);

@@ -113,7 +113,7 @@ private:
     void check_binding_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
     void write_image_descriptors(const gpu::ShaderBinding& binding, const BoundResource& bound,
                                  std::vector<VkDescriptorImageInfo>& infos);
-    static std::string_view find_bound_image_list(const gpu::ShaderBinding& binding);
+    static std::string_view bound_name_of_binding(const gpu::ShaderBinding& binding);
     TextureFilter sampler_filter_of_binding(ImageHandle image, TextureFilter filter) const;
     void write_buffer_descriptor(const gpu::ShaderBinding& binding, const BoundResource& bound,
                                  VkDescriptorBufferInfo& buffer, VkBufferView& texels);

@@ -54,16 +54,16 @@ struct CompiledRenderGraph {
 
     /// Returns whether the image has its own memory across frames. A persistent image always does:
     /// it may be read after a frame whose passes do not touch it.
-    bool is_persistent(std::uint32_t image) const {
+    bool outlives_frames(std::uint32_t image) const {
         const ImageLifetime lifetime = outline.image_lifetime(image);
         return lifetime == ImageLifetime::persistent ||
                (lifetime == ImageLifetime::previous && plan.images[image].used);
     }
     /// Returns whether the image is used and the runner owns its memory.
-    bool is_buffer_allocated_by_runner(std::uint32_t image) const {
+    bool is_allocated_by_runner(std::uint32_t image) const {
         return plan.images[image].used && outline.image_lifetime(image) != ImageLifetime::imported;
     }
-    bool is_buffer_allocated_by_runner(BufferHandle buffer) const {
+    bool is_allocated_by_runner(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
     /// Returns the device image for `image` in a frame of this slot (frame in flight).

@@ -23,9 +23,9 @@ ValuesPerSubresource<char> mark_parts_live_at_frame_end(const Graph& graph) {
 /// Images come first among the accesses, in order of declaration.
 std::uint32_t find_unread_attachments(std::span<const ResourceAccess> accesses,
                                       const ValuesPerSubresource<char>& live) {
-    constexpr std::size_t kPassesPerWord = 32;
+    constexpr std::size_t kUnreadBitCount = 32;
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < std::min(accesses.size(), kPassesPerWord); ++i) {
+    for (std::size_t i = 0; i < std::min(accesses.size(), kUnreadBitCount); ++i) {
         const ResourceAccess& a = accesses[i];
         if (!a.is_buffer && a.write && is_attachment(a.use) && !live.has_any_equal_value(a, true))
             bits |= 1u << i;
@@ -82,7 +82,7 @@ std::string describe_cull_reason(const Graph& graph, std::span<const ResourceAcc
         if (!a.write || names.find(name) != std::string::npos) continue;
         names += (names.empty() ? "" : ", ") + name;
     }
-    return "nobody wants what it writes: " + names;
+    return "no output depends on what it writes: " + names;
 }
 
 } // namespace catoptric::graph

@@ -17,7 +17,8 @@ struct PassCullingDecision {
 std::vector<PassCullingDecision> decide_which_passes_are_culled(const Graph& graph,
                                                                 const GraphAccesses& all);
 
-/// Returns the reason why a pass was culled, as text: "nobody wants what it writes: 'x', 'y'".
+/// Returns the reason why a pass was culled, as text: "no output depends on what it writes: 'x',
+/// 'y'".
 std::string describe_cull_reason(const Graph& graph, std::span<const ResourceAccess> accesses);
 
 } // namespace catoptric::graph

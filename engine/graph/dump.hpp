@@ -12,11 +12,8 @@ std::string graph_plan_to_text(const Graph& graph, const GraphPlan& plan);
 /// Returns the plan in Graphviz's dot language: passes as boxes, images as ellipses, culled passes
 /// dashed.
 std::string graph_plan_to_graphviz_dot(const Graph& graph, const GraphPlan& plan);
-/// {"passes":
-/// [{"name","tag","reads":[{"image","layers":[first,count],"use","previous"}],"writes":[...],"barriers":n}],
-///  "culled": [{"name","reason"}], "images":
-///  [{"name","format","size","layers","first","last","offset","bytes","alone"}], "scene_passes",
-///  "bytes", "bytes_unshared"}
+/// Returns the plan as JSON, with the members passes, culled, images, buffers, scene_passes, bytes
+/// and bytes_unshared (make_pass_json and make_image_json in dump.cpp).
 std::string plan_to_json(const Graph& graph, const GraphPlan& plan);
 
 } // namespace catoptric::graph

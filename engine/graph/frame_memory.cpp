@@ -14,13 +14,12 @@ template <typename Visit>
 void for_each_memory_placement(const CompiledRenderGraph& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const MemoryPlacement& placement = shape.plan.images[i];
-        if (shape.is_buffer_allocated_by_runner(i) && placement.alone == alone &&
-            !shape.is_persistent(i))
+        if (shape.is_allocated_by_runner(i) && placement.alone == alone &&
+            !shape.outlives_frames(i))
             visit(placement);
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
-        if (shape.is_buffer_allocated_by_runner(BufferHandle{b}) &&
-            shape.plan.buffers[b].alone == alone)
+        if (shape.is_allocated_by_runner(BufferHandle{b}) && shape.plan.buffers[b].alone == alone)
             visit(shape.plan.buffers[b]);
 }
 
@@ -88,7 +87,7 @@ void SharedGraphMemoryArena::create_resources(CompiledRenderGraph& shape,
         const MemoryPlacement& p = shape.plan.images[i];
         const ImageDesc& desc = shape.outline.list_images()[i];
         resources.images.emplace_back();
-        if (!shape.is_buffer_allocated_by_runner(i) || p.alone != alone || shape.is_persistent(i))
+        if (!shape.is_allocated_by_runner(i) || p.alone != alone || shape.outlives_frames(i))
             continue;
         resources.images.back() = make_physical_image(memory_device_, desc);
         gpu::throw_unless_vk_success(vkBindImageMemory(memory_device_.device_handle(),
@@ -100,7 +99,7 @@ void SharedGraphMemoryArena::create_resources(CompiledRenderGraph& shape,
         const MemoryPlacement& p = shape.plan.buffers[b];
         const BufferDesc& desc = shape.outline.list_buffers()[b];
         resources.buffers.emplace_back();
-        if (!shape.is_buffer_allocated_by_runner(BufferHandle{b}) || p.alone != alone) continue;
+        if (!shape.is_allocated_by_runner(BufferHandle{b}) || p.alone != alone) continue;
         resources.buffers.back() = make_unbound_buffer(memory_device_, desc);
         gpu::throw_unless_vk_success(vkBindBufferMemory(memory_device_.device_handle(),
                                                         resources.buffers.back(),
@@ -120,7 +119,7 @@ std::uint64_t SharedGraphMemoryArena::allocated_device_bytes() const {
     return sum;
 }
 
-void SharedGraphMemoryArena::find_or_allocate_heap_memory(
+void SharedGraphMemoryArena::find_or_make_resources(
     CompiledRenderGraph& shape, std::size_t slot,
     std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
     const std::function<void()>& wait) {

@@ -18,9 +18,9 @@ public:
     /// Makes the images and buffers with which the planned graph `shape` runs in this slot, unless
     /// they exist. `shapes`: all planned graphs that need memory. Calls `wait` before it destroys
     /// an image or buffer that frames in flight may use.
-    void find_or_allocate_heap_memory(CompiledRenderGraph& shape, std::size_t slot,
-                                      std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
-                                      const std::function<void()>& wait);
+    void find_or_make_resources(CompiledRenderGraph& shape, std::size_t slot,
+                                std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
+                                const std::function<void()>& wait);
 
     /// Returns the bytes of device memory that are allocated.
     std::uint64_t allocated_device_bytes() const;

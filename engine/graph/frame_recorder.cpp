@@ -44,14 +44,14 @@ VkRect2D find_pass_render_area(const Pass& pass, VkExtent2D extent) {
 
 /// Stages and accesses on both sides of a barrier.
 struct BarrierSourceAndDestinationScopes {
-    SyncScope before, after;
+    gpu::BarrierAccessScope before, after;
 };
 
 BarrierSourceAndDestinationScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
     BarrierSourceAndDestinationScopes sides{sync_scope_of_access(barrier.before),
                                             sync_scope_of_access(barrier.after)};
     for (const AccessState& touch : barrier.shared) {
-        const SyncScope scope = sync_scope_of_access(touch);
+        const gpu::BarrierAccessScope scope = sync_scope_of_access(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
@@ -136,7 +136,7 @@ void FrameRecorder::write_timestamp(PassTiming timing) {
                              nullptr);
 }
 
-void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) {
+void FrameRecorder::add_barrier(const PlannedBarrier& barrier, bool last) {
     const BarrierSourceAndDestinationScopes sides = make_barrier_scopes(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
@@ -161,7 +161,7 @@ void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) 
 void FrameRecorder::record_planned_barriers(const std::vector<PlannedBarrier>& list, bool last) {
     if (list.empty()) return;
     image_barriers_.clear(), buffer_barriers_.clear();
-    for (const PlannedBarrier& barrier : list) add_image_barrier(barrier, last);
+    for (const PlannedBarrier& barrier : list) add_barrier(barrier, last);
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size());
     dependency.pImageMemoryBarriers = image_barriers_.data();

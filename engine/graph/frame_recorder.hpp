@@ -17,7 +17,8 @@ public:
     void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
                       std::size_t slot_index, PassTiming timing, WorkCounter* work);
 
-    // Returns the device. Only Commands may call this function, while a pass records its commands.
+    /// Returns the device. Only PassCommands may call this function, while a pass records its
+    /// commands.
     gpu::GpuDevice& recording_device() { return graph_device_; }
     gpu::PipelineStore& pipeline_store() { return pipelines_; }
     /// Returns the counter of the frame's work; null: nothing is counted.
@@ -39,7 +40,7 @@ private:
                         std::uint32_t layer_count);
     void count_attachment_traffic(const Pass& pass, const VkRenderingInfo& rendering);
     void record_planned_barriers(const std::vector<PlannedBarrier>& list, bool last);
-    void add_image_barrier(const PlannedBarrier& barrier, bool last);
+    void add_barrier(const PlannedBarrier& barrier, bool last);
     void record_full_barrier();
     void write_timestamp(PassTiming timing);
 

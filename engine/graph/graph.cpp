@@ -111,7 +111,7 @@ const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) co
 bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const {
     const ImageDesc& desc = find_image_desc(part, "holds()");
     check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
-          "holds() of image '", desc.name, "', which is not kept");
+          "has_image_part_content_hash() of image '", desc.name, "', which is not persistent");
     bool all = true;
     for_each_contiguous_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
         list_content_hashes_at_start(part.id).for_each_run(
@@ -125,7 +125,7 @@ bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_
 void Graph::set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash) {
     const ImageDesc& desc = find_image_desc(part, "made_from()");
     check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
-          "made_from() of image '", desc.name, "', which is not kept");
+          "set_content_hash_of_image_part() of image '", desc.name, "', which is not persistent");
     stamped_.push_back({part, content_hash});
 }
 
@@ -194,7 +194,7 @@ Graph Graph::copy_graph_without_record_callbacks() const {
     Graph outline = *this;
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;
-    for (ImportedImageState& life : outline.lives_) life.outside = nullptr;
+    for (ImageState& life : outline.lives_) life.outside = nullptr;
     for (const gpu::GpuBuffer*& outside : outline.outside_buffers_) outside = nullptr;
     return outline;
 }

@@ -258,7 +258,7 @@ public:
     Graph copy_graph_without_record_callbacks() const;
 
 private:
-    struct ImportedImageState {
+    struct ImageState {
         ImageLifetime lifetime = ImageLifetime::frame;
         std::optional<ResourceUse> arrives;
         ResourceUse leaves = ResourceUse::sampled;
@@ -269,7 +269,7 @@ private:
 
     GraphHistory history_;
     std::vector<ImageDesc> images_;
-    std::vector<ImportedImageState> lives_; // one per entry of `images_`
+    std::vector<ImageState> lives_; // one per entry of `images_`
     std::vector<BufferDesc> buffers_;
     std::vector<char> imported_buffers_; // one per entry of `buffers_`
     std::vector<const gpu::GpuBuffer*> outside_buffers_;

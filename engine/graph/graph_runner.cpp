@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::size_t kMaxCachedGraphs = 8;
 
-double elapsed_milliseconds(SteadyClock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
-}
-
 gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
@@ -55,8 +51,8 @@ void read_timestamps(gpu::GpuDevice& device, const FrameInFlightResources& slot,
         device.device_handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(),
         8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (result != VK_SUCCESS)
-        device.throw_if_device_lost(result, "read the time stamps of " +
-                                                describe_submitted_frame(slot.frame, shape));
+        device.check_result_and_abandon_if_lost(
+            result, "read the time stamps of " + describe_submitted_frame(slot.frame, shape));
     const std::vector<double> at = timestamps_to_milliseconds(
         stamps, device.valid_timestamp_bits(),
         static_cast<double>(device.vulkan_limits().timestampPeriod));
@@ -155,12 +151,11 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
     const auto wait = [this] { finish_all_frames_in_flight(); };
-    memory_.find_or_allocate_heap_memory(shape, index, shapes_, wait);
+    memory_.find_or_make_resources(shape, index, shapes_, wait);
     kept_.find_or_create_images(shape, [this](const PersistentImage& replaced) {
         finish_all_frames_in_flight();
         for (FrameInFlightResources& other : slots_)
-            if (other.shape)
-                std::ranges::replace(other.shape->kept, &replaced, nullptr);
+            if (other.shape) std::ranges::replace(other.shape->kept, &replaced, nullptr);
     });
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
@@ -177,7 +172,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     slot.timing = timing, slot.stays = stays;
     submit_frame(slot, shape, outside);
     slot.shape = shapes_.front();
-    kept_.write(graph, shape);
+    kept_.store_content_hashes(graph, shape);
     if (!stays) kept_.swap_previous_copies(shape);
     return {frame_};
 }
@@ -207,8 +202,8 @@ void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRende
     const VkResult result = vkQueueSubmit2(runner_device_.vulkan_queue(), 1, &submit,
                                            VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        runner_device_.throw_if_device_lost(result,
-                                            "run " + describe_submitted_frame(frame_ + 1, shape));
+        runner_device_.check_result_and_abandon_if_lost(
+            result, "run " + describe_submitted_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
@@ -225,7 +220,7 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait,
                                              ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        runner_device_.check_wait_and_abandon_if_lost(
+        runner_device_.check_wait_or_abandon(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     const double waited = elapsed_milliseconds(begin);
     slot.times.wall_ms = elapsed_milliseconds(slot.submitted);
@@ -260,7 +255,7 @@ bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
     wait.pValues = &ticket.frame;
     const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        runner_device_.check_wait_and_abandon_if_lost(
+        runner_device_.check_wait_or_abandon(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }

@@ -23,7 +23,7 @@ struct ExternalSemaphores {
 /// Runs graphs. Each shape is planned once. Each frame is one command buffer and one submit, and
 /// one timeline semaphore tells when it has ended. Frames run in order, each after all work of the
 /// one before. Images, memory and history stay between frames. Each run of a technique has its own
-/// Runner.
+/// GraphRunner.
 class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to

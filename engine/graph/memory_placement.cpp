@@ -20,7 +20,7 @@ std::uint64_t end_of_placement(const MemoryPlacement& p) { return p.offset + p.b
 
 /// The images and buffers that are placed at one memory offset. No two of them are in use at the
 /// same time.
-struct HeapOffsetSharedByResources {
+struct HeapShelf {
     struct PassLifetimeInterval {
         std::uint32_t first, last;
         std::uint64_t end; ///< offset in the heap
@@ -30,7 +30,7 @@ struct HeapOffsetSharedByResources {
 
     /// Returns the end, in the heap, of the memory of all resources at this offset that are in use
     /// at the same time as `placement`; 0 if there are none.
-    std::uint64_t find_last_use_at_shared_offset(const MemoryPlacement& placement) const {
+    std::uint64_t end_of_overlapping_memory(const MemoryPlacement& placement) const {
         auto life = std::ranges::lower_bound(lives, placement.first, {},
                                              &PassLifetimeInterval::last);
         std::uint64_t end = 0;
@@ -39,33 +39,30 @@ struct HeapOffsetSharedByResources {
         return end;
     }
 };
-using HeapOffsetAllocator =
-    std::vector<HeapOffsetSharedByResources>; // shelves of one heap, from the lowest
+using HeapShelves = std::vector<HeapShelf>; // shelves of one heap, from the lowest
 
 /// Returns the lowest aligned offset at which `item` overlaps no resource that is in use at the
 /// same time.
 std::uint64_t find_first_fitting_offset(const ResourceToPlaceInHeap& item,
-                                        const HeapOffsetAllocator& shelves) {
+                                        const HeapShelves& shelves) {
     std::uint64_t offset = 0;
-    for (const HeapOffsetSharedByResources& shelf : shelves) {
+    for (const HeapShelf& shelf : shelves) {
         if (offset + item.placement->bytes <= shelf.offset) break;
-        const std::uint64_t end = shelf.find_last_use_at_shared_offset(*item.placement);
+        const std::uint64_t end = shelf.end_of_overlapping_memory(*item.placement);
         if (end > 0)
             offset = std::max(offset, align_up_to_multiple(end, item.placement->alignment));
     }
     return offset;
 }
 
-void place_resource_at_shared_offset(HeapOffsetAllocator& shelves,
-                                     const MemoryPlacement& placement) {
-    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {},
-                                          &HeapOffsetSharedByResources::offset);
+void place_resource_at_shared_offset(HeapShelves& shelves, const MemoryPlacement& placement) {
+    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &HeapShelf::offset);
     if (shelf == shelves.end() || shelf->offset != placement.offset)
         shelf = shelves.insert(shelf, {placement.offset, {}});
-    const HeapOffsetSharedByResources::PassLifetimeInterval life{placement.first, placement.last,
-                                                                 end_of_placement(placement)};
-    const auto after = std::ranges::upper_bound(
-        shelf->lives, life.first, {}, &HeapOffsetSharedByResources::PassLifetimeInterval::first);
+    const HeapShelf::PassLifetimeInterval life{placement.first, placement.last,
+                                               end_of_placement(placement)};
+    const auto after = std::ranges::upper_bound(shelf->lives, life.first, {},
+                                                &HeapShelf::PassLifetimeInterval::first);
     shelf->lives.insert(after, life);
 }
 
@@ -127,8 +124,8 @@ void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, Graph
 
 void place_resources_in_memory(const Graph& graph, const MemoryRequirementQueries& sizer,
                                GraphPlan& plan) {
-    std::vector<std::uint64_t> unshared;      // bytes of each heap if no memory were shared
-    std::vector<HeapOffsetAllocator> shelves; // allocator of each heap
+    std::vector<std::uint64_t> unshared; // bytes of each heap if no memory were shared
+    std::vector<HeapShelves> shelves;    // allocator of each heap
     for (const ResourceToPlaceInHeap& item : list_resources_largest_first(graph, sizer, plan)) {
         MemoryPlacement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {

@@ -82,12 +82,12 @@ void PersistentImages::find_or_create_images(CompiledRenderGraph& shape,
                                              const ReplaceHandler& release) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
-        if (shape.is_persistent(i))
+        if (shape.outlives_frames(i))
             shape.kept[i] = &find_or_create_images(shape.outline.list_images()[i],
                                                    shape.outline.image_lifetime(i), release);
 }
 
-void PersistentImages::write(const Graph& graph, const CompiledRenderGraph& shape) {
+void PersistentImages::store_content_hashes(const Graph& graph, const CompiledRenderGraph& shape) {
     for (const auto& [part, content_hash] : graph.list_image_content_hashes()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image

@@ -24,7 +24,7 @@ public:
     /// or lifetime differs is replaced, after a call of `release`.
     void find_or_create_images(CompiledRenderGraph& shape, const ReplaceHandler& release);
     /// Stores the content hashes that the submitted frame sets.
-    void write(const Graph& graph, const CompiledRenderGraph& shape);
+    void store_content_hashes(const Graph& graph, const CompiledRenderGraph& shape);
     /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
     /// the last frame.
     void swap_previous_copies(const CompiledRenderGraph& shape);

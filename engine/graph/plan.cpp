@@ -37,7 +37,8 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
     std::vector<std::uint64_t> begin(plan.heap_bytes), end(plan.heap_bytes.size()); // of outputs
     const auto add = [&](const MemoryPlacement& placement) {
         if (!placement.used) return;
-        if (!placement.alone) largest = std::max(largest, placement.offset + placement.bytes);
+        if (!placement.alone)
+            largest = std::max(largest, placement.offset + placement.bytes);
         else if (placement.bytes > 0) {
             begin[placement.heap] = std::min(begin[placement.heap], placement.offset);
             end[placement.heap] = std::max(end[placement.heap], placement.offset + placement.bytes);

@@ -61,7 +61,7 @@ struct PlannedBarrier {
 };
 
 struct PlannedPass {
-    std::uint32_t pass = 0;               ///< index of the pass in Graph::passes()
+    std::uint32_t pass = 0;               ///< index of the pass in Graph::list_passes()
     std::vector<PlannedBarrier> barriers; ///< executed before the pass
     /// Bit i is set if the result in attachment Pass::images[i] is never read and need not be
     /// stored.
@@ -100,8 +100,8 @@ struct GraphPlan {
     /// of the next frame, where `previous` is sampled without a barrier.
     std::vector<PlannedBarrier> last;
     std::vector<CulledPass> culled;
-    std::vector<MemoryPlacement> images;   ///< one per Graph::images()
-    std::vector<MemoryPlacement> buffers;  ///< one per Graph::buffers()
+    std::vector<MemoryPlacement> images;   ///< one per Graph::list_images()
+    std::vector<MemoryPlacement> buffers;  ///< one per Graph::list_buffers()
     std::vector<std::uint64_t> heap_bytes; ///< size of each heap
     std::uint64_t bytes = 0;               ///< sum over all heaps
     std::uint64_t bytes_unshared = 0;      ///< the sum if no memory were shared

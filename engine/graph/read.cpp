@@ -48,12 +48,12 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
     const FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
     CompiledRenderGraph& shape = *slot.shape;
     const ImageDesc& desc = shape.outline.list_images()[image.id];
-    const bool kept = shape.is_persistent(image.id);
+    const bool kept = shape.outlives_frames(image.id);
     check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
           ticket.frame, " is read after frame ", frame_,
           " was submitted, which may have changed it");
     check(!kept || shape.kept[image.id], Failure::internal, "image '", desc.name,
-          "' is read after it was forgotten");
+          "' is read after it was released");
     // A frame with `stays` does not advance the history, so its images do not count as the last
     // frame's yet.
     image.previous = kept && !slot.stays;
@@ -97,7 +97,8 @@ std::vector<std::byte> GraphRunner::read_history() {
     if (frame_ == 0) return history;
     const CompiledRenderGraph& shape = *resources_of_submitted_frame({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.list_images().size(); ++id) {
-        if (!shape.is_persistent(id) || shape.outline.image_lifetime(id) != ImageLifetime::previous)
+        if (!shape.outlives_frames(id) ||
+            shape.outline.image_lifetime(id) != ImageLifetime::previous)
             continue;
         const ImageDesc& desc = shape.outline.list_images()[id];
         const std::vector<std::byte> image = read_back_resource(

@@ -9,12 +9,13 @@ constexpr VkPipelineStageFlags2 kDepthTestStages = VK_PIPELINE_STAGE_2_EARLY_FRA
 
 } // namespace
 
-SyncScope sync_scope_of_access(const AccessState& touch) {
-    if (touch.nothing) return {};
-    const VkPipelineStageFlags2 shaders = touch.raster ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
-                                                             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
-                                                       : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    switch (touch.use) {
+gpu::BarrierAccessScope sync_scope_of_access(const AccessState& access) {
+    if (access.nothing) return {};
+    const VkPipelineStageFlags2 shaders = access.raster
+                                              ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+                                                    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
+                                              : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    switch (access.use) {
     case ResourceUse::sampled: return {shaders, VK_ACCESS_2_SHADER_READ_BIT};
     case ResourceUse::storage_read: return {shaders, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
     case ResourceUse::storage_write:

@@ -5,12 +5,8 @@
 
 namespace catoptric::graph {
 
-/// The pipeline stages and kinds of memory access of an access to an image or buffer.
-struct SyncScope {
-    VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
-    VkAccessFlags2 access = VK_ACCESS_2_NONE;
-};
-SyncScope sync_scope_of_access(const AccessState& touch);
+/// Returns the pipeline stages and kinds of memory access of an access to an image or buffer.
+gpu::BarrierAccessScope sync_scope_of_access(const AccessState& access);
 
 /// Returns the layout that an image has during this use.
 VkImageLayout image_layout_of_use(ResourceUse use);

@@ -109,15 +109,14 @@ ValuesPerSubresource<char> check_writes_before_reads(const Graph& graph, const G
     return written;
 }
 
-void check_content_hash_has_write(const Graph& graph, const ImageContentHashRecord& stamped) {
+void check_content_hash_part(const Graph& graph, const ImageContentHashRecord& stamped) {
     const ResourceAccess part = make_access_to_image_part(stamped.part);
     const ImageDesc& desc = graph.list_images()[part.id];
     if (part.layer_count == 0 || part.end_layer_of_access() > desc.layers || part.mip_count == 0 ||
         part.end_mip_of_access() > desc.mips)
         fail(kInvalidGraphFailure, describe_access(graph, part),
-             " is said to be made from something, but the image has "
-             "layers [0,",
-             desc.layers, ") and ", desc.mips, " mip(s)");
+             " has a content hash, but the image has layers [0,", desc.layers, ") and ", desc.mips,
+             " mip(s)");
 }
 
 /// Checks that passes write exactly those parts of persistent images for which a content hash is
@@ -125,7 +124,7 @@ void check_content_hash_has_write(const Graph& graph, const ImageContentHashReco
 void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses& all) {
     ValuesPerSubresource<char> stamped(graph, false), written(graph, false);
     for (const ImageContentHashRecord& s : graph.list_image_content_hashes()) {
-        check_content_hash_has_write(graph, s);
+        check_content_hash_part(graph, s);
         stamped.set_subresource_values_of_access(make_access_to_image_part(s.part), true);
     }
     for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
@@ -134,15 +133,16 @@ void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses
                 continue;
             if (stamped.has_any_equal_value(a, false))
                 fail(kInvalidGraphFailure, "pass '", graph.list_passes()[p].name, "' writes ",
-                     describe_access(graph, a), ", which is kept, but nobody says what ",
-                     describe_missing_layers(graph, stamped, a), " are made from");
+                     describe_access(graph, a),
+                     ", which is persistent, but no content hash is set for ",
+                     describe_missing_layers(graph, stamped, a));
             written.set_subresource_values_of_access(a, true);
         }
     for (const ImageContentHashRecord& s : graph.list_image_content_hashes())
         if (const ResourceAccess a = make_access_to_image_part(s.part);
             written.has_any_equal_value(a, false))
             fail(kInvalidGraphFailure, describe_access(graph, a),
-                 " is said to be made from something, but no pass writes ",
+                 " has a content hash, but no pass writes ",
                  describe_missing_layers(graph, written, a));
 }
 
@@ -169,30 +169,30 @@ void check_reads_of_previous_frame(const Graph& graph, const GraphAccesses& all,
 void check_outputs_are_written(const Graph& graph, const ValuesPerSubresource<char>& written) {
     for (const ImageHandle& image : graph.list_output_images()) {
         check(image.id < graph.list_images().size(), kInvalidGraphFailure, "image number ",
-              image.id, " is wanted, but the graph has ", graph.list_images().size());
+              image.id, " is an output, but the graph has ", graph.list_images().size());
         const ResourceAccess a = make_access_to_image_part(image);
         const std::string what = describe_access(graph, a);
         check(!image.previous, kInvalidGraphFailure, what,
-              " is wanted: only this frame's contents can be");
+              " is an output: only this frame's contents can be");
         const ImageDesc& desc = graph.list_images()[image.id];
         check(a.layer_count > 0 && a.end_layer_of_access() <= desc.layers, kInvalidGraphFailure,
-              what, " is wanted, but the image has layers [0,", desc.layers, ")");
+              what, " is an output, but the image has layers [0,", desc.layers, ")");
         check(a.mip_count > 0 && a.end_mip_of_access() <= desc.mips, kInvalidGraphFailure, what,
-              " is wanted, but the image has mips [0,", desc.mips, ")");
+              " is an output, but the image has mips [0,", desc.mips, ")");
         check(graph.image_lifetime(a.id) != ImageLifetime::imported, kInvalidGraphFailure, what,
-              " is wanted, but imported: read it where it comes from");
+              " is an output, but imported: read it where it comes from");
         const std::string missing = describe_missing_layers(graph, written, a);
-        check(missing.empty(), kInvalidGraphFailure, what, " is wanted, but no pass writes ",
+        check(missing.empty(), kInvalidGraphFailure, what, " is an output, but no pass writes ",
               missing);
     }
     for (const BufferHandle& buffer : graph.list_output_buffers()) {
         check(buffer.id < graph.list_buffers().size(), kInvalidGraphFailure, "buffer number ",
-              buffer.id, " is wanted, but the graph has ", graph.list_buffers().size());
+              buffer.id, " is an output, but the graph has ", graph.list_buffers().size());
         const ResourceAccess a{.is_buffer = true, .id = buffer.id};
         check(!graph.is_imported(buffer), kInvalidGraphFailure, describe_access(graph, a),
-              " is wanted, but imported: read it where it comes from");
+              " is an output, but imported: read it where it comes from");
         check(written.has_any_equal_value(a, true), kInvalidGraphFailure, describe_access(graph, a),
-              " is wanted, but no pass writes it");
+              " is an output, but no pass writes it");
     }
 }
 

@@ -31,7 +31,7 @@ bool is_writing_use(ResourceUse use, bool is_buffer) {
     }
 }
 
-void check_image_handle(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
+void check_resource_handle(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     const std::size_t count = a.is_buffer ? graph.list_buffers().size()
                                           : graph.list_images().size();
     check(a.id < count, kInvalidGraphFailure, "pass '", pass.name, "' names ",
@@ -53,7 +53,7 @@ void check_image_handle(const Graph& graph, const Pass& pass, const ResourceAcce
              " as ", resource_use_name(a.use), ": one mip at a time");
 }
 
-void check_attachment_access(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
+void check_attachment_format(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     const TexelFormat format = graph.list_images()[a.id].format;
     if (is_depth_format(format) == (a.use == ResourceUse::depth)) return;
     fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
@@ -81,7 +81,7 @@ void check_use_is_allowed(const Graph& graph, const Pass& pass, const ResourceAc
         fail(kInvalidGraphFailure, "pass '", pass.name, "' has attachments and uses ",
              describe_access(graph, a), " as ", resource_use_name(a.use),
              ": copies need a pass of their own");
-    if (!a.is_buffer && is_attachment(a.use)) check_attachment_access(graph, pass, a);
+    if (!a.is_buffer && is_attachment(a.use)) check_attachment_format(graph, pass, a);
 }
 
 void check_equal_sizes(const Graph& graph, const Pass& pass, const ResourceAccess& a,
@@ -175,7 +175,7 @@ void validate_pass(const Graph& graph, const Pass& pass, std::span<const Resourc
     check(static_cast<bool>(pass.body), kInvalidGraphFailure, "pass '", pass.name, "' has no body");
     check(pass.layer_count > 0, kInvalidGraphFailure, "pass '", pass.name, "' renders 0 layers");
     for (const ResourceAccess& a : all) {
-        check_image_handle(graph, pass, a);
+        check_resource_handle(graph, pass, a);
         check_use_is_allowed(graph, pass, a);
     }
     check(std::ranges::any_of(all, &ResourceAccess::write), kInvalidGraphFailure, "pass '",

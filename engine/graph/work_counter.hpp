@@ -4,7 +4,6 @@
 #include "gpu/buffer.hpp"
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -57,7 +57,6 @@ public:
     double alarm_evidence() const;
     /// Returns whether A has reached 1/d after any frame since the second failure.
     bool is_alarmed() const { return is_alarmed_; }
-    const AuditedShare& tested_share() const { return tested_; }
 
 private:
     static constexpr std::size_t kAlternatives = 64; ///< values of t and u

@@ -11,8 +11,8 @@ namespace catoptric::measure {
 
 namespace {
 
-bool has_counted_work_in_all_rounds(const BenchmarkResult& benchmark,
-                                    std::optional<double> BenchmarkRound::*count) {
+bool has_count_in_all_rounds(const BenchmarkResult& benchmark,
+                             std::optional<double> BenchmarkRound::*count) {
     return std::ranges::all_of(benchmark.rounds, [count](const BenchmarkRound& round) {
         return (round.*count).has_value();
     });
@@ -21,8 +21,7 @@ bool has_counted_work_in_all_rounds(const BenchmarkResult& benchmark,
 BenchmarkCostKind choose_benchmark_cost_kind(const BenchmarkResult& before,
                                              const BenchmarkResult& after, bool on_processors) {
     const auto both_have = [&](std::optional<double> BenchmarkRound::*count) {
-        return has_counted_work_in_all_rounds(before, count) &&
-               has_counted_work_in_all_rounds(after, count);
+        return has_count_in_all_rounds(before, count) && has_count_in_all_rounds(after, count);
     };
     if (!on_processors) return BenchmarkCostKind::real_time;
     if (both_have(&BenchmarkRound::cycles)) return BenchmarkCostKind::cycles;

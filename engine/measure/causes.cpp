@@ -10,7 +10,7 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrorReportTableName = "mirrors";
+constexpr std::string_view kMirrorMaskName = "mirrors";
 
 template <double Causes::*Figure>
 MetricValue error_cause_metric_value(const Row& row) {
@@ -36,30 +36,29 @@ MetricValue list_cause_shares(const Row& row) {
 const RegisteredMetric kSquaredErrorMetric{
     {.name = "causes/squared_error",
      .help = "mean square difference of the row's picture, which the causes add up to",
-     .mask = kMirrorReportTableName,
+     .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 270,
      .get = error_cause_metric_value<&Causes::squared_error>}};
-const RegisteredMetric kErrorPerMirrorMetric{{.name = "causes/squared_error_per_mirror",
-                                              .help = "causes of the error of each mirror",
-                                              .mask = kMirrorReportTableName,
-                                              .better = BetterDirection::less,
-                                              .order = 271,
-                                              .get = [](const Row& row) -> MetricValue {
-                                                  return row.causes
-                                                             ? row.causes->squared_error_per_mirror
-                                                             : std::vector<double>();
-                                              }}};
+const RegisteredMetric kErrorPerMirrorMetric{
+    {.name = "causes/squared_error_per_mirror",
+     .help = "mean square difference over the pixels of each mirror",
+     .mask = kMirrorMaskName,
+     .better = BetterDirection::less,
+     .order = 271,
+     .get = [](const Row& row) -> MetricValue {
+         return row.causes ? row.causes->squared_error_per_mirror : std::vector<double>();
+     }}};
 const RegisteredMetric kUnexplainedErrorMetric{
     {.name = "causes/rest_rmse",
      .help = "rmse when all causes are removed: near 0 if no cause is missing",
-     .mask = kMirrorReportTableName,
+     .mask = kMirrorMaskName,
      .order = 272,
      .get = error_cause_metric_value<&Causes::rest_rmse>}};
 const RegisteredMetric kErrorAtLightEdgesMetric{
     {.name = "causes/at_light_edges",
      .help = "share of the squared error in pixels that looked within a texel of a light's outline",
-     .mask = kMirrorReportTableName,
+     .mask = kMirrorMaskName,
      .order = 273,
      .get = [](const Row& row) -> MetricValue {
          return row.causes && row.light_edges ? row.light_edges->share : NAN;
@@ -69,7 +68,7 @@ const RegisteredMetric kCauseSharesMetric{
      .help =
          "each cause's share of the squared error (Shapley values for five of them, 1 in sum), and "
          "the decrease of the error when only this cause is removed",
-     .mask = kMirrorReportTableName,
+     .mask = kMirrorMaskName,
      .order = 274,
      .get = list_cause_shares}};
 

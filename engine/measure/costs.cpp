@@ -5,7 +5,6 @@
 #include "measure/work.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -316,10 +316,10 @@ struct PreparedFlipInput {
 };
 
 /// Writes the distances of colours and of features, pixel by pixel.
-CATOPTRIC_WIDE void compute_flip_of_prepared_inputs(const PreparedFlipInput& a,
-                                                    const PreparedFlipInput& b,
-                                                    float* __restrict colours,
-                                                    float* __restrict features) {
+CATOPTRIC_WIDE void compute_colour_and_feature_distances(const PreparedFlipInput& a,
+                                                         const PreparedFlipInput& b,
+                                                         float* __restrict colours,
+                                                         float* __restrict features) {
     const std::size_t count = a.edge.values.size();
     const double *a_x = a.colour[0].values.data(), *a_y = a.colour[1].values.data(),
                  *a_z = a.colour[2].values.data();
@@ -336,9 +336,9 @@ CATOPTRIC_WIDE void compute_flip_of_prepared_inputs(const PreparedFlipInput& a,
 }
 
 /// Computes parts of a map, one after the other in the same memory.
-class FlipMapRegion {
+class FlipRegionComputer {
 public:
-    FlipMapRegion(const FlipKernels& kernels, PixelEncoding encoding)
+    FlipRegionComputer(const FlipKernels& kernels, PixelEncoding encoding)
         : flip_kernels_(kernels), encoding_(encoding) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
@@ -347,7 +347,7 @@ public:
         prepare_flip_input(a, part, a_);
         prepare_flip_input(b, part, b_);
         colours_.resize(a_.edge.values.size()), features_.resize(a_.edge.values.size());
-        compute_flip_of_prepared_inputs(a_, b_, colours_.data(), features_.data());
+        compute_colour_and_feature_distances(a_, b_, colours_.data(), features_.data());
         std::size_t i = 0;
         for (int y = part.low.y; y < part.high.y; ++y, to += stride)
             for (int x = 0; x < part.high.x - part.low.x; ++x, ++i)
@@ -426,7 +426,7 @@ std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int 
     const int tile_count = tiles.x * tiles.y;
     std::atomic<int> next{0};
     const auto work = [&](std::size_t) {
-        FlipMapRegion part_of_map(kernels, encoding);
+        FlipRegionComputer part_of_map(kernels, encoding);
         for (int tile = next++; tile < tile_count; tile = next++) {
             const ivec2 low = kFlipTileEdge * ivec2(tile % tiles.x, tile / tiles.x);
             const ivec2 high = min(low + kFlipTileEdge, size), from(0, first);

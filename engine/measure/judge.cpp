@@ -15,8 +15,8 @@ namespace {
 
 /// Returns the first row on the front that beats this row, or null if none does.
 const Row* find_row_dominating(const std::vector<const Row*>& front, const Row& loser) {
-    const auto found = std::ranges::find_if(
-        front, [&](const Row* row) { return is_faster_or_closer_row(*row, loser); });
+    const auto found = std::ranges::find_if(front,
+                                            [&](const Row* row) { return beats_row(*row, loser); });
     return found == front.end() ? nullptr : *found;
 }
 
@@ -69,7 +69,7 @@ bool is_time_tie(const Row& a, const Row& b) {
 
 bool has_less_flip(const Row& a, const Row& b) { return is_metric_less(a, b, "flip"); }
 
-bool is_faster_or_closer_row(const Row& a, const Row& b) {
+bool beats_row(const Row& a, const Row& b) {
     if (!has_time_and_flip(a) || !has_time_and_flip(b)) return false;
     return (is_confidently_faster(a, b) && !has_less_flip(b, a)) ||
            (has_less_flip(a, b) && !is_confidently_faster(b, a));
@@ -78,9 +78,8 @@ bool is_faster_or_closer_row(const Row& a, const Row& b) {
 std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (has_time_and_flip(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
-                return is_faster_or_closer_row(other, rows[i]);
-            }))
+        if (has_time_and_flip(rows[i]) &&
+            std::ranges::none_of(rows, [&](const Row& other) { return beats_row(other, rows[i]); }))
             front.push_back(i);
     std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
     return front;
@@ -144,12 +143,12 @@ std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison)
     return ties;
 }
 
-TimeRanking rank_rows_by_time(const Comparison& comparison) {
-    TimeRanking result;
+RowRanking rank_rows(const Comparison& comparison) {
+    RowRanking result;
     for (const std::size_t index : comparison.pareto)
         if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
     for (const Row* winner : result.front) {
-        TimeRanking::TimesRowBeatsAnother win{winner, {}};
+        RowRanking::RowWins win{winner, {}};
         for (const Row& row : comparison.rows)
             if (!is_on_pareto_front(comparison, row) &&
                 find_row_dominating(result.front, row) == winner)
@@ -178,7 +177,7 @@ RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison) {
             continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced_row(other) && is_faster_or_closer_row(other, row);
+                return is_ray_traced_row(other) && beats_row(other, row);
             }))
             verdict.unbeaten.push_back(&row);
     }

@@ -33,7 +33,7 @@ bool has_less_flip(const Row& a, const Row& b);
 /// Returns whether row a is a better choice than row b: a is faster and has no larger error, or a
 /// has less error and is not slower. A row without a time, or with black mirrors, neither beats a
 /// row nor is beaten.
-bool is_faster_or_closer_row(const Row& a, const Row& b);
+bool beats_row(const Row& a, const Row& b);
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.
 /// This list is Comparison::pareto. Rows that tie may all be on the front. Costs O(n^2).
@@ -63,22 +63,22 @@ const Row* find_closest_row(const Comparison& comparison);
 std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison);
 
 /// Ranking of the rows: which row beats which.
-struct TimeRanking {
-    struct TimesRowBeatsAnother {
+struct RowRanking {
+    struct RowWins {
         const Row* winner; ///< a row on the front
         std::vector<const Row*> losers;
     };
     std::vector<const Row*> front; ///< rows on the front, in order of time
     /// Pairs of rows in which the first row beats the second. Each beaten row is listed once, with
     /// the first row on the front that beats it.
-    std::vector<TimesRowBeatsAnother> wins;
+    std::vector<RowWins> wins;
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
     /// Judged rows that are no candidates because their mirrors are black.
     std::vector<const Row*> black;
     std::vector<const Row*> untimed; ///< judged rows without a known time
 };
-TimeRanking rank_rows_by_time(const Comparison& comparison);
+RowRanking rank_rows(const Comparison& comparison);
 
 /// Answer to the question whether ray tracing beats all other rows.
 struct RayTracingVerdict {

@@ -10,8 +10,8 @@ namespace catoptric::measure {
 
 namespace {
 
-std::vector<double> list_finite_values(const std::vector<Difference>& errors,
-                                       double Difference::*figure) {
+std::vector<double> list_known_values(const std::vector<Difference>& errors,
+                                      double Difference::*figure) {
     std::vector<double> known = list_error_metric_at_instants(errors, figure);
     std::erase_if(known, [](double value) { return std::isnan(value); });
     return known;
@@ -27,13 +27,13 @@ std::vector<double> list_error_metric_at_instants(const std::vector<Difference>&
 }
 
 double mean_error_over_instants(const std::vector<Difference>& errors, double Difference::*figure) {
-    const std::vector<double> known = list_finite_values(errors, figure);
+    const std::vector<double> known = list_known_values(errors, figure);
     return std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
 }
 
 double percentile_error_over_instants(const std::vector<Difference>& errors,
                                       double Difference::*figure, double fraction) {
-    std::vector<double> known = list_finite_values(errors, figure);
+    std::vector<double> known = list_known_values(errors, figure);
     return known.empty() ? Difference::kNone : compute_percentile(std::move(known), fraction);
 }
 

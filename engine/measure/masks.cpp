@@ -61,7 +61,7 @@ Mask mask_rough_surfaces(std::span<const std::uint32_t> hits) {
     });
 }
 
-std::vector<Mask> list_row_masks_by_name(std::span<const std::uint32_t> hits) {
+std::vector<Mask> compute_row_masks(std::span<const std::uint32_t> hits) {
     return {mask_mirror_pixels(hits),    mask_first_order_pixels(hits),
             mask_mirror_in_mirror(hits), mask_non_mirror_pixels(hits),
             mask_all_pixels(hits),       mask_smooth_dielectrics(hits),

@@ -38,7 +38,7 @@ Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits);
 Mask mask_rough_surfaces(std::span<const std::uint32_t> hits);
 
 /// Returns the masks of list_row_masks(), in the same order.
-std::vector<Mask> list_row_masks_by_name(std::span<const std::uint32_t> hits);
+std::vector<Mask> compute_row_masks(std::span<const std::uint32_t> hits);
 
 /// Returns how many pixels of a mask count.
 std::size_t count_mask_pixels(const Mask& mask);

@@ -20,7 +20,7 @@ std::vector<Metric> list_metrics_in_order() {
     std::vector<Metric> rows = list_registered_entries_in_order<Metric>();
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
-              "the quantity '", row.name, "' is there twice");
+              "two metrics have the name '", row.name, "'");
     return rows;
 }
 
@@ -77,14 +77,14 @@ MetricValue find_row_metric_of_study(const Row& row, std::string_view metric) {
     return found == row.studied->values.end() ? MetricValue() : found->second;
 }
 
-MetricValue metric_value_of_difference(const Metric& quantity, const Row& row) {
+MetricValue metric_value(const Metric& quantity, const Row& row) {
     check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a row");
     if (const auto* get = std::get_if<Metric::RowMetricFunction>(&quantity.get)) return (*get)(row);
     return find_row_metric_of_study(row, quantity.name);
 }
 
-MetricValue metric_value_of_difference(const Metric& quantity, const Difference& difference) {
+MetricValue metric_value(const Metric& quantity, const Difference& difference) {
     check(!is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a difference");
     if (const auto* get = std::get_if<Metric::DifferenceMetricFunction>(&quantity.get))

@@ -123,8 +123,8 @@ const std::vector<Metric>& list_difference_metrics();
 
 /// Return the value of a metric. The first overload throws `internal` for a metric of a difference,
 /// the second for a metric of a row.
-MetricValue metric_value_of_difference(const Metric& quantity, const Row& row);
-MetricValue metric_value_of_difference(const Metric& quantity, const Difference& difference);
+MetricValue metric_value(const Metric& quantity, const Row& row);
+MetricValue metric_value(const Metric& quantity, const Difference& difference);
 /// Returns whether reports on the comparison show the metric (see Metric::study).
 bool is_metric_shown(const Metric& quantity, const Comparison& comparison);
 /// Returns whether a value counts as none (see MetricValue).

@@ -83,9 +83,9 @@ CATOPTRIC_API std::vector<float> flip(const Picture& a_display, const Picture& b
 CATOPTRIC_API double flip_mean(std::span<const float> flip_map, const Mask& mask = {});
 
 /// Difference of two pictures over the pixels of a mask. All values but `flip` are computed on
-/// linear RGB after exposure (`exposed` of measure/picture.hpp), with both pictures clamped to
-/// [0,1]. If no pixel of the mask is finite, each metric is NaN (null in JSON) and the place of the
-/// maximum is (-1, -1). The metrics are not 0 then, because 0 would mean "no error".
+/// linear RGB after exposure (`apply_exposure` of measure/display.hpp), with both pictures clamped
+/// to [0,1]. If no pixel of the mask is finite, each metric is NaN (null in JSON) and the place of
+/// the maximum is (-1, -1). The metrics are not 0 then, because 0 would mean "no error".
 struct Difference {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -105,7 +105,7 @@ struct Difference {
     int max_x = -1;
     int max_y = -1;
     double off = kNone; ///< share of the finite pixels of the mask that are off, 0..1
-    /// Longest line of pixels that are off, in pixels: `longest_line` of measure/lines.hpp.
+    /// Longest line of pixels that are off, in pixels: `longest_line_length` of measure/lines.hpp.
     double longest_line = kNone;
     /// Values of the metrics that are computed from pictures (Metric::PictureMetricFunction).
     std::vector<double> others;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-// Differences of two pixels in linear RGB after exposure (measure/picture.hpp), both clamped to
+// Differences of two pixels in linear RGB after exposure (measure/display.hpp), both clamped to
 // [0,1].
 namespace catoptric::measure {
 

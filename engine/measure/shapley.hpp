@@ -7,7 +7,7 @@
 
 namespace catoptric::measure {
 
-/// Computes ShapleyValues values. Several players can play a game together in any coalition. A
+/// Computes Shapley values. Several players can play a game together in any coalition. A
 /// player's worth is the mean rise of the game's value when the player joins, over all orders in
 /// which the players can join. The worths add up to the rise from no player to all. A player who
 /// never changes a value is worth 0. Players with the same effect are worth the same. Worths are
@@ -29,7 +29,7 @@ public:
 
 private:
     std::size_t games_;
-    /// Sum for each player and game: the ShapleyValues value once all coalitions were added.
+    /// Sum for each player and game: the Shapley value once all coalitions were added.
     std::vector<std::vector<double>> worth_;
     std::vector<bool> came_; ///< whether each coalition was added
 };

@@ -27,7 +27,7 @@ const Metric& find_metric_by_name(std::string_view name) {
 }
 
 double scalar_metric_of_difference(const Metric& figure, const Difference& error) {
-    const MetricValue value = metric_value_of_difference(figure, error);
+    const MetricValue value = metric_value(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
 }
@@ -43,8 +43,8 @@ double compute_median(std::vector<double> values) {
 
 /// Returns the row's score in one figure, such as FLIP: the number of rows that have a larger value
 /// than this row, minus the number of rows that have a smaller value.
-int count_rows_with_larger_value(const Row& row, const std::vector<const Row*>& rows,
-                                 std::string_view figure) {
+int compute_ranking_score(const Row& row, const std::vector<const Row*>& rows,
+                          std::string_view figure) {
     int standing = 0;
     for (const Row* other : rows)
         standing += is_metric_less(row, *other, figure) - is_metric_less(*other, row, figure);
@@ -56,7 +56,7 @@ MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<con
     std::ranges::stable_sort(order.rows, {}, [&](const Row* row) {
         const double median =
             compute_metric_over_views(*row, find_mirror_row_mask(), *order.figure).median;
-        return std::pair(-count_rows_with_larger_value(*row, rows, name),
+        return std::pair(-compute_ranking_score(*row, rows, name),
                          std::isnan(median) ? INFINITY : median);
     });
     for (std::size_t i = 0; i < order.rows.size(); ++i)
@@ -73,7 +73,7 @@ MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<con
 
 bool is_scalar_metric(const Metric& figure) {
     return figure.mask == "each" &&
-           std::holds_alternative<double>(metric_value_of_difference(figure, Difference{}));
+           std::holds_alternative<double>(metric_value(figure, Difference{}));
 }
 
 MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,

@@ -1,8 +1,6 @@
 #include "measure/work.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 
 namespace catoptric::measure {

@@ -8,9 +8,9 @@ KnobsSharedByTechniques::ShadowMethod read_shadow_method(const TechniqueKnobSett
     using enum KnobsSharedByTechniques::ShadowMethod;
     constexpr KnobsSharedByTechniques::ShadowMethod kRasterShadowMethods[] = {map, none},
                                                     kTracedShadows[] = {ray, map, none};
-    if (settings.has_knob_named(kShadowKnob))
+    if (settings.has_knob(kShadowKnob))
         return kRasterShadowMethods[settings.knob_value_as_integer(kShadowKnob)];
-    return settings.has_knob_named(kTracedShadowKnob)
+    return settings.has_knob(kTracedShadowKnob)
                ? kTracedShadows[settings.knob_value_as_integer(kTracedShadowKnob)]
                : none;
 }
@@ -18,13 +18,13 @@ KnobsSharedByTechniques::ShadowMethod read_shadow_method(const TechniqueKnobSett
 /// Returns the value of a knob, or nothing if there is no such knob or its special word is set.
 std::optional<std::uint32_t> find_knob_number(const TechniqueKnobSettings& settings,
                                               const TechniqueKnob& knob) {
-    if (!settings.has_knob_named(knob) || settings.is_special(knob)) return std::nullopt;
+    if (!settings.has_knob(knob) || settings.is_special(knob)) return std::nullopt;
     return static_cast<std::uint32_t>(settings.knob_value_as_integer(knob));
 }
 
 /// Returns whether the second choice of a knob with two choices is selected.
 bool has_second_choice_of_knob(const TechniqueKnobSettings& settings, const TechniqueKnob& knob) {
-    return settings.has_knob_named(knob) && settings.knob_value_as_integer(knob) == 1;
+    return settings.has_knob(knob) && settings.knob_value_as_integer(knob) == 1;
 }
 
 } // namespace
@@ -36,37 +36,37 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
     knobs.shadow_map = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
     knobs.has_soft_shadows = has_second_choice_of_knob(settings, kSoftShadowKnob);
     knobs.face = find_knob_number(settings, kCaptureFaceKnob);
-    knobs.chooses_face = settings.has_knob_named(kCaptureFaceKnob) && !knobs.face;
+    knobs.chooses_face = settings.has_knob(kCaptureFaceKnob) && !knobs.face;
     knobs.stores_floats = has_second_choice_of_knob(settings, kCaptureColourKnob);
-    if (settings.has_knob_named(kCaptureDistanceKnob))
+    if (settings.has_knob(kCaptureDistanceKnob))
         knobs.distance = kDistanceFormats[settings.knob_value_as_integer(kCaptureDistanceKnob)];
-    if (settings.has_knob_named(kDistanceRangeKnob))
+    if (settings.has_knob(kDistanceRangeKnob))
         knobs.range = settings.numeric_knob_value(kDistanceRangeKnob);
     knobs.continues = find_knob_number(settings, kContinuedSearchesKnob).value_or(0);
     knobs.by_object = has_second_choice_of_knob(settings, kCaptureTexelLookupKnob);
     knobs.asks_all = has_second_choice_of_knob(settings, kSearchedCapturesKnob);
     knobs.leaves_out_spheres = has_second_choice_of_knob(settings, kMirrorsInCapturesKnob);
-    if (settings.has_knob_named(kRoughMirrorMethodKnob)) {
+    if (settings.has_knob(kRoughMirrorMethodKnob)) {
         knobs.rough = settings.knob_value_as_enum<KnobsSharedByTechniques::RoughMirrorLookup>(
             kRoughMirrorMethodKnob);
         knobs.taps = static_cast<std::uint32_t>(settings.knob_value_as_integer(kFilterTapsKnob));
         knobs.lobe_rays = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kRoughRaysKnob));
     }
-    if (settings.has_knob_named(kBlurLawKnob))
+    if (settings.has_knob(kBlurLawKnob))
         knobs.law = settings.knob_value_as_enum<KnobsSharedByTechniques::DistanceLaw>(kBlurLawKnob);
-    if (settings.has_knob_named(kGlassRefractionModelKnob))
+    if (settings.has_knob(kGlassRefractionModelKnob))
         knobs.refract = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kGlassRefractionModelKnob));
-    if (settings.has_knob_named(kLightProbesKnob)) {
+    if (settings.has_knob(kLightProbesKnob)) {
         knobs.indirect = settings.knob_value_as_enum<KnobsSharedByTechniques::LightBetweenSurfaces>(
             kIndirectLightKnob);
         knobs.occlusion = settings.knob_value_as_enum<KnobsSharedByTechniques::AmbientOcclusion>(
             kAmbientOcclusionKnob);
         knobs.most_light_probes = *find_knob_number(settings, kLightProbesKnob);
     }
-    knobs.capture = find_knob_number(settings, kCaptureContentCacheKnob);
-    knobs.is_black_in_others = settings.has_knob_named(kCaptureContentCacheKnob) && !knobs.capture;
+    knobs.capture = find_knob_number(settings, kCaptureForOtherMirrorsKnob);
+    knobs.is_black_in_others = settings.has_knob(kCaptureForOtherMirrorsKnob) && !knobs.capture;
     return knobs;
 }
 
@@ -125,7 +125,7 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
                                          {&kSearchedCapturesKnob, "asks_others"},
                                          {&kShownDebugPictureKnob, "show"},
                                          {&kGlassRefractionModelKnob, "refract_model"}})
-        if (settings.has_knob_named(*knob)) set(constant, settings.knob_value_as_integer(*knob));
+        if (settings.has_knob(*knob)) set(constant, settings.knob_value_as_integer(*knob));
     // Among mirrors with the same technique, either all captures hold surface numbers or none does.
     // All mirrors are checked, because some may have no capture.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {

@@ -23,7 +23,7 @@ inline constexpr TechniqueKnob kCaptureFaceKnob{
     .high = 16384,
     .value = 256,
     .special = "auto"};
-inline constexpr TechniqueKnob kCaptureContentCacheKnob{
+inline constexpr TechniqueKnob kCaptureForOtherMirrorsKnob{
     .name = "capture",
     .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
             "mirrors show this mirror; none: black in other mirrors",

@@ -168,8 +168,8 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
             // requested images exist in the next frame. Images of kept captures exist without a
             // request.
             if (!look.blank || !is_kept)
-                levels.add_rough_lookup_mirrors(graph, std::span(&mirror, 1), choice.shared, look,
-                                                true);
+                levels.add_rough_lookup_to_shader(graph, std::span(&mirror, 1), choice.shared, look,
+                                                  true);
         }
         const auto found = std::ranges::find_if(
             looks.looks, [&](const render::MirrorShader& other) {
@@ -373,8 +373,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                                                            {}}
                                       : technique.look(graph, own, settings, around);
         if (look.mirror.captures == feedback.update.captures)
-            feedback.levels.add_rough_lookup_mirrors(graph, around.mirrors, choices[i].shared,
-                                                     look.mirror);
+            feedback.levels.add_rough_lookup_to_shader(graph, around.mirrors, choices[i].shared,
+                                                       look.mirror);
         if (choices[i].shared.refract == render::kRefractBackface && inputs.scene.has_glass()) {
             if (!glass_backs) glass_backs = render::add_glass_back_pass(graph, inputs);
             look.mirror.images.emplace_back(kGlassBackImage, std::vector{*glass_backs});

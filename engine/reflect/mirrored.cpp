@@ -76,7 +76,7 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
 std::string mirrored_view_name(const FlatMirrorFaceList& all,
                                const std::vector<MirroredView>& views, std::size_t view) {
     const auto& within = views[view].within;
-    const FlatMirrorFace& face = all.faces[views[view].mirror];
+    const FlatMirrorFace& face = all.faces[views[view].plane_index];
     return (within ? mirrored_view_name(all, views, *within) : "mirrored") + "/" +
            std::to_string(face.mirror + 1) +
            (face.number > 0 ? "." + std::to_string(face.number) : "");
@@ -121,8 +121,8 @@ add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const Flat
     std::vector<std::uint32_t> of_face(all.faces.size(), black);
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (views[i].within != within) continue;
-        of_face[views[i].mirror] = static_cast<std::uint32_t>(looks.looks.size());
-        looks.looks.push_back(make_planar_shader(all.faces[views[i].mirror], views[i], made[i],
+        of_face[views[i].plane_index] = static_cast<std::uint32_t>(looks.looks.size());
+        looks.looks.push_back(make_planar_shader(all.faces[views[i].plane_index], views[i], made[i],
                                                  size, within.has_value()));
     }
     for (const auto& [mirror, bent] : all.bodies) {
@@ -131,7 +131,7 @@ add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const Flat
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
         const FlatMirrorFace& face = all.faces[i];
-        const bool is_looked_through = within && views[*within].mirror == i;
+        const bool is_looked_through = within && views[*within].plane_index == i;
         if (face.number == 0)
             looks.of_mirror[face.mirror] = of_face[i];
         else if (!is_looked_through)
@@ -155,7 +155,7 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
         inputs.scene.eye(), all.planes, inputs.size, most);
     std::vector<render::MirroredViewImageWishes> wanted;
     for (const MirroredView& view : views) {
-        const FlatMirrorFace& face = all.faces[view.mirror];
+        const FlatMirrorFace& face = all.faces[view.plane_index];
         // The distance of a mirror's surface is not that of what the mirror shows, so a view inside
         // a view with distances has distances, too.
         wanted.push_back({(face.is_blurred() &&
@@ -167,7 +167,7 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.scene.add_view(views[i].view);
-        const FlatMirrorFace& face = all.faces[views[i].mirror];
+        const FlatMirrorFace& face = all.faces[views[i].plane_index];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;
         made[i] = render::add_mirrored_view(

@@ -1,7 +1,7 @@
-// Part one of the report. Every inter-reflection is rendered again in each frame, starting from
-// black. Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The report
-// swaps two cube images by hand. Here the render graph finds this from lifetimes: bounce k+1 reuses
-// the memory of bounce k-1.
+// Part one of the seed report. Every inter-reflection is rendered again in each frame, starting
+// from black. Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The
+// report swaps two cube images by hand. Here the render graph finds this from lifetimes: bounce k+1
+// reuses the memory of bounce k-1.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
@@ -15,9 +15,9 @@ constexpr TechniqueKnob kBouncesKnob{
     .high = 8,
     .value = 3};
 constexpr TechniqueKnob kNaiveKnobs[] = {
-    kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,      kGlassRefractionModelKnob,
-    kIndirectLightKnob, kLightProbesKnob, kAmbientOcclusionKnob,   kShadowKnob,
-    kShadowMapEdgeKnob, kSoftShadowKnob,  kCaptureContentCacheKnob};
+    kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,         kGlassRefractionModelKnob,
+    kIndirectLightKnob, kLightProbesKnob, kAmbientOcclusionKnob,      kShadowKnob,
+    kShadowMapEdgeKnob, kSoftShadowKnob,  kCaptureForOtherMirrorsKnob};
 
 /// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
 /// technique `naive`, because only these look into its captures.

@@ -1,4 +1,4 @@
-// Part three of the report. Captures also hold distance, and one step corrects the reflected
+// Part three of the seed report. Captures also hold distance, and one step corrects the reflected
 // direction. `distance=unorm8` stores distance as the report did: in eight bits, clamped at
 // `range`.
 #include "reflect/captures.hpp"

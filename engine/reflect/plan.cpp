@@ -48,7 +48,7 @@ MirrorPatternPrecision find_mirror_pattern_precision(const std::string& item, st
     return fnmatch(item.c_str(), name.c_str(), 0) == 0 ? kName : kNone;
 }
 
-std::string quote_technique_names(const std::vector<std::string>& names) {
+std::string quote_mirror_names(const std::vector<std::string>& names) {
     constexpr std::size_t kMaxListedMirrors = 20;
     std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
     for (std::size_t i = 0; i < std::min(names.size(), kMaxListedMirrors); ++i)
@@ -86,8 +86,8 @@ TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     for (const TechniqueKnob* const knob :
          {&kShadowKnob, &kShadowMapEdgeKnob, &kSoftShadowKnob, &kIndirectLightKnob,
           &kLightProbesKnob, &kAmbientOcclusionKnob}) {
-        if (!rest.settings.has_knob_named(*knob) ||
-            (knob == &kIndirectLightKnob && !rest.settings.has_knob_named(kLightProbesKnob)))
+        if (!rest.settings.has_knob(*knob) ||
+            (knob == &kIndirectLightKnob && !rest.settings.has_knob(kLightProbesKnob)))
             continue; // raytrace has other settings for light
         const std::string value = choice.settings.format_current_knob_value(*knob);
         if (value == defaults.format_current_knob_value(*knob)) continue;
@@ -183,7 +183,7 @@ TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
                 if (rank < best[i].rank) best[i] = {rank, &rule};
             }
             check(matches, Failure::usage, "plan '", plan.label, "': pattern '", item,
-                  "' matches no mirror; the scene has ", quote_technique_names(names),
+                  "' matches no mirror; the scene has ", quote_mirror_names(names),
                   suggest_nearest_name(item, names));
         }
     }

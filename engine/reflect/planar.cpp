@@ -51,7 +51,7 @@ constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob, kNonPlanarMirrorTe
                                           kPlanarTapsKnob,    kIndirectLightKnob,
                                           kLightProbesKnob,   kAmbientOcclusionKnob,
                                           kShadowKnob,        kShadowMapEdgeKnob,
-                                          kSoftShadowKnob,    kCaptureContentCacheKnob};
+                                          kSoftShadowKnob,    kCaptureForOtherMirrorsKnob};
 
 std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance,
                                               const TechniqueKnobSettings& settings) {

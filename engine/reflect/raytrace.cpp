@@ -80,11 +80,19 @@ constexpr TechniqueKnob kOmittedTracerRuleKnob{
     .help = "rule of robustness to leave out, to measure its cost",
     .high = 5,
     .choices = kOmittedTracerRuleChoices};
-constexpr TechniqueKnob kRaytraceKnobs[] = {
-    kRayDepthKnob,           kSamplesPerPixelKnob, kLobeRaysKnob,          kLobeSeedKnob,
-    kLampSamplingKnob,       kIndirectKnob,        kTracedShadowKnob,      kExactSphereKnob,
-    kFirstHitKnob,           kHitPrecisionKnob,    kOmittedTracerRuleKnob, kShadowMapEdgeKnob,
-    kCaptureContentCacheKnob};
+constexpr TechniqueKnob kRaytraceKnobs[] = {kRayDepthKnob,
+                                            kSamplesPerPixelKnob,
+                                            kLobeRaysKnob,
+                                            kLobeSeedKnob,
+                                            kLampSamplingKnob,
+                                            kIndirectKnob,
+                                            kTracedShadowKnob,
+                                            kExactSphereKnob,
+                                            kFirstHitKnob,
+                                            kHitPrecisionKnob,
+                                            kOmittedTracerRuleKnob,
+                                            kShadowMapEdgeKnob,
+                                            kCaptureForOtherMirrorsKnob};
 
 bool are_first_hits_rasterised(const TechniqueKnobSettings& settings) {
     return settings.knob_value_as_enum<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;

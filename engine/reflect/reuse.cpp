@@ -1,4 +1,4 @@
-// Part two of the report. Each mirror has one capture per frame. Deeper bounces come from the
+// Part two of the seed report. Each mirror has one capture per frame. Deeper bounces come from the
 // captures of the last frame, so frame k shows k bounces. R = N + 2.
 #include "reflect/captures.hpp"
 

@@ -198,10 +198,10 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
         }
 }
 
-void RoughLevels::add_rough_lookup_mirrors(graph::Graph& graph,
-                                           std::span<const std::uint32_t> mirrors,
-                                           const KnobsSharedByTechniques& knobs,
-                                           render::MirrorShader& look, bool before) const {
+void RoughLevels::add_rough_lookup_to_shader(graph::Graph& graph,
+                                             std::span<const std::uint32_t> mirrors,
+                                             const KnobsSharedByTechniques& knobs,
+                                             render::MirrorShader& look, bool before) const {
     const auto is_rough = [&](std::uint32_t mirror) {
         return level_frame_inputs_.scene.is_rough_mirror(mirror);
     };

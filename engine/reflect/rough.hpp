@@ -22,9 +22,9 @@ public:
     /// by the knobs `rough`, `law` and `rays`. `before`: the look-ups read the captures of the
     /// previous frame, for passes that are declared before add_passes. Does nothing if all these
     /// mirrors are smooth, or if the shader has no captures.
-    void add_rough_lookup_mirrors(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
-                                  const KnobsSharedByTechniques& knobs, render::MirrorShader& look,
-                                  bool before = false) const;
+    void add_rough_lookup_to_shader(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
+                                    const KnobsSharedByTechniques& knobs,
+                                    render::MirrorShader& look, bool before = false) const;
 
     /// Declares the passes that compute the filtered levels of captures that changed since the
     /// previous frame: at most two passes for each way of filtering. Call it after the captures'

@@ -1,4 +1,4 @@
-// Continues the one step of the report as a search, until the reflected ray meets a captured
+// Continues the one step of the seed report as a search, until the reflected ray meets a captured
 // surface. With `steps=0` it equals `parallax`.
 #include "reflect/captures.hpp"
 

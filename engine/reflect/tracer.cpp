@@ -17,7 +17,7 @@ namespace {
 
 using graph::ResourceUse;
 
-/// Offset of a ray's origin in the report, in world units.
+/// Offset of a ray's origin in the seed report, in world units.
 constexpr double kSeedReportRayOffset = 1e-3;
 /// Most work groups in one row of a dispatch. Every device allows 65535.
 constexpr std::uint32_t kMaxWorkGroupsPerRow = 32768;

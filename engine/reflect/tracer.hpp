@@ -46,7 +46,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
 /// (shaders/first_surface.comp).
 struct FirstSurfaceImages {
     graph::ImageHandle normals_and_distances; ///< rgba32f; scene units along the ray
-    /// Word with the object's number from 1 (bvh::integer_from_float_bits), 0: none; factor that a
+    /// Word with the object's number from 1 (bvh::unpack_number), 0: none; factor that a
     /// texture gives the roughness. rgba32f.
     graph::ImageHandle objects_and_roughness;
     graph::BufferHandle counters; ///< shared::Counters

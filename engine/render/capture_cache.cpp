@@ -151,8 +151,10 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
                                             const require::RequiredWorkModel& model,
                                             const PreviousCaptures& sequel) {
     const auto& [before, comparisons, most] = sequel;
-    check(!before || !must_read_face_comparisons(*before, most), Failure::internal, "captures '",
-          name, "' are put off before it is known what changed");
+    check(
+        !before || !must_read_face_comparisons(*before, most), Failure::internal, "captures '",
+        name,
+        "' depend on comparisons of faces: call read_finished_face_comparisons before this frame");
     const std::size_t mirrors = options.size();
     const bool follows = before && before->options.size() == mirrors;
     const CaptureCache* const known = follows ? before.get() : nullptr;
@@ -184,13 +186,13 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
         decider.decide_capture_face_work(mirror, feeding.work, kept);
         if (most > 0 && kept.changes[mirror] != CaptureChangeKind::none &&
             decider.can_capture_redraw_wait(mirror, feeding.work))
-            asking.push_back({mirror, decider.frames_since_capture_redraw(mirror)});
+            asking.push_back({mirror, decider.frames_redraw_waited(mirror)});
     }
     for (const std::uint32_t mirror : choose_postponed_capture_redraws(std::move(asking), most))
         decider.postpone_capture_redraw(mirror, feeding.work, kept);
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror)
         kept.is_late = kept.is_late || (kept.changes[mirror] != CaptureChangeKind::none &&
-                                        decider.frames_since_capture_redraw(mirror) > 0);
+                                        decider.frames_redraw_waited(mirror) > 0);
     if (known && have_equal_capture_layouts(layout, known->options) &&
         are_all_capture_faces_kept(feeding.work)) {
         kept.set = known->set;

@@ -8,7 +8,6 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <span>
 #include <vector>
 
 /// The capture cache keeps captures from frame to frame as long as the surfaces that they show do

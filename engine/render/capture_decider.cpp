@@ -35,7 +35,7 @@ bool CaptureUpdateDecider::had_same_capture_layout_before(std::uint32_t mirror) 
            have_equal_capture_contents(before_->options[mirror], layout_[mirror]);
 }
 
-std::uint32_t CaptureUpdateDecider::frames_since_capture_redraw(std::uint32_t mirror) const {
+std::uint32_t CaptureUpdateDecider::frames_redraw_waited(std::uint32_t mirror) const {
     return had_same_capture_layout_before(mirror) ? before_->waited[mirror] : 0;
 }
 
@@ -119,7 +119,7 @@ CaptureUpdateDecider::decide_capture_face_work(std::uint32_t mirror, std::uint32
         now.drawing = kClearedCaptureFaceHash;
         return CaptureFaceUpdateKind::clear;
     }
-    now = {content_hash, content_hash_of_capture_face(content_hash, seen), false,
+    now = {content_hash, drawing_number_of_capture_face(content_hash, seen), false,
            ContentHash(shown).add_value(needs.settings[face]).current_hash(), needs.pieces};
     return shows_same && compares_ ? CaptureFaceUpdateKind::compare : CaptureFaceUpdateKind::draw;
 }
@@ -149,8 +149,8 @@ CaptureUpdateDecider::changed_part_of_capture_face(std::uint32_t mirror, std::ui
 }
 
 std::uint64_t
-CaptureUpdateDecider::content_hash_of_capture_face(std::uint64_t content_hash,
-                                                   const std::vector<std::uint32_t>& seen) const {
+CaptureUpdateDecider::drawing_number_of_capture_face(std::uint64_t content_hash,
+                                                     const std::vector<std::uint32_t>& seen) const {
     ContentHash number;
     number.add_value(content_hash);
     for (const std::uint32_t other : seen)

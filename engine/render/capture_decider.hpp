@@ -23,7 +23,7 @@ public:
     bool had_same_capture_layout_before(std::uint32_t mirror) const;
     /// Returns for how many frames, up to the frame before, the redraw of the mirror's capture has
     /// waited.
-    std::uint32_t frames_since_capture_redraw(std::uint32_t mirror) const;
+    std::uint32_t frames_redraw_waited(std::uint32_t mirror) const;
 
     /// Decides what the frame does with each of the six faces of a mirror's capture. Fills the
     /// mirror's entries in `work` and `kept`.
@@ -49,8 +49,8 @@ private:
                                                        const CachedCaptureFace& now) const;
     /// Returns the number of a face's picture, from the content hash and the captures that the face
     /// shows.
-    std::uint64_t content_hash_of_capture_face(std::uint64_t content_hash,
-                                               const std::vector<std::uint32_t>& seen) const;
+    std::uint64_t drawing_number_of_capture_face(std::uint64_t content_hash,
+                                                 const std::vector<std::uint32_t>& seen) const;
 
     const GpuScene& gpu_scene_;
     const require::RequiredWorkModel& model_;

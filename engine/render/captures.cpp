@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <tuple>
 
@@ -147,8 +146,9 @@ MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& in
     check(count <= shared::kMaxCubeArrays && options.size() <= shared::kMaxCapturedMirrors,
           Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),
           " sizes and formats want ", count, " arrays of at most ", most_cubes,
-          " cubes; a frame has ", shared::kMaxCubeArrays, ", of ", shared::kMaxCapturedMirrors,
-          " mirrors");
+          " cubes; a frame has at most ", shared::kMaxCubeArrays, " arrays and ",
+          shared::kMaxCapturedMirrors,
+          " mirrors: wanted the same knobs face, colour and distance for more mirrors");
     captures.places.resize(options.size());
     const std::string dot_set = set.empty() ? "" : "." + set;
     for (const auto& [kind, mirrors] : kinds) {

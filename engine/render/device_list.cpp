@@ -16,8 +16,8 @@ std::size_t count_compared_pages(std::size_t bytes) {
 
 } // namespace
 
-bool DoubleBufferedDeviceList::set_device_list_contents(std::span<const std::byte> data,
-                                                        std::size_t from, std::size_t to) {
+bool DeviceList::set_device_list_contents(std::span<const std::byte> data, std::size_t from,
+                                          std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
@@ -37,7 +37,7 @@ bool DoubleBufferedDeviceList::set_device_list_contents(std::span<const std::byt
 }
 
 /// Returns the index of a copy of the list that no other slot (frame in flight) reads.
-std::size_t DoubleBufferedDeviceList::find_free_device_copy(std::size_t slot) {
+std::size_t DeviceList::find_free_device_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)
             if (other != slot && bound_[other] == copy) return false;
@@ -50,8 +50,7 @@ std::size_t DoubleBufferedDeviceList::find_free_device_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t DoubleBufferedDeviceList::upload_changed_pages(gpu::GpuDevice& device,
-                                                           std::size_t slot) {
+std::size_t DeviceList::upload_changed_pages(gpu::GpuDevice& device, std::size_t slot) {
     const auto current = std::ranges::find(copies_, version_, &DeviceListCopy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());

@@ -13,9 +13,9 @@ namespace catoptric::render {
 /// reads. Each slot (a frame in flight) binds one of several copies of the list; slots with equal
 /// contents bind the same copy. A list that never changes has one copy. A changing list has at most
 /// one a slot.
-class DoubleBufferedDeviceList {
+class DeviceList {
 public:
-    DoubleBufferedDeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
+    DeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
         : list_name_(std::move(name)), use_(use), bound_(slots) {}
 
     /// Sets the contents for the next `upload_changed_pages`. Returns whether they differ from the

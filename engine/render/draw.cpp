@@ -32,8 +32,7 @@ std::string choose_vertex_shader(bool own, const shared::View& view) {
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers,
-                 const OpaqueOrBlendedParts& parts) {
+                 std::uint32_t first_view, std::uint32_t layers, const DrawnObjectParts& parts) {
     const ObjectDrawRange& range = scene.list_draw_ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kInstanceLayerBits;
     scene.bind_vertices(commands, object);
@@ -117,7 +116,7 @@ gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
 
 void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                   const MirrorShader& look, const ObjectFilter& wanted,
-                  const OpaqueOrBlendedParts& parts) {
+                  const DrawnObjectParts& parts) {
     gpu::RasterPipelineState state{"", kBlackMirrorShader, drawing.store};
     state.features = make_fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
@@ -154,7 +153,7 @@ bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& vi
 /// opaque objects.
 void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
                           gpu::RasterPipelineState state, const SceneDrawSettings& drawing,
-                          const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
+                          const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     const shared::View& view = scene.list_views()[drawing.first_view];
     std::vector<std::pair<float, std::size_t>> order; // distance, object
     for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
@@ -205,7 +204,7 @@ void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting)
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipelineState state,
                   std::uint32_t first_view, std::uint32_t layers, const MirrorDrawNumbers& numbers,
-                  const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
+                  const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     std::ranges::copy(scene.shader_feature_constants(first_view),
                       std::back_inserter(state.features));
     for (const bool own : {false, true}) {
@@ -227,8 +226,7 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipe
 void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& scene,
                                         gpu::RasterPipelineState state, std::uint32_t first_view,
                                         std::uint32_t layers, const MirrorDrawNumbers& numbers,
-                                        const ObjectFilter& wanted,
-                                        const OpaqueOrBlendedParts& parts) {
+                                        const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     const shared::View& view = scene.list_views()[first_view];
     const auto is_front = [&](std::size_t i) {
         return can_cull_back_faces_of_object(scene, view, i);
@@ -244,7 +242,7 @@ void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& 
 
 void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                 const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
-    const OpaqueOrBlendedParts whole{nullptr, shown};
+    const DrawnObjectParts whole{nullptr, shown};
     const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
     const gpu::ShaderConstantValues features = make_fragment_shader_constants(scene, drawing);
     scene.bind(commands);
@@ -273,8 +271,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
             whole);
     };
     const auto is_black = [&](std::size_t object) {
-        return first_view == GpuScene::kCameraViewIndex &&
-               scene.is_object_hidden_from_camera(object);
+        return first_view == GpuScene::kCameraViewIndex && scene.does_object_enclose_camera(object);
     };
     const auto draw_all_mirrors = [&] {
         for (std::uint32_t look = 0; look < looks->looks.size(); ++look)

@@ -15,7 +15,7 @@ void bind_lighting_images(graph::PassCommands& commands, const ShadingLights& li
 using ObjectFilter = std::function<bool(std::size_t)>;
 
 /// The part of each object to draw.
-struct OpaqueOrBlendedParts {
+struct DrawnObjectParts {
     /// Runs of triangles to draw; null: all triangles.
     const std::vector<scene::TriangleIndexRun>* triangles = nullptr;
     /// For each object, the layers to draw it into: bit k stands for layer k (shown_faces.hpp).
@@ -36,7 +36,7 @@ struct MirrorDrawNumbers {
 void draw_objects(graph::PassCommands& commands, const GpuScene& scene,
                   gpu::RasterPipelineState state, std::uint32_t first_view, std::uint32_t layers,
                   const MirrorDrawNumbers& numbers, const ObjectFilter& wanted,
-                  const OpaqueOrBlendedParts& parts = {});
+                  const DrawnObjectParts& parts = {});
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
@@ -44,7 +44,7 @@ void draw_objects_with_backface_culling(graph::PassCommands& commands, const Gpu
                                         gpu::RasterPipelineState state, std::uint32_t first_view,
                                         std::uint32_t layers, const MirrorDrawNumbers& numbers,
                                         const ObjectFilter& wanted,
-                                        const OpaqueOrBlendedParts& parts = {});
+                                        const DrawnObjectParts& parts = {});
 
 /// The settings with which a picture of the scene is drawn.
 struct SceneDrawSettings {
@@ -58,7 +58,7 @@ struct SceneDrawSettings {
 };
 
 /// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
-/// draw the mirrors first. `layers`: see OpaqueOrBlendedParts.
+/// draw the mirrors first. `layers`: see DrawnObjectParts.
 void draw_scene(graph::PassCommands& commands, const GpuScene& scene,
                 const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                 std::span<const std::uint8_t> layers = {});

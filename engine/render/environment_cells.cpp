@@ -76,8 +76,7 @@ EnvironmentCells find_bright_environment_cells(const scene::Environment& environ
     const std::vector<AliasTableCell> table = make_alias_table(std::move(weights));
     for (std::size_t i = 0; i < bright.size(); ++i)
         found.texels.emplace_back(static_cast<float>(table[i].share),
-                                  bvh::index_to_bits_in_float(table[i].rest),
-                                  bvh::index_to_bits_in_float(bright[i]), 0);
+                                  bvh::pack_number(table[i].rest), bvh::pack_number(bright[i]), 0);
     return found;
 }
 

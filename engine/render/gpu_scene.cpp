@@ -283,7 +283,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
         const scene::Material& material = now.materials[now.objects[object].material];
         probe.reflectance = material.mirror ? material.reflectance : material.albedo;
         const bool is_lit = geometry_.ranges[object].lit;
-        probe.kind = is_lit ? shared::kMirrorNeedsDiffuseLight
+        probe.kind = is_lit ? shared::kMirrorLit
                             : (material.mirror ? shared::kMirrorConstantReflectance
                                                : shared::kMirrorMetal);
         if (glass_bodies_[mirror]) probe.kind = static_cast<std::uint32_t>(*glass_bodies_[mirror]);
@@ -321,9 +321,8 @@ std::uint32_t GpuScene::common_capture_face_edge() const {
 
 void GpuScene::write_scene_buffers_to_device(std::size_t slot) {
     uploads_ += vertices_.write(scene_device_, slot) + environment_.write(scene_device_, slot);
-    for (DoubleBufferedDeviceList* buffer :
-         {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_, &light_buffer_,
-          &probe_buffer_, &mirror_tree_, &lamp_buffer_})
+    for (DeviceList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
+                               &light_buffer_, &probe_buffer_, &mirror_tree_, &lamp_buffer_})
         uploads_ += buffer->upload_changed_pages(scene_device_, slot);
     uploads_ += material_details_.write(scene_device_, slot);
 }

@@ -83,9 +83,9 @@ public:
     double flat_mirror_tolerance() const { return scene::compute_flat_tolerance(camera_, size_); }
     /// Returns the eye from which mirrored views start.
     MirroredViewEye eye() const;
-    /// Returns whether the object is a closed mirror around the camera, which no light from outside
-    /// reaches.
-    bool is_object_hidden_from_camera(std::size_t object) const { return hides_all_[object]; }
+    /// Returns whether the object is a closed mirror with the camera inside, which no light from
+    /// outside reaches.
+    bool does_object_enclose_camera(std::size_t object) const { return hides_all_[object]; }
     /// Returns the texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a
     /// mirror outside the picture. The first update computes them and later updates keep them,
     /// because cubes that change size lose the contents of the frame before.
@@ -246,7 +246,7 @@ private:
     std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< body of each glass mirror
     std::map<std::size_t, double> closed_volumes_;              ///< volumes of meshes of glass, by
                                                                 ///< mesh
-    std::vector<bool> hides_all_; ///< result of is_object_hidden_from_camera for each object
+    std::vector<bool> hides_all_; ///< result of does_object_enclose_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
@@ -261,14 +261,14 @@ private:
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    mutable DoubleBufferedDeviceList view_buffer_;
-    DoubleBufferedDeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_,
-        probe_buffer_, mirror_tree_;
-    mutable DoubleBufferedDeviceList lamp_buffer_, lamp_extent_buffer_;
+    mutable DeviceList view_buffer_;
+    DeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
+        mirror_tree_;
+    mutable DeviceList lamp_buffer_, lamp_extent_buffer_;
     MaterialParameterLists material_details_;
     DeviceEnvironment environment_;
     std::unique_ptr<RayTracingTrees> tracing_;
-    /// Whether a pass of this frame traces rays, for each value of Spheres.
+    /// Whether a pass of this frame traces rays, for each value of SphereIntersectionMode.
     mutable std::array<bool, 2> wants_tracing_{};
     mutable bool wants_first_hits_ = false;
     mutable bool wants_lamp_points_ = false;  ///< whether a pass of this frame aims at lamps

@@ -53,14 +53,13 @@ std::vector<vec4> make_lamp_table(const FrameGeometry& geometry,
     for (const LampTriangle& triangle : triangles)
         weights.push_back(triangle.power / power * static_cast<double>(triangles.size()));
     const std::vector<AliasTableCell> cells = make_alias_table(std::move(weights));
-    std::vector<vec4> texels{
-        {static_cast<float>(1 / power),
-         bvh::index_to_bits_in_float(static_cast<std::uint32_t>(triangles.size())), 0, 0}};
+    std::vector<vec4> texels{{static_cast<float>(1 / power),
+                              bvh::pack_number(static_cast<std::uint32_t>(triangles.size())), 0,
+                              0}};
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         texels.emplace_back(vec3(triangles[i].corner), static_cast<float>(cells[i].share));
-        texels.emplace_back(vec3(triangles[i].second), bvh::index_to_bits_in_float(cells[i].rest));
-        texels.emplace_back(vec3(triangles[i].third),
-                            bvh::index_to_bits_in_float(triangles[i].object));
+        texels.emplace_back(vec3(triangles[i].second), bvh::pack_number(cells[i].rest));
+        texels.emplace_back(vec3(triangles[i].third), bvh::pack_number(triangles[i].object));
     }
     return texels;
 }

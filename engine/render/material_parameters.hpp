@@ -18,7 +18,7 @@ public:
     /// `most` texels.
     void fill(const scene::Scene& now, const SceneUnitTransform& space,
               const FrameGeometry& geometry, const DeviceVertices& vertices, std::uint64_t most);
-    /// Writes the changes, like DoubleBufferedDeviceList::upload_changed_pages.
+    /// Writes the changes, like DeviceList::upload_changed_pages.
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
@@ -50,7 +50,7 @@ private:
     bool any_tinted_shadow_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
     bool texels_filled_ = false;  ///< `fill_texture_texels` was called
-    DoubleBufferedDeviceList detail_words_, attributes_, texels_;
+    DeviceList detail_words_, attributes_, texels_;
 };
 
 } // namespace catoptric::render

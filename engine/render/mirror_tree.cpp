@@ -27,9 +27,8 @@ std::vector<vec4> build_mirror_tree(std::span<const shared::Probe> probes) {
     std::vector<vec4> texels;
     for (const BoundingBoxTree::BoxTreeTraversalStep& step :
          BoundingBoxTree(boxes, 1).list_box_tree_nodes()) {
-        texels.emplace_back(step.box.lo,
-                            bvh::index_to_bits_in_float(step.only ? *step.only + 1 : 0));
-        texels.emplace_back(step.box.hi, bvh::index_to_bits_in_float(step.past));
+        texels.emplace_back(step.box.lo, bvh::pack_number(step.only ? *step.only + 1 : 0));
+        texels.emplace_back(step.box.hi, bvh::pack_number(step.past));
     }
     return texels;
 }

@@ -18,7 +18,7 @@ using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
 /// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
 /// is a few roundings of a coordinate near 1.
-constexpr double kEdgeOnMirrorCosine = 1e-7;
+constexpr double kEdgeOnMirrorHeight = 1e-7;
 
 /// Returns the part of a polygon in front of the plane (Sutherland and Hodgman 1974).
 Polygon clip_polygon(const Polygon& polygon, const dvec4& plane) {
@@ -141,14 +141,14 @@ std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
                                                 const Bounds<float>& everything) {
     const scene::FlatFace& mirror = mirror_plane.flat;
     const double height = dot(from.eye - mirror.point, mirror.normal);
-    if (std::abs(height) < kEdgeOnMirrorCosine || (mirror.is_one_sided && height < 0)) return {};
+    if (std::abs(height) < kEdgeOnMirrorHeight || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
     for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
     // A mirror that touches or lies in the plane of the mirror in which it is seen does not count
     // as visible.
     const dvec4 clip(from.view.clip);
     if (clip != dvec4(0) && std::ranges::all_of(polygon, [&](const dvec3& corner) {
-            return dot(dvec3(clip), corner) + clip.w <= kEdgeOnMirrorCosine;
+            return dot(dvec3(clip), corner) + clip.w <= kEdgeOnMirrorHeight;
         }))
         return {};
     ViewClipPlanes planes = list_view_side_planes(from.view,
@@ -177,7 +177,7 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
                         std::optional<std::size_t> within, const MirroredViewInputs& mirrors,
                         int left) {
     for (std::uint32_t mirror = 0; mirror < mirrors.planes.size(); ++mirror) {
-        if (!mirrors.planes[mirror] || (within && from.mirror == mirror)) continue;
+        if (!mirrors.planes[mirror] || (within && from.plane_index == mirror)) continue;
         const MirrorPlane& plane = *mirrors.planes[mirror];
         const int deep = within ? left : std::min(left, plane.bounces);
         if (deep == 0) continue;
@@ -185,7 +185,7 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
                                                                mirrors.everything);
         if (!made) continue;
         if (views.size() == kMaxMirroredViews) return false;
-        made->mirror = mirror, made->within = within;
+        made->plane_index = mirror, made->within = within;
         views.push_back(*made);
         if (!add_mirrored_views(views, *made, views.size() - 1, mirrors, deep - 1)) return false;
     }
@@ -214,7 +214,7 @@ bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>
     const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
     return std::ranges::all_of(planes, [&](const dvec4& plane) {
         const double reach = dot(dvec3(plane), middle) + dot(abs(dvec3(plane)), half) + plane.w;
-        return reach >= -kEdgeOnMirrorCosine * length(dvec3(plane));
+        return reach >= -kEdgeOnMirrorHeight * length(dvec3(plane));
     });
 }
 

@@ -13,7 +13,7 @@ namespace catoptric::render {
 
 /// A mirrored view and the part of the picture that shows it.
 struct MirroredView {
-    std::uint32_t mirror = 0; ///< the mirror whose plane shows the view, from 0
+    std::uint32_t plane_index = 0; ///< index of the plane in the list of find_mirrored_views
     /// Index of the view that shows the plane; empty: the camera's view.
     std::optional<std::size_t> within;
     shared::View view;          ///< the view as in shared.h, with the mirror's plane in `clip`

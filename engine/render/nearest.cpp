@@ -43,7 +43,7 @@ float min_distance_to_box(const vec3& point, const Bounds<float>& box) {
 }
 
 BoundingBoxTree::BoundingBoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
-    : first_leaf_(leaf), order_(boxes.size()) {
+    : max_boxes_per_leaf_(leaf), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     if (!boxes.empty()) add_boxes_to_tree(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
 }
@@ -59,7 +59,7 @@ void BoundingBoxTree::add_boxes_to_tree(std::span<const Bounds<float>> boxes, st
         if (!boxes[order_[i]].empty()) centres.add(boxes[order_[i]].centre());
     }
     nodes_[place].box = box;
-    if (count <= first_leaf_) {
+    if (count <= max_boxes_per_leaf_) {
         nodes_[place].first = first, nodes_[place].count = count;
         return;
     }
@@ -110,9 +110,8 @@ void NearestTriangleQuery::record_moved_object(std::size_t object) {
     moved_ = parts_[object].moved = true;
 }
 
-void NearestTriangleQuery::visit_triangle_of_scene(const FrameGeometry& geometry,
-                                                   std::size_t object, const vec3& point,
-                                                   float& squared) {
+void NearestTriangleQuery::visit_object_triangles(const FrameGeometry& geometry, std::size_t object,
+                                                  const vec3& point, float& squared) {
     const ObjectDrawRange& range = geometry.ranges[object];
     const auto look = [&](std::uint32_t triangle) {
         const auto corner = [&](std::uint32_t j) {
@@ -135,9 +134,10 @@ void NearestTriangleQuery::visit_triangle_of_scene(const FrameGeometry& geometry
     part.tree->find_nearest(point, squared, look);
 }
 
-void NearestTriangleQuery::visit_triangle_of_same_object(const FrameGeometry& geometry,
-                                                         std::size_t object, const dvec3& point,
-                                                         float& squared) {
+void NearestTriangleQuery::visit_object_triangles_in_object_space(const FrameGeometry& geometry,
+                                                                  std::size_t object,
+                                                                  const dvec3& point,
+                                                                  float& squared) {
     constexpr double kTransformRoundingError =
         1e-5; // larger than the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
@@ -145,7 +145,7 @@ void NearestTriangleQuery::visit_triangle_of_same_object(const FrameGeometry& ge
     // skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kTransformRoundingError);
     float own_squared = static_cast<float>(known * known);
-    visit_triangle_of_scene(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);
+    visit_object_triangles(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
@@ -160,10 +160,10 @@ float NearestTriangleQuery::distance_to_nearest_triangle(
     objects_.find_nearest(point, squared, [&](std::uint32_t object) {
         if (skip(object, geometry.ranges[object])) return;
         if (geometry.ranges[object].own)
-            visit_triangle_of_same_object(geometry, object, at, squared);
+            visit_object_triangles_in_object_space(geometry, object, at, squared);
         else if (const float gap = min_distance_to_box(point, geometry.ranges[object].bounds);
                  !(gap * gap >= squared))
-            visit_triangle_of_scene(geometry, object, point, squared);
+            visit_object_triangles(geometry, object, point, squared);
     });
     return std::sqrt(squared);
 }

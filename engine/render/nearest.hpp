@@ -40,7 +40,7 @@ private:
     void add_boxes_to_tree(std::span<const Bounds<float>> boxes, std::uint32_t first,
                            std::uint32_t count);
 
-    std::uint32_t first_leaf_ = 0;
+    std::uint32_t max_boxes_per_leaf_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<BoundingBoxTreeNode> nodes_; ///< children after their parents
 };
@@ -68,10 +68,10 @@ private:
         std::optional<BoundingBoxTree> tree;
         bool moved = false;
     };
-    void visit_triangle_of_scene(const FrameGeometry& geometry, std::size_t object,
-                                 const vec3& point, float& squared);
-    void visit_triangle_of_same_object(const FrameGeometry& geometry, std::size_t object,
-                                       const dvec3& point, float& squared);
+    void visit_object_triangles(const FrameGeometry& geometry, std::size_t object,
+                                const vec3& point, float& squared);
+    void visit_object_triangles_in_object_space(const FrameGeometry& geometry, std::size_t object,
+                                                const dvec3& point, float& squared);
 
     BoundingBoxTree objects_;
     bool moved_ = false;

@@ -77,10 +77,10 @@ struct GlassOverOpaquePicture {
     ShaderOfEachMirror opaque_looks; ///< of the mirrors in the picture; they do not read it
 };
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
-/// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see Drawing. With such
-/// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl). With `glass`,
-/// further passes copy the picture, compute its levels, and draw glass and blended surfaces. They
-/// count as no scene passes.
+/// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see SceneDrawSettings.
+/// With such a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl). With
+/// `glass`, further passes copy the picture, compute its levels, and draw glass and blended
+/// surfaces. They count as no scene passes.
 CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                                   const ShadingLights& lighting, ShaderOfEachMirror looks,
                                   bool is_traced = false, ShadingTracer completing_tracer = {},

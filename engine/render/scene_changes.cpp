@@ -21,7 +21,7 @@ bool is_light_emitting(const scene::Material& material) {
 
 /// Returns whether the object is drawn, traced and counted in the same way with either material, so
 /// that only values differ.
-bool are_drawn_sides_equal(const scene::Material& a, scene::Material b) {
+bool differ_only_in_values(const scene::Material& a, scene::Material b) {
     if (is_light_emitting(a) != is_light_emitting(b) ||
         (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
         (a.reflectance == vec3(1)) != (b.reflectance == vec3(1)))
@@ -50,7 +50,7 @@ SceneChanges SceneChangeTracker::update_and_find_scene_changes(const scene::Scen
                          seen.seen_by_camera != object.seen_by_camera ||
                          seen.mirror != object.mirror ||
                          seen.sphere.has_value() != object.sphere.has_value() || is_new ||
-                         !are_drawn_sides_equal(materials_[seen.material], material);
+                         !differ_only_in_values(materials_[seen.material], material);
         changes.lights = changes.lights ||
                          ((moved || repainted) &&
                           (is_light_emitting(material) ||

@@ -87,7 +87,7 @@ void DeviceEnvironment::set_environment(
 
 std::size_t DeviceEnvironment::write(gpu::GpuDevice& device, std::size_t slot) {
     std::size_t writes = 0;
-    for (DoubleBufferedDeviceList* buffer : {&device_sky_record_, &texels_, &vertices_, &indices_})
+    for (DeviceList* buffer : {&device_sky_record_, &texels_, &vertices_, &indices_})
         writes += buffer->upload_changed_pages(device, slot);
     return writes;
 }

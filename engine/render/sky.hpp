@@ -22,7 +22,7 @@ public:
     /// one, and about 0.2 s for lobes (find_sky_levels).
     void set_environment(const std::shared_ptr<const scene::Environment>& environment,
                          bool has_lobes, bool casts_shadows);
-    /// Writes the changes, like DoubleBufferedDeviceList::upload_changed_pages.
+    /// Writes the changes, like DeviceList::upload_changed_pages.
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
@@ -34,11 +34,11 @@ private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
     bool has_levels_ = false, has_cells_ = false;
-    DoubleBufferedDeviceList device_sky_record_, texels_, vertices_, indices_;
+    DeviceList device_sky_record_, texels_, vertices_, indices_;
 };
 
 /// Draws the environment into pixels that no surface covers, into layers whose views start at
-/// `first_view`. `store`: as in Drawing.
+/// `first_view`. `store`: as in SceneDrawSettings.
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
               std::uint32_t layers, const gpu::ShaderConstantValues& store);
 

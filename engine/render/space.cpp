@@ -12,7 +12,7 @@ namespace catoptric::render {
 
 namespace {
 
-bool is_box_inside_view(const Bounds<double>& box, const Bounds<double>& core) {
+bool is_box_in_core(const Bounds<double>& box, const Bounds<double>& core) {
     return all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
 }
 
@@ -21,7 +21,7 @@ dvec3 choose_scene_origin(const scene::Scene& scene, const Bounds<double>& core)
     Bounds<double> around;
     for (const std::size_t mirror : scene::mirrors(scene)) {
         const Bounds<double> box = scene::bounds(scene, scene.objects[mirror]);
-        if (!is_box_inside_view(box, core) || !is_object_small_for_its_distance(box, core.centre()))
+        if (!is_box_in_core(box, core) || !is_object_small_for_its_distance(box, core.centre()))
             continue;
         small.push_back(box), around.add(box);
     }

@@ -9,8 +9,8 @@ std::vector<vec4> pack_structs_into_texels(std::span<const shared::Surface> surf
     texels.reserve(shared::kTexelsPerSurface * surfaces.size());
     for (const shared::Surface& surface : surfaces)
         texels.insert(texels.end(),
-                      {vec4(surface.albedo, bvh::index_to_bits_in_float(surface.mirror)),
-                       vec4(surface.emission, bvh::index_to_bits_in_float(surface.detail)),
+                      {vec4(surface.albedo, bvh::pack_number(surface.mirror)),
+                       vec4(surface.emission, bvh::pack_number(surface.detail)),
                        vec4(surface.reflectance, 0), vec4(surface.centre, surface.radius)});
     return texels;
 }

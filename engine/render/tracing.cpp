@@ -40,8 +40,8 @@ void read_object_triangles(const FrameGeometry& geometry, std::size_t object,
         for (std::uint32_t j = 0; j < 3; ++j) {
             const std::uint32_t local = geometry.indices[k + j] - range.first_vertex;
             normals[k + j] = vec4(vertex(j).normal,
-                                  bvh::index_to_bits_in_float(range.first_attribute.value_or(0) +
-                                                              (range.first_attribute ? local : 0)));
+                                  bvh::pack_number(range.first_attribute.value_or(0) +
+                                                   (range.first_attribute ? local : 0)));
         }
     }
 }
@@ -110,8 +110,7 @@ std::vector<std::uint32_t> list_first_hit_words(const bvh::Bvh& shown,
         list[2 * std::size_t{instances[i].object}] = shown.first_record +
                                                      f32::kBvhNodesPerInstance * i;
     for (std::uint32_t place = 0; place < bvh::count_triangles(shown); ++place)
-        list[first + bvh::integer_from_float_bits(shown.triangles[3 * std::size_t{place} + 1].w)] =
-            place;
+        list[first + bvh::unpack_number(shown.triangles[3 * std::size_t{place} + 1].w)] = place;
     return list;
 }
 
@@ -311,8 +310,7 @@ void RayTracingTrees::prepare_ray_tracing_trees(gpu::GpuDevice& device,
     if (first_hits && !hierarchy.lists_first_hits)
         assemble_two_level_tree(hierarchy, geometry, true);
     const double build_ms = watch.elapsed_ms();
-    for (DoubleBufferedDeviceList* buffer :
-         {&hierarchy.node_list, &hierarchy.triangles, &corner_normals_})
+    for (DeviceList* buffer : {&hierarchy.node_list, &hierarchy.triangles, &corner_normals_})
         writes_ += buffer->upload_changed_pages(device, slot);
     if (hierarchy.lists_first_hits)
         writes_ += hierarchy.first_hits.upload_changed_pages(device, slot);

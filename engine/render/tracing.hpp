@@ -90,10 +90,10 @@ private:
         bvh::IndexRange changed; ///< range of the tree's triangles that changed since the last
                                  ///< `assemble_two_level_tree`
         bool lists_first_hits = false; ///< `first_hits` describes the hierarchy
-        DoubleBufferedDeviceList node_list, triangles;
+        DeviceList node_list, triangles;
         /// Finds a triangle of the rasteriser in the hierarchy: see intersect_rasterised_triangle
         /// in shaders/lib/whitted.glsl.
-        DoubleBufferedDeviceList first_hits;
+        DeviceList first_hits;
     };
     DeviceBvh& bvh_of_sphere_mode(SphereIntersectionMode spheres) {
         return hierarchies_[static_cast<std::size_t>(spheres)];
@@ -123,7 +123,7 @@ private:
     bool is_read_ = false;           ///< the present layout has been read
     std::vector<MovedObject> moved_; ///< moves since the triangles were read
     std::array<DeviceBvh, 2> hierarchies_;
-    DoubleBufferedDeviceList corner_normals_;
+    DeviceList corner_normals_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;
 };

@@ -62,7 +62,7 @@ void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot) const
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot,
                           std::size_t object) const {
     if (!anything_moves_) return;
-    const DoubleBufferedDeviceList& vertices = places_[object].moves ? moving_ : static_vertices_;
+    const DeviceList& vertices = places_[object].moves ? moving_ : static_vertices_;
     commands.bind_vertex_and_index_buffers(vertices.buffer_of_device_copy(slot),
                                            indices_.buffer_of_device_copy(slot));
 }

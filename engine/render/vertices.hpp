@@ -24,7 +24,7 @@ public:
     std::size_t geometry_set_count() const { return layouts_; }
     /// Returns the index of the object's first vertex in the buffer that it is drawn from.
     std::uint32_t first_vertex_of_object(std::size_t object) const { return places_[object].first; }
-    /// Writes the changes, like DoubleBufferedDeviceList::upload_changed_pages.
+    /// Writes the changes, like DeviceList::upload_changed_pages.
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     /// Binds the static vertices and all indices.
     void bind(graph::PassCommands& commands, std::size_t slot) const;
@@ -39,7 +39,7 @@ private:
     std::size_t layouts_ = 0;
     std::vector<ObjectVertexRange> places_; ///< range of each object's vertices
     bool anything_moves_ = false;
-    DoubleBufferedDeviceList static_vertices_, moving_, indices_;
+    DeviceList static_vertices_, moving_, indices_;
 };
 
 } // namespace catoptric::render

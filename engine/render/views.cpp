@@ -97,12 +97,12 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
     view.eye = vec3(eye);
     view.eye_low = bvh::double_to_float_rounding_error(eye);
     // The comparison is written so that NaN fails, too.
-    check(length(view.eye) <= scene::kMaxSceneRadius && length(view.forward) > .5f &&
-              length(view.right) > 0 && length(view.down) > 0,
-          Failure::usage, "camera '", camera.name, "': wanted an eye within ",
-          scene::kMaxSceneRadius,
-          " sizes of the scene, a target away from it and an up that is not along, found eye ",
-          camera.eye.x, ",", camera.eye.y, ",", camera.eye.z);
+    check(
+        length(view.eye) <= scene::kMaxSceneRadius && length(view.forward) > .5f &&
+            length(view.right) > 0 && length(view.down) > 0,
+        Failure::usage, "camera '", camera.name, "': wanted an eye within ", scene::kMaxSceneRadius,
+        " sizes of the scene, a target away from it and an up that is not parallel to the view, found eye ",
+        camera.eye.x, ",", camera.eye.y, ",", camera.eye.z);
     return view;
 }
 

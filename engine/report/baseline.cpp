@@ -84,7 +84,7 @@ std::string baseline_row_name(const Json& row) {
                                                                                   : label + model;
 }
 
-const Json* find_baseline_row_with_same_settings(const Json& rows, const Json& row) {
+const Json* find_row_with_same_label_and_model(const Json& rows, const Json& row) {
     for (const Json& other : rows)
         if (find_json_member(other, "label") == find_json_member(row, "label") &&
             find_json_member(other, "model") == find_json_member(row, "model"))
@@ -245,8 +245,8 @@ std::string format_baseline_verdict_counts(const std::vector<BaselineFinding>& f
 } // namespace
 
 const char* baseline_verdict_name(BaselineVerdict verdict) {
-    constexpr const char* kRoughnessLabelTexts[] = {"kept", "worse", "unknown"};
-    return kRoughnessLabelTexts[static_cast<std::size_t>(verdict)];
+    constexpr const char* kBaselineVerdictNames[] = {"kept", "worse", "unknown"};
+    return kBaselineVerdictNames[static_cast<std::size_t>(verdict)];
 }
 
 void check_baseline_matches_comparison(const Comparison& comparison, const std::string& json,
@@ -268,7 +268,7 @@ std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison&
     for (const Json& row : before.at("rows")) {
         check(find_json_member(row, "label").is_string(), Failure::bad_data, file,
               ": wanted rows with a label, found ", describe_json_value(row));
-        if (const Json* same = find_baseline_row_with_same_settings(now.at("rows"), row)) {
+        if (const Json* same = find_row_with_same_label_and_model(now.at("rows"), row)) {
             for (BaselineFinding& finding : judge.judge_row_against_baseline(row, *same))
                 findings.push_back(std::move(finding));
         } else {

@@ -137,11 +137,11 @@ struct BenchmarkJsonEntry {
     }
 };
 
-constexpr std::array kIgnoredBenchmarkKeys{"family_index", "per_family_instance_index",
-                                           "repetitions",  "repetition_index",
-                                           "threads",      "iterations",
-                                           "real_time",    "cpu_time",
-                                           "cycles",       "instructions"};
+constexpr std::array kNonCounterKeys{"family_index", "per_family_instance_index",
+                                     "repetitions",  "repetition_index",
+                                     "threads",      "iterations",
+                                     "real_time",    "cpu_time",
+                                     "cycles",       "instructions"};
 
 BenchmarkRound read_benchmark_round(const BenchmarkJsonEntry& entry) {
     const double unit = entry.milliseconds_per_time_unit();
@@ -155,8 +155,7 @@ BenchmarkRound read_benchmark_round(const BenchmarkJsonEntry& entry) {
         count.is_number_unsigned())
         round.iterations = count.get<std::uint64_t>();
     for (const auto& [name, value] : entry.json.items())
-        if (value.is_number() &&
-            std::ranges::find(kIgnoredBenchmarkKeys, name) == kIgnoredBenchmarkKeys.end())
+        if (value.is_number() && std::ranges::find(kNonCounterKeys, name) == kNonCounterKeys.end())
             round.counters[name] = value.get<double>();
     return round;
 }

@@ -124,11 +124,11 @@ ReportTable make_cause_table(const Comparison& comparison) {
     ReportTable table{
         "Error by cause",
         {make_text_column("Row"), make_text_column("Over")},
-        "Share of a row's squared error over the mirrors, in %, over all of their pixels, "
-        "and what of it lies in those whose reflected ray meets no second mirror and in "
-        "the others. First goes what distances lose in storage (storage format), then what "
-        "is a frame late (last frame); the next five share by Shapley what is left, from "
-        "every set of them replaced by the reference's own. direction: where the ray "
+        "Share of a row's squared error over the mirrors, in %: over all of their pixels, over "
+        "those whose reflected ray meets no second mirror, and over the others. Causes are "
+        "removed in this order: the storage format of distances, captures that are one frame "
+        "old (last frame), then five causes that share the rest by Shapley values, from every "
+        "set of them replaced by the reference's own. direction: where the ray "
         "really ends, and exact distances; hidden target: what the capture's centre does "
         "not see; texels: the captured surface at the very point; mirror in mirror: what "
         "mirrors show there; shadow map: shadow rays. Then silhouettes: pixels where "

@@ -101,7 +101,7 @@ void add_difference_metrics(CsvLine& line, const std::string& mask,
                             const measure::Difference& error, Predicate is_in_table) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         line.add_field(mask + "_" + std::string(quantity.name),
-                       measure::metric_value_of_difference(quantity, error), is_in_table(quantity));
+                       measure::metric_value(quantity, error), is_in_table(quantity));
 }
 
 /// Appends fields with the errors over each mask of pixels, then over each mirror. Appends fields
@@ -131,8 +131,7 @@ void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& r
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
-            line.add_field(name, measure::metric_value_of_difference(quantity, row),
-                           is_in_rows_table(quantity));
+            line.add_field(name, measure::metric_value(quantity, row), is_in_rows_table(quantity));
         } else if (!std::exchange(has_errors, true)) {
             add_error_fields(line, comparison, row, mirrors);
         }

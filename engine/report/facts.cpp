@@ -27,7 +27,7 @@ std::string describe_run_settings(const Comparison& comparison) {
                        comparison.ambient, comparison.exposure, comparison.model);
 }
 
-/// Returns "3 lights, environment studio", for example, with the ids of unsupported features.
+/// Returns the number of lights and the environment, such as "3 lights, environment studio".
 std::string describe_lights(const SceneFacts& scene) {
     const measure::SceneContents& contents = measure::read_scene_contents(scene);
     std::string text = fmt::format("{} light{}", contents.lights.size(),
@@ -92,9 +92,9 @@ std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison) {
         {"Device", describe_device(comparison.device)},
         {"Driver", comparison.device.driver + ", " + comparison.device.api},
         {"Timing",
-         fmt::format("{}{}, {} frames in {} rounds, one row after another, after {} of warm-up",
-                     comparison.timing,
-                     comparison.together ? ", all rows in one command buffer" : "",
+         fmt::format("{}, {}, {} frames in {} rounds, after {} of warm-up", comparison.timing,
+                     comparison.together ? "all rows in one command buffer"
+                                         : "one row after another",
                      comparison.frames, comparison.rounds, comparison.warmup)},
         {"Load",
          fmt::format("{} runnable threads at the start, {} at the end",

@@ -240,7 +240,7 @@ std::string summarise_ray_tracing_verdict(const Comparison& comparison) {
 }
 
 std::vector<std::string> describe_pareto_front(const Comparison& comparison) {
-    const measure::TimeRanking standing = measure::rank_rows_by_time(comparison);
+    const measure::RowRanking standing = measure::rank_rows(comparison);
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
         "On the front, by median time: " + format_metrics_of_rows(standing.front) +

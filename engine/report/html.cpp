@@ -257,7 +257,7 @@ std::string make_html_comparison_plot(const Comparison& comparison) {
     if (chart.empty()) return "";
     return "<figure class=\"plot\">" + chart +
            "<figcaption>Lower left is better. Filled: on the Pareto front of time and FLIP "
-           "(dashed). Squares: ray traced. Bars: 95 % intervals; which rows tie, the places say. "
+           "(dashed). Squares: ray traced. Bars: 95 % intervals; rows with the same place tie. "
            "The lane below is error 0. A click on a mark, or arrow keys and Enter, show the row in "
            "the comparer.</figcaption></figure>";
 }

@@ -1,7 +1,6 @@
 #include "report/html.hpp"
 
 #include "core/text.hpp"
-#include "measure/picture_file.hpp"
 
 #include <cstdint>
 

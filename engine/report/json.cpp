@@ -97,7 +97,7 @@ struct JsonValueWriter {
 Json add_difference_metrics_json(Json json, const measure::Difference& error) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         json[std::string(quantity.name)] = make_metric_value_json(
-            measure::metric_value_of_difference(quantity, error));
+            measure::metric_value(quantity, error));
     return json;
 }
 
@@ -131,7 +131,7 @@ void add_metric_to_object(Json& json, const measure::Metric& quantity,
 }
 
 void add_metric_json(Json& json, const measure::Metric& quantity, const Row& row) {
-    const measure::MetricValue value = measure::metric_value_of_difference(quantity, row);
+    const measure::MetricValue value = measure::metric_value(quantity, row);
     const bool* mark = std::get_if<bool>(&value);
     if (quantity.only_where_true && mark != nullptr && !*mark) return;
     if (quantity.name.find('/') != std::string_view::npos)

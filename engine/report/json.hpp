@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-// Parts of JSON files. Only the .cpp files that write JSON include this header. New versions of a
+// Parts of JSON files. No installed header includes this one. New versions of a
 // file add fields and never remove any.
 namespace catoptric::report {
 

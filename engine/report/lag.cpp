@@ -277,7 +277,7 @@ std::optional<std::string> describe_measured_lag(const Comparison& comparison) {
                             "have no lag: " +
                             join_texts(lag.without_history, ", "));
     if (sentences.empty()) return {};
-    return "Lag: the report sees no difference between parts one and two; that holds while the "
+    return "Lag: the seed report sees no difference between parts one and two; that holds while the "
            "scene stands. " +
            join_texts(sentences, ". ") + ".";
 }

@@ -22,8 +22,7 @@ std::vector<std::vector<std::size_t>> list_knob_curves(const Comparison& compari
 /// has a separate lane and the Pareto front is drawn. Empty if no row can be placed.
 std::string make_comparison_plot(const Comparison& comparison);
 
-/// Returns plots of the lag as a section of a page; empty if no lag was measured at several
-/// instants.
+/// Returns plots of the lag as a section of a page; empty if no row has a measured lag.
 std::string make_lag_plots(const Comparison& comparison);
 
 } // namespace catoptric::report

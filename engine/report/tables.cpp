@@ -116,8 +116,8 @@ struct MetricTableColumn {
 
     int metric_column_order() const { return column.order != 0 ? column.order : quantity->order; }
     measure::MetricValue metric_value_of_row(const Row& row) const {
-        return mask == nullptr ? measure::metric_value_of_difference(*quantity, row)
-                               : measure::metric_value_of_difference(*quantity, row.*mask->error);
+        return mask == nullptr ? measure::metric_value(*quantity, row)
+                               : measure::metric_value(*quantity, row.*mask->error);
     }
     std::string metric_column_title() const {
         const std::string words(column.title);
@@ -176,11 +176,11 @@ std::string format_technique(const PlanEntry& entry) {
     return entry.technique + (changed.empty() ? "" : ":" + join_texts(changed, ","));
 }
 
-struct CellTextWriter {
+struct UnsupportedFeatureText {
     std::string_view id, text;
 };
 
-constexpr CellTextWriter kCellTextWriters[] = {
+constexpr UnsupportedFeatureText kUnsupportedFeatureTexts[] = {
     {"normal-texture", "height maps are left out; surfaces are as smooth as their triangles"},
     {"occlusion-texture", "left out"},
     {"clearcoat", "left out on glass, unlit surfaces and mirrors by `reflectance`"},
@@ -411,8 +411,9 @@ const RegisteredReportPart kLookupErrorsReportPart{
      .links_rows = true}};
 
 std::string describe_unsupported_feature(const std::string& id) {
-    const auto* const known = std::ranges::find(kCellTextWriters, id, &CellTextWriter::id);
-    return known == std::end(kCellTextWriters) ? "" : std::string(known->text);
+    const auto* const known = std::ranges::find(kUnsupportedFeatureTexts, id,
+                                                &UnsupportedFeatureText::id);
+    return known == std::end(kUnsupportedFeatureTexts) ? "" : std::string(known->text);
 }
 
 ReportTable make_unsupported_table(const SceneFacts& scene) {
@@ -420,8 +421,8 @@ ReportTable make_unsupported_table(const SceneFacts& scene) {
         "Added, approximated, left out",
         {make_text_column("What"), "Count", "Pixels, %", make_text_column("First"),
          make_text_column("Instead")},
-        "What the scene says that is not shown so, and what was added to it, the largest "
-        "share of the picture first. Pixels: share of the picture that shows such a "
+        "Features of the scene that are approximated or left out, and parts that were added to "
+        "it, the largest share of the picture first. Pixels: share of the picture that shows such a "
         "material first; none where pixels cannot tell."};
     for (const UnsupportedFeatureFacts& gap : measure::read_scene_contents(scene).unsupported)
         table.rows.push_back(

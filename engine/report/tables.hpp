@@ -38,7 +38,7 @@ std::string format_metric_number(double value, const measure::MetricColumn& colu
 /// has no rows.
 std::string to_markdown(const ReportTable& table);
 
-/// Returns the seed report's ReportTable 1 beside our measurements.
+/// Returns the seed report's Table 1 beside our measurements.
 ReportTable make_seed_report_table(const Comparison& comparison);
 /// Returns the table of all rows with all its metrics. Rows on the Pareto front are marked.
 ReportTable make_rows_table(const Comparison& comparison);

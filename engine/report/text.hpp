@@ -21,8 +21,8 @@ std::string escape_csv_field(const std::string& field);
 std::string format_csv_number(double value);
 /// Returns the value with this many decimals, or "–" for NaN and infinities.
 std::string format_fixed(double value, int decimals);
-/// Returns an error in 0..1 with four decimals, "0" for exactly 0, or a power of ten below 0.0001.
-/// Returns kBelowNoiseText for a negative estimate.
+/// Returns an error in 0..1 with four decimals, "0" for exactly 0, or one digit and an exponent
+/// below 0.00005. Returns kBelowNoiseText for a negative estimate.
 std::string format_picture_error(double error);
 /// Returns the FLIP of a difference, with kBelowNoiseText if it is no larger than that of the
 /// noise.

@@ -67,7 +67,7 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
 /// images/<row>-error.js. Rows with causes add
 /// images/causes-<row>.png, and drawn views add images/worst-<row>.png. Rows with lag add
 /// images/lag-<row>-moving.exr and .js, the same of -still and -reference, and
-/// images/lag-<row>-mirrors.js. `write` is called
+/// images/lag-<row>-mirrors.js. `write_comparison` is called
 /// again as rows are added. It replaces only pictures that changed and all other files, each as a
 /// whole.
 class ReportWriter {

@@ -14,7 +14,7 @@ Bounds<double> bounds_relative_to_centre(const dvec3& centre, const Bounds<doubl
     return {box.lo - centre, box.hi - centre};
 }
 
-bool may_object_appear_small(const VisibilityScene& world, const VisibilityObject& thing) {
+bool may_object_have_object_space(const VisibilityScene& world, const VisibilityObject& thing) {
     Bounds<double> around = world.bounds_of_static_objects();
     around.add(thing.box);
     const auto largest = [](const dvec3& v) { return std::max({v.x, v.y, v.z}); };
@@ -26,13 +26,13 @@ bool may_object_appear_small(const VisibilityScene& world, const VisibilityObjec
 
 void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge,
                                     bool has_soft_shadows) {
-    const bool is_new_layout = layout_ != world.object_list_change_count();
+    const bool is_new_layout = layout_ != world.layout_count();
     if (!world.has_world_changed() && !is_new_layout && shadow_edge_ == shadow_edge &&
         has_soft_shadows_ == has_soft_shadows)
         return;
     if (is_new_layout) mirrors_.assign(world.list_mirror_objects().size(), {});
     ++changes_;
-    layout_ = world.object_list_change_count(), epoch_ = world.static_change_count(),
+    layout_ = world.layout_count(), epoch_ = world.static_content_hash(),
     shadow_edge_ = shadow_edge, has_soft_shadows_ = has_soft_shadows;
     ContentHash all(epoch_);
     for (const std::size_t mover : world.list_moving_objects())
@@ -86,11 +86,11 @@ void ContentHashes::combine_capture_face_hashes(const VisibilityScene& world,
         const VisibilityObject& thing = world.list_objects()[mover];
         if (mover == object || thing.box.empty()) continue;
         const Bounds<double> box = bounds_relative_to_centre(centre, thing.box);
-        if (may_object_appear_small(world, thing))
+        if (may_object_have_object_space(world, thing))
             add(kAllCubeFaceBits, thing.content_hash, [](int) { return CubeFacePart(); });
         else
             add(cube_faces_that_may_show_box(box) &
-                    cube_faces_that_may_show_box(thing.middle - centre, thing.radius),
+                    cube_faces_that_may_show_ball(thing.middle - centre, thing.radius),
                 thing.content_hash, [&](int face) { return face_part_containing(face, box); });
     }
     for (const ShadowReceiver& landing : landings_) {
@@ -98,7 +98,7 @@ void ContentHashes::combine_capture_face_hashes(const VisibilityScene& world,
         const Bounds<double> box = bounds_relative_to_centre(centre, landing.box),
                              from = bounds_relative_to_centre(centre, landing.shade.from),
                              to = bounds_relative_to_centre(centre, landing.shade.to);
-        add(cube_faces_that_may_show_box(box) & cube_faces_that_may_show_box(from, to),
+        add(cube_faces_that_may_show_box(box) & cube_faces_that_may_show_hull(from, to),
             ContentHash(world.list_objects()[landing.caster].content_hash)
                 .add_value(landing.receiver)
                 .current_hash(),

@@ -37,15 +37,16 @@ std::string describe_why_unseen(const UnseenMirrorReason& unseen, std::size_t se
         why = they + (is_one ? " is" : " are") + " not in the camera's picture";
         break;
     case UnseenMirrorReason::UnseenMirrorCause::hidden_from_camera:
-        why = "the camera passes " + them + " by";
+        why = "the scene hides " + them + " from camera rays";
         break;
     case UnseenMirrorReason::UnseenMirrorCause::hidden:
         why = quote_object_name(scene, unseen.wall) + " hides " + them + " from the camera";
         break;
     }
     if (seen == 0) return why + ", and no mirror is seen in which " + they + " could show";
-    if (seen == 1) return why + ", and walls from the one mirror that is seen";
-    return why + ", and walls from each of the " + std::to_string(seen) + " mirrors that are seen";
+    if (seen == 1) return why + ", and walls hide " + them + " from the one mirror that is seen";
+    return why + ", and walls hide " + them + " from each of the " + std::to_string(seen) +
+           " mirrors that are seen";
 }
 
 void add_unseen_mirrors(std::vector<CulledWork>& all, const RequiredWorkModel& model,
@@ -109,7 +110,7 @@ void add_culled_shadow_maps(std::vector<CulledWork>& all, const RequiredWorkMode
 
 } // namespace
 
-void add_hash_of_visibility_findings(VisibilityFindings& findings, const RequiredWorkModel& model) {
+void set_visibility_findings_key(VisibilityFindings& findings, const RequiredWorkModel& model) {
     findings.key.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
         const MirrorRequirements& needs = model.mirrors[i];

@@ -17,7 +17,7 @@ struct VisibilityFindings {
     /// again only if the key changes.
     std::vector<std::uint64_t> key;
 };
-void add_hash_of_visibility_findings(VisibilityFindings& findings, const RequiredWorkModel& model);
+void set_visibility_findings_key(VisibilityFindings& findings, const RequiredWorkModel& model);
 
 /// Returns numbers in ascending order as text: "1", "2-5", "1-3, 7".
 std::string format_number_ranges(const std::vector<std::size_t>& numbers);

@@ -90,7 +90,7 @@ CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& box) {
     return faces;
 }
 
-CubeFaceBits cube_faces_that_may_show_box(const dvec3& centre, double radius) {
+CubeFaceBits cube_faces_that_may_show_ball(const dvec3& centre, double radius) {
     CubeFaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         const double ahead = face % 2 == 0 ? centre[face / 2] : -centre[face / 2];
@@ -102,7 +102,7 @@ CubeFaceBits cube_faces_that_may_show_box(const dvec3& centre, double radius) {
     return faces;
 }
 
-CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b) {
+CubeFaceBits cube_faces_that_may_show_hull(const Bounds<double>& a, const Bounds<double>& b) {
     CubeFaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         dvec3 forward(0);

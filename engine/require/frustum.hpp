@@ -43,10 +43,10 @@ private:
 CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& box);
 
 /// Returns the faces that may show some of a ball.
-CubeFaceBits cube_faces_that_may_show_box(const dvec3& centre, double radius);
+CubeFaceBits cube_faces_that_may_show_ball(const dvec3& centre, double radius);
 
 /// Returns the faces that may show some of the hull of a and b.
-CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b);
+CubeFaceBits cube_faces_that_may_show_hull(const Bounds<double>& a, const Bounds<double>& b);
 
 /// Returns the faces with at least one direction whose product with the normal is above -`sine`.
 /// These faces may show what a viewer in front of the plane sees mirrored in it.

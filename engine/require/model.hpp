@@ -46,7 +46,6 @@ struct MirrorRequirements {
     bool is_captured = true;
     /// Faces of its capture that hold directions which may be read.
     CubeFaceBits faces = kAllCubeFaceBits;
-    std::uint32_t edge = 0; ///< sufficient edge of a face in texels; 0: as many as the row asks for
     /// For each face of the capture, a content hash of the shown surfaces and of their lighting,
     /// except reflections in mirrors. The bytes of a face stay the same while this hash, the view
     /// of the face and the views of the shadow maps stay the same.

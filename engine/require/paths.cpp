@@ -29,7 +29,7 @@ public:
         }
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i)
-            trace_path_of_pixel(question, i, triangles);
+            add_triangles_of_object(question, i, triangles);
         tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateTriangleSearchScope::across_objects);
     }
 
@@ -56,8 +56,8 @@ public:
     }
 
 private:
-    void trace_path_of_pixel(const RequiredWorkModelInput& question, std::size_t index,
-                             std::vector<bvh::Triangle>& triangles) {
+    void add_triangles_of_object(const RequiredWorkModelInput& question, std::size_t index,
+                                 std::vector<bvh::Triangle>& triangles) {
         const scene::Object& object = question.now.objects[index];
         const scene::Mesh& mesh = question.now.meshes[object.mesh];
         const scene::Material& material = question.now.materials[object.material];

@@ -24,15 +24,15 @@ struct RequiredWorkModelBuilder::Impl {
 
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
-    void find_mirrors_seen_by_camera(const PictureFrustum& picture, const scene::Scene& now);
-    void find_mirrors_needing_captures(std::size_t mirror, bool asks_all);
+    void find_visible_mirrors(const PictureFrustum& picture, const scene::Scene& now);
+    void find_capture_requirements(std::size_t mirror, bool asks_all);
     CubeFaceBits needed_capture_faces_of_mirror(const PictureFrustum& picture, std::size_t mirror);
     void find_lights_needing_shadow_maps(const PictureFrustum& picture);
 };
 
 /// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
-void RequiredWorkModelBuilder::Impl::find_mirrors_seen_by_camera(const PictureFrustum& picture,
-                                                                 const scene::Scene& now) {
+void RequiredWorkModelBuilder::Impl::find_visible_mirrors(const PictureFrustum& picture,
+                                                          const scene::Scene& now) {
     const std::size_t count = world.list_mirror_objects().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
@@ -57,9 +57,8 @@ void RequiredWorkModelBuilder::Impl::find_mirrors_seen_by_camera(const PictureFr
         }
 }
 
-/// Finds what a mirror's capture shows, after find_mirrors_seen_by_camera.
-void RequiredWorkModelBuilder::Impl::find_mirrors_needing_captures(std::size_t mirror,
-                                                                   bool asks_all) {
+/// Finds what a mirror's capture shows, after find_visible_mirrors.
+void RequiredWorkModelBuilder::Impl::find_capture_requirements(std::size_t mirror, bool asks_all) {
     MirrorRequirements& needs = model.mirrors[mirror];
     needs.is_captured = needs.is_seen || asks_all;
     if (!needs.is_captured) {
@@ -114,7 +113,7 @@ void RequiredWorkModelBuilder::Impl::find_lights_needing_shadow_maps(
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorRequirements::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
         model.lights[i].content_hash =
-            ContentHash(world.static_change_count()).add_value(i).current_hash();
+            ContentHash(world.static_content_hash()).add_value(i).current_hash();
         model.lights[i].has_map = std::ranges::any_of(
             world.list_objects(), [&](const VisibilityObject& thing) {
                 return !thing.box.empty() &&
@@ -141,15 +140,15 @@ RequiredWorkModelBuilder::make_work_model_for_request(const RequiredWorkModelInp
     impl.sight.move_to_instant(impl.world);
     impl.content_hashes.move_to_instant(impl.world, question.shadow_edge,
                                         question.has_soft_shadows);
-    impl.find_mirrors_seen_by_camera(picture, question.now);
+    impl.find_visible_mirrors(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
-        impl.find_mirrors_needing_captures(i, question.asks_all);
+        impl.find_capture_requirements(i, question.asks_all);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.model.mirrors[i].faces = question.asks_all || question.whole_cubes
                                           ? kAllCubeFaceBits
                                           : impl.needed_capture_faces_of_mirror(picture, i);
     impl.find_lights_needing_shadow_maps(picture);
-    add_hash_of_visibility_findings(impl.findings, impl.model);
+    set_visibility_findings_key(impl.findings, impl.model);
     if (impl.findings.key != impl.known_key) {
         impl.known_key = impl.findings.key;
         impl.model.left_out = list_culled_work(impl.model, impl.findings, question.now);

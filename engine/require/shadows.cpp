@@ -2,18 +2,17 @@
 #include "scene/light.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace catoptric::require {
 
 namespace {
 
-constexpr double kUnreachableShadowDistance = std::numeric_limits<double>::infinity();
+constexpr double kUnlimitedShadow = std::numeric_limits<double>::infinity();
 
 /// Returns how many times further from the light than the box a shaded point can be.
 double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
                                  const Bounds<double>& everything) {
-    double times = kUnreachableShadowDistance;
+    double times = kUnlimitedShadow;
     for (int axis = 0; axis < 3; ++axis) {
         // The ratio (wall - L) / (b - L) is largest for the point b of the box that is nearest to
         // the light L.
@@ -26,7 +25,7 @@ double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
 
 double max_shadow_distance_along(const dvec3& axis, const Bounds<double>& box,
                                  const Bounds<double>& everything) {
-    double times = kUnreachableShadowDistance;
+    double times = kUnlimitedShadow;
     for (int i = 0; i < 3; ++i) {
         if (axis[i] > 0) times = std::min(times, (everything.hi[i] - box.lo[i]) / axis[i]);
         if (axis[i] < 0) times = std::min(times, (everything.lo[i] - box.hi[i]) / axis[i]);
@@ -63,11 +62,11 @@ ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bou
                                        const Bounds<double>& everything) {
     if (light.directional) {
         const double far = max_shadow_distance_along(light.axis, caster, everything);
-        if (far == kUnreachableShadowDistance) return {everything, everything};
+        if (far == kUnlimitedShadow) return {everything, everything};
         return {caster, {caster.lo + far * light.axis, caster.hi + far * light.axis}};
     }
     const double times = max_shadow_stretch_factor(light.position, caster, everything);
-    if (times == kUnreachableShadowDistance) return {everything, everything};
+    if (times == kUnlimitedShadow) return {everything, everything};
     return {caster,
             {light.position + times * (caster.lo - light.position),
              light.position + times * (caster.hi - light.position)}};

@@ -123,8 +123,8 @@ void MirrorVisibility::update_visibility_from(const VisibilityScene& world, std:
 
 void MirrorVisibility::move_to_instant(const VisibilityScene& world) {
     count_ = world.list_mirror_objects().size();
-    if (layout_ != world.object_list_change_count()) {
-        layout_ = world.object_list_change_count();
+    if (layout_ != world.layout_count()) {
+        layout_ = world.layout_count();
         rows_.assign(count_, {});
         changed_.assign(count_, true);
         places_.clear(), two_sided_ = 0;

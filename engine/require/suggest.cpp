@@ -6,7 +6,6 @@
 #include "scene/rough_reflectors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -19,8 +18,8 @@ namespace {
 constexpr PictureCostTable kPictureCostTable;
 constexpr TechniqueErrorTable kTechniqueErrorTable;
 constexpr double kMaxEqualErrorFactor = 1.1; // errors within this factor count as equal
-/// If some mirror is traced anyway, a mirror is traced as well if it has at least this share of the
-/// pixels on those mirrors whose capture's centre does not see all reflected surfaces.
+/// If some mirror is traced, each mirror with hidden reflected points and at least this share of
+/// all mirror pixels is traced as well.
 constexpr double kLargeMirrorShare = .1;
 constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
 constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested
@@ -100,7 +99,7 @@ double estimate_pass_cost(const MirrorCostInputs& known, double pixels) {
 constexpr const char* kTracedGlassTechnique = "raytrace";
 
 /// The ways to draw a mirror.
-enum class MirrorTechniqueCostOption { planes, hybrid, march, small };
+enum class MirrorDrawMethod { planes, hybrid, march, small };
 
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
@@ -117,8 +116,8 @@ bool should_trace_mirror(const MirrorCostInputs& known, std::size_t mirror) {
 /// mirror's capture but traces nothing, so it can only guess what the capture does not show.
 void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorCostInputs& known,
                               const std::vector<std::uint32_t>& path, std::size_t count,
-                              MirrorTechniqueCostOption way) {
-    const bool is_searched = way != MirrorTechniqueCostOption::small;
+                              MirrorDrawMethod way) {
+    const bool is_searched = way != MirrorDrawMethod::small;
     if (is_searched)
         candidate.cost += kPictureCostTable.searched * known.estimate_pixels_of_mirror_paths(count);
     const double error = is_searched ? kTechniqueErrorTable.search : kTechniqueErrorTable.reuse;
@@ -131,34 +130,32 @@ void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorCostInputs& 
 
 /// Adds cost and error of the candidate's techniques. `face` is the edge in texels of the captures
 /// of mirrors drawn by `planar`; 0: no captures.
-void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostInputs& known,
-                                  const std::vector<MirrorTechniqueCostOption>& ways,
-                                  std::uint32_t face) {
+void compute_cost_and_error(PlanCandidate& candidate, const MirrorCostInputs& known,
+                            const std::vector<MirrorDrawMethod>& ways, std::uint32_t face) {
     std::vector<bool> by_planes;
-    for (const MirrorTechniqueCostOption way : ways)
-        by_planes.push_back(way == MirrorTechniqueCostOption::planes);
+    for (const MirrorDrawMethod way : ways) by_planes.push_back(way == MirrorDrawMethod::planes);
     candidate.cost = estimate_pass_cost(known, known.pixels);
     for (std::size_t i = 0; i < known.mirror_count() && face > 0; ++i) {
-        const double edge = by_planes[i]                                  ? face
-                            : ways[i] == MirrorTechniqueCostOption::small ? kSmallCaptureFaceEdge
-                                                                          : kUsualFaceEdge,
+        const double edge = by_planes[i]                         ? face
+                            : ways[i] == MirrorDrawMethod::small ? kSmallCaptureFaceEdge
+                                                                 : kUsualFaceEdge,
                      pixels = 6 * edge * edge;
         candidate.cost += estimate_pass_cost(known, pixels);
-        if (ways[i] == MirrorTechniqueCostOption::hybrid)
+        if (ways[i] == MirrorDrawMethod::hybrid)
             candidate.cost += kPictureCostTable.bounds * pixels;
     }
     for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         const auto first = static_cast<double>(known.paths.first[i]);
-        const bool is_searched = ways[i] == MirrorTechniqueCostOption::hybrid ||
-                                 ways[i] == MirrorTechniqueCostOption::march;
+        const bool is_searched = ways[i] == MirrorDrawMethod::hybrid ||
+                                 ways[i] == MirrorDrawMethod::march;
         if (is_searched)
             candidate.cost += kPictureCostTable.searched *
                               known.estimate_pixels_of_mirror_paths(known.paths.first[i]);
-        if (ways[i] == MirrorTechniqueCostOption::hybrid)
+        if (ways[i] == MirrorDrawMethod::hybrid)
             candidate.cost += kPictureCostTable.traced *
                               known.estimate_pixels_of_mirror_paths(
                                   known.is_glass[i] ? known.paths.first[i] : known.paths.hidden[i]);
-        if (ways[i] == MirrorTechniqueCostOption::march)
+        if (ways[i] == MirrorDrawMethod::march)
             candidate.error += static_cast<double>(known.paths.hidden[i]) *
                                (kTechniqueErrorTable.unknown - kTechniqueErrorTable.search);
         candidate.error += first * (by_planes[i]  ? kTechniqueErrorTable.planar
@@ -183,11 +180,11 @@ void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostInpu
 
 /// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
 /// hybrid".
-std::string candidate_technique_names(const std::vector<MirrorTechniqueCostOption>& ways) {
+std::string candidate_technique_names(const std::vector<MirrorDrawMethod>& ways) {
     std::string name;
-    for (const auto& [way, word] : {std::pair(MirrorTechniqueCostOption::planes, "planar"),
-                                    std::pair(MirrorTechniqueCostOption::hybrid, "hybrid"),
-                                    std::pair(MirrorTechniqueCostOption::march, "march")})
+    for (const auto& [way, word] : {std::pair(MirrorDrawMethod::planes, "planar"),
+                                    std::pair(MirrorDrawMethod::hybrid, "hybrid"),
+                                    std::pair(MirrorDrawMethod::march, "march")})
         if (std::ranges::find(ways, way) != ways.end())
             name += (name.empty() ? "" : ", ") + std::string(word);
     return name.empty() ? "reuse" : name;
@@ -196,26 +193,25 @@ std::string candidate_technique_names(const std::vector<MirrorTechniqueCostOptio
 /// Returns a candidate. Flat mirrors get `planar` if `planes` is set. Hardly seen mirrors get small
 /// captures, and all others get searches.
 PlanCandidate make_plan_candidate(const MirrorCostInputs& known, bool planes) {
-    std::vector<MirrorTechniqueCostOption> ways(known.mirror_count(),
-                                                MirrorTechniqueCostOption::small);
+    std::vector<MirrorDrawMethod> ways(known.mirror_count(), MirrorDrawMethod::small);
     bool is_searched = false; // whether any mirror's capture is searched
     for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
-        ways[i] = should_trace_mirror(known, i) ? MirrorTechniqueCostOption::hybrid
-                                                : MirrorTechniqueCostOption::march;
+        ways[i] = should_trace_mirror(known, i) ? MirrorDrawMethod::hybrid
+                                                : MirrorDrawMethod::march;
         is_searched = true;
     }
-    if (std::ranges::find(ways, MirrorTechniqueCostOption::hybrid) != ways.end())
+    if (std::ranges::find(ways, MirrorDrawMethod::hybrid) != ways.end())
         for (std::size_t i = 0; i < known.mirror_count(); ++i)
-            if (ways[i] == MirrorTechniqueCostOption::march && known.paths.hidden[i] > 0 &&
+            if (ways[i] == MirrorDrawMethod::march && known.paths.hidden[i] > 0 &&
                 static_cast<double>(known.paths.first[i]) >= kLargeMirrorShare * known.on_mirrors)
-                ways[i] = MirrorTechniqueCostOption::hybrid;
+                ways[i] = MirrorDrawMethod::hybrid;
     bool has_captures = false;
     for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         // If no mirror is searched, a mirrored view costs less than a capture.
         if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched))
-            ways[i] = MirrorTechniqueCostOption::planes;
-        has_captures = has_captures || ways[i] != MirrorTechniqueCostOption::planes;
+            ways[i] = MirrorDrawMethod::planes;
+        has_captures = has_captures || ways[i] != MirrorDrawMethod::planes;
     }
     std::string planar = "planar";
     const char* between = ":";
@@ -225,16 +221,16 @@ PlanCandidate make_plan_candidate(const MirrorCostInputs& known, bool planes) {
     if (known.bounces != kMinPlanarBounces) add("bounces=" + std::to_string(known.bounces));
     if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallCaptureFaceEdge));
     PlanCandidate candidate{.name = candidate_technique_names(ways)};
-    for (const MirrorTechniqueCostOption way : ways)
-        candidate.techniques.push_back(way == MirrorTechniqueCostOption::planes   ? planar
-                                       : way == MirrorTechniqueCostOption::hybrid ? "hybrid"
-                                       : way == MirrorTechniqueCostOption::march
+    for (const MirrorDrawMethod way : ways)
+        candidate.techniques.push_back(way == MirrorDrawMethod::planes   ? planar
+                                       : way == MirrorDrawMethod::hybrid ? "hybrid"
+                                       : way == MirrorDrawMethod::march
                                            ? "march"
                                            : "reuse:face=" + std::to_string(kSmallCaptureFaceEdge));
-    add_cost_and_error_of_mirror(candidate, known, ways,
-                                 !has_captures ? 0
-                                 : is_searched ? kUsualFaceEdge
-                                               : kSmallCaptureFaceEdge);
+    compute_cost_and_error(candidate, known, ways,
+                           !has_captures ? 0
+                           : is_searched ? kUsualFaceEdge
+                                         : kSmallCaptureFaceEdge);
     return candidate;
 }
 

@@ -25,17 +25,9 @@ std::string describe_capture_needs(const MirrorRequirements& needs, const scene:
     text += "; captured, ";
     text += needs.faces == kAllCubeFaceBits ? "six faces"
                                             : "faces " + list_cube_face_names(needs.faces);
-    if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";
     text += needs.sees.empty() ? ", no other mirror in it"
                                : ", mirrors " + format_mirror_numbers(needs.sees) + " in it";
     return text;
-}
-
-std::string format_estimated_plan_error(double error) {
-    if (error == 0) return "no pixel";
-    std::ostringstream text;
-    text << "pixels by at most " << error << " of 1";
-    return text.str();
 }
 
 /// Returns the text about captures and maps that are kept over frames; empty if there are none.
@@ -90,7 +82,7 @@ std::string describe_model(const RequiredWorkModel& model, const scene::Scene& s
     text << (model.left_out.empty() ? "nothing is left out\n" : "left out\n");
     for (const CulledWork& thing : model.left_out)
         text << "  " << thing.what << "\n    why: " << thing.why << "\n    saves: " << thing.saves
-             << "\n    changes: " << format_estimated_plan_error(thing.error) << "\n";
+             << "\n    changes: no pixel\n";
     return text.str();
 }
 

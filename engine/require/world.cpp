@@ -108,7 +108,7 @@ void VisibilityScene::set_layout(const scene::Scene& now) {
     for (std::size_t i = 0; i < things_.size(); ++i) move_visibility_object(now, i);
     lights_ = scene::list_lights(now);
     find_occluder_walls();
-    find_static_object_epoch();
+    update_static_content_hash();
 }
 
 /// Returns whether the scene is the one that was laid out, except for where movers are.
@@ -180,7 +180,7 @@ void VisibilityScene::move_to_instant(const scene::Scene& now) {
     if (!lights_moved) return;
     punctual_ = now.punctual;
     lights_ = scene::list_lights(now);
-    find_static_object_epoch();
+    update_static_content_hash();
     has_changed_ = true;
 }
 
@@ -208,7 +208,7 @@ void VisibilityScene::find_occluder_walls() {
     keep_largest();
 }
 
-void VisibilityScene::find_static_object_epoch() {
+void VisibilityScene::update_static_content_hash() {
     ContentHash content_hash;
     content_hash.add_value(materials_stamp_)
         .add_value(environment_stamp_)

@@ -60,8 +60,8 @@ public:
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
     /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
-    /// edit begins a new `static_change_count`. A changed number of objects, material, light or
-    /// environment also begins a new `static_change_count`.
+    /// edit changes `static_content_hash`, and so does another number of objects, material, light
+    /// or environment.
     void move_to_instant(const scene::Scene& now);
 
     const std::vector<VisibilityObject>& list_objects() const { return things_; }
@@ -81,12 +81,10 @@ public:
     } ///< bounds of all that never moved
     /// Returns the largest rounding error of a position, in world units.
     double max_position_rounding_error() const { return rounding_; }
-    std::uint64_t static_change_count() const {
+    std::uint64_t static_content_hash() const {
         return epoch_;
     } ///< content hash of all that is no mover, and of the lights
-    std::uint64_t object_list_change_count() const {
-        return layouts_;
-    } ///< number of layouts; grows when other objects stand still
+    std::uint64_t layout_count() const { return layouts_; } ///< number of calls of set_layout
     bool has_world_changed() const {
         return has_changed_;
     } ///< whether anything changed since the previous instant
@@ -96,7 +94,7 @@ private:
     bool has_same_object_layout(const scene::Scene& now) const;
     void move_visibility_object(const scene::Scene& now, std::size_t object);
     void find_occluder_walls();
-    void find_static_object_epoch();
+    void update_static_content_hash();
 
     std::vector<MeshShapeSummary> meshes_;
     std::vector<scene::Material> materials_;

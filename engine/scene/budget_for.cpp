@@ -11,11 +11,11 @@ namespace catoptric::scene {
 
 SceneLoadBudget choose_load_budget(const std::filesystem::path& scene,
                                    const SceneLoadBudgetOverride& wish, std::uint64_t free_bytes) {
-    constexpr std::uint64_t kFreeMemoryShareDivisor = 8, kStoredBytesPerFileByte = 6;
+    constexpr std::uint64_t kFreeMemoryShareDivisor = 8, kMinFileBytesPerTriangle = 6;
     SceneLoadBudget budget;
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(scene, none);
-    const std::uint64_t stored = none ? 0 : size / kStoredBytesPerFileByte;
+    const std::uint64_t stored = none ? 0 : size / kMinFileBytesPerTriangle;
     const std::uint64_t fitting = std::min(stored, free_bytes / kRenderBytesPerTriangle);
     budget.file_bytes = wish.bytes.value_or(
         std::max(budget.file_bytes, free_bytes / kFreeMemoryShareDivisor));

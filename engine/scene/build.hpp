@@ -39,8 +39,8 @@ CATOPTRIC_API Mesh torus(std::string name, double radius, double thickness, int 
 CATOPTRIC_API Mesh ball(std::string name, int levels);
 
 /// Edit that sets the transform of an object at rest. The object's motion continues from there; an
-/// object that follows a node of a rig stays with the node. The object's exact sphere moves along if
-/// the change is a similarity. Otherwise the object loses the sphere and is drawn as its mesh.
+/// object that follows a node of a rig stays with the node. The object's exact sphere moves along
+/// if the change is a similarity. Otherwise the object loses the sphere and is drawn as its mesh.
 struct PlacementEdit {
     std::size_t object = 0;
     dmat4 world_from_object{1};

@@ -1,6 +1,7 @@
 #include "scene/classify.hpp"
 
 #include "scene/mirror_shape.hpp"
+#include "scene/moved_sphere.hpp"
 #include "scene/nested_glass.hpp"
 
 #include "scene/json.hpp"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -151,20 +151,6 @@ SurfaceAreaSums sum_surface_samples(const Scene& scene, const Object& object) {
     return sums;
 }
 
-/// Returns whether the matrix scales all directions alike. Shares of areas are then those of the
-/// mesh itself.
-bool is_uniform_scaling(const dmat3& m) {
-    constexpr double kUniformScaleTolerance = 1e-9;
-    const dmat3 square = glm::transpose(m) * m;
-    const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (!(std::abs(square[column][row] - (column == row ? scale : 0)) <=
-                  kUniformScaleTolerance * scale))
-                return false;
-    return true;
-}
-
 void add_unsupported_materials(Scene& scene, const char* id,
                                const std::set<std::size_t>& materials) {
     for (const std::size_t i : materials)
@@ -230,7 +216,8 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
         object.mirror = false;
         if (scene.materials[object.material].mirror) continue;
         SurfaceKindShares surface;
-        if (is_uniform_scaling(dmat3(object.world_from_object))) {
+        // A uniform scale keeps the shares of areas, which then are those of the mesh.
+        if (find_uniform_scale_factor(dmat3(object.world_from_object))) {
             const auto [entry, is_new] = known.try_emplace({object.mesh, object.material});
             if (is_new) entry->second = measure_surface_kinds(scene, object);
             surface = entry->second;
@@ -253,7 +240,7 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
     find_exact_spheres(scene);
 }
 
-void sort_unsupported_features(Scene& scene) {
+void add_unsupported_lighting_features(Scene& scene) {
     std::set<std::size_t> diffuse; // materials
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
         return gap.id == kIndirectGapId || gap.id == kUnshadowedGapId ||

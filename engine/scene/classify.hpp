@@ -49,6 +49,6 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors = false);
 ///   - "environment-unshadowed": the environment's light on diffuse surfaces, which nothing blocks.
 /// Then comes "nested-glass": solid glass inside other solid glass (find_nested_glass_materials).
 /// Call it after mirrors, lights and environment are settled.
-void sort_unsupported_features(Scene& scene);
+void add_unsupported_lighting_features(Scene& scene);
 
 } // namespace catoptric::scene

@@ -1,6 +1,5 @@
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 
 namespace catoptric::scene {
 
@@ -14,12 +13,6 @@ std::vector<Material> make_cornell_materials() {
             {.name = "red", .albedo = {0.63f, 0.065f, 0.05f}},
             {.name = "light", .emission = {17, 12, 4}},
             {.name = "mirror", .mirror = true}};
-}
-
-void add_wall(Scene& scene, const std::string& name, std::size_t material, dvec3 a, dvec3 b,
-              dvec3 c, dvec3 d) {
-    scene.objects.push_back({.name = name, .mesh = scene.meshes.size(), .material = material});
-    scene.meshes.push_back(quad(name, a, b, c, d));
 }
 
 void add_scaled_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
@@ -36,17 +29,17 @@ void add_scaled_unit_ball(Scene& scene, const std::string& name, std::size_t mes
 /// Adds the walls of the measured box. The left wall is 3.2 units off the plane at the floor's back
 /// corner, as published.
 void add_cornell_walls(Scene& scene) {
-    add_wall(scene, "floor", kWhite, //
+    add_quad(scene, "floor", kWhite, //
              {552.8, 0, 0}, {0, 0, 0}, {0, 0, 559.2}, {549.6, 0, 559.2});
-    add_wall(scene, "ceiling", kWhite, //
+    add_quad(scene, "ceiling", kWhite, //
              {556, 548.8, 0}, {556, 548.8, 559.2}, {0, 548.8, 559.2}, {0, 548.8, 0});
-    add_wall(scene, "back", kWhite, //
+    add_quad(scene, "back", kWhite, //
              {549.6, 0, 559.2}, {0, 0, 559.2}, {0, 548.8, 559.2}, {556, 548.8, 559.2});
-    add_wall(scene, "right", kGreen, //
+    add_quad(scene, "right", kGreen, //
              {0, 0, 559.2}, {0, 0, 0}, {0, 548.8, 0}, {0, 548.8, 559.2});
-    add_wall(scene, "left", kRed, //
+    add_quad(scene, "left", kRed, //
              {552.8, 0, 0}, {549.6, 0, 559.2}, {556, 548.8, 559.2}, {556, 548.8, 0});
-    add_wall(scene, "light", kLight, //
+    add_quad(scene, "light", kLight, //
              {343, 548.7, 227}, {343, 548.7, 332}, {213, 548.7, 332}, {213, 548.7, 227});
 }
 
@@ -72,7 +65,7 @@ Scene make_cornell_mirrors() {
 Scene make_closed_cornell_mirrors() {
     Scene scene = make_cornell_mirrors();
     scene.name = "cornell-mirrors-closed";
-    add_wall(scene, "front", kWhite, {0, 0, 0}, {552.8, 0, 0}, {556, 548.8, 0}, {0, 548.8, 0});
+    add_quad(scene, "front", kWhite, {0, 0, 0}, {552.8, 0, 0}, {556, 548.8, 0}, {0, 548.8, 0});
     scene.objects.back().seen_by_camera = false;
     return scene;
 }

@@ -1,7 +1,6 @@
 // An open court under a sky: a hollow dish that is a mirror, a ball, columns, a sun.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/pattern.hpp"
 #include "scene/shapes.hpp"
 

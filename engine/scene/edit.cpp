@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "scene/moved_sphere.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace catoptric::scene {

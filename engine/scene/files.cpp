@@ -104,7 +104,7 @@ void SceneFileOpener::check_file_lies_below_root(const fs::path& real, const std
 fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
                                                   const std::string& place) {
     account_.files.add_amount_within_budget(1, place);
-    check(!name.empty() && name.size() <= kMaxPlanFileNameLength && name.find('\0') == name.npos,
+    check(!name.empty() && name.size() <= kMaxFileNameLength && name.find('\0') == name.npos,
           Failure::bad_data, place, ": wanted the name of a file, found ",
           quote_text_with_escapes(name));
     const fs::path path = folder_ / name;

@@ -16,7 +16,7 @@ class SceneFileOpener {
 public:
     /// Longest file name in bytes. Names are limited because each step of a path costs a system
     /// call.
-    static constexpr std::size_t kMaxPlanFileNameLength = 1024;
+    static constexpr std::size_t kMaxFileNameLength = 1024;
 
     /// Takes the path of the scene, and a second folder or an empty path. Throws `missing_input` if
     /// `root` is not a folder.

@@ -1,7 +1,6 @@
 // A closed room with one flat mirror, the commonest kind of mirror.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/shapes.hpp"
 
 namespace catoptric::scene {

@@ -141,17 +141,6 @@ group_triangles_into_runs(const std::vector<std::uint32_t>& ascending) {
     return runs;
 }
 
-/// Returns whether every edge has two triangles.
-bool is_closed_mesh(const Mesh& mesh) {
-    const std::vector<std::size_t> first = find_first_vertex_at_each_position(mesh.positions);
-    std::vector<TriangleCorners> triangles;
-    for (const uvec3& t : mesh.triangles) triangles.push_back({first[t.x], first[t.y], first[t.z]});
-    bool closed = true;
-    for_each_edge(list_triangle_edges(triangles),
-                  [&](std::span<const TriangleEdge> sides) { closed &= sides.size() == 2; });
-    return closed;
-}
-
 FlatFace make_flat_face(const MeshTriangles& triangles, const FlatFaceBuilder& plane, double area,
                         bool is_one_sided) {
     FlatFace face{.point = plane.point,
@@ -229,7 +218,7 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     // The normals of a closed body with negative volume point inwards: it is inside out. They are
     // turned below.
     const dvec3 centre = box.centre();
-    const bool is_body = is_closed_mesh(mesh);
+    const bool is_body = is_closed_triangle_surface(mesh.positions, mesh.triangles);
     double volume = 0;
     for (std::uint32_t i = 0; i < count; ++i)
         volume += dot(triangles.triangle_edge_cross_product(i),

@@ -1,14 +1,11 @@
 // A hall with sixteen mirrors of different shape and size, through which the camera walks.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/motion.hpp"
 #include "scene/pattern.hpp"
 #include "scene/shapes.hpp"
 
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace catoptric::scene {
 

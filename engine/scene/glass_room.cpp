@@ -2,7 +2,6 @@
 // model of refraction is from ray tracing.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/shapes.hpp"
 
 #include <cmath>

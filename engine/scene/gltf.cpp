@@ -83,7 +83,7 @@ struct GltfBuilder {
     void add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part);
     void add_camera(std::size_t node, const gltf::PlacedNode& placed);
     void add_light(std::size_t node, const gltf::PlacedNode& placed);
-    void check_objects_outside_shown_scene();
+    void check_unshown_meshes();
 };
 
 std::string GltfBuilder::describe_gltf_node_place(std::size_t node) const {
@@ -212,7 +212,7 @@ void GltfBuilder::add_node(std::size_t node, const gltf::PlacedNode& placed) {
 
 /// Reads also the meshes that no node shows, so that an invalid mesh is an error whether or not it
 /// is shown.
-void GltfBuilder::check_objects_outside_shown_scene() {
+void GltfBuilder::check_unshown_meshes() {
     std::vector<bool> is_shown(parts.size(), false);
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;
     for (std::size_t mesh = 0; mesh < is_shown.size(); ++mesh)
@@ -252,7 +252,7 @@ Scene load_gltf(const std::filesystem::path& path, const SceneFileOptions& optio
             notes.add_note("nodes outside the scene that is shown, left out",
                            document.describe_node(i));
     }
-    builder.check_objects_outside_shown_scene();
+    builder.check_unshown_meshes();
     finish_loaded_scene(builder.scene, file, notes, std::move(unsupported));
     builder.scene.files = files.list_found_files();
     return std::move(builder.scene);

@@ -22,10 +22,10 @@ inline bool is_factor_extension(std::string_view name) {
            std::end(kMaterialFactors);
 }
 
-/// Checks the type of every known member, and adds the notes of the member table. Unknown members
-/// are ignored. Throws `bad_data` for a member of the wrong type, an index of no object, or lists
-/// over the budget. Defined in gltf_members.cpp.
-void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account, LoaderNotes& notes);
+/// Checks the type of every known member. Unknown members are ignored. Throws `bad_data` for a
+/// member of the wrong type, an index of no object, or lists over the budget. Defined in
+/// gltf_members.cpp.
+void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account);
 /// Returns the members that are read, taken from a checked document. Members that tinygltf needs
 /// and the document lacks are added with placeholder values.
 Json keep_known_members(Json document);

@@ -16,7 +16,7 @@ namespace catoptric::scene::gltf {
 namespace {
 
 constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
-/// Bytes by which a decoded byte of Draco's data counts against the budget, in addition to the
+/// Bytes by which a compressed byte of Draco's data counts against the budget, in addition to the
 /// result.
 constexpr std::uint64_t kDecodedBytesPerDracoByte = 4;
 

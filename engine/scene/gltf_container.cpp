@@ -19,7 +19,7 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// Extensions that a file may require, besides KHR_materials_*. They are read, or the scene can be
 /// shown without them.
-constexpr std::string_view kIgnoredRequiredExtensions[] = {
+constexpr std::string_view kAllowedRequiredExtensions[] = {
     "KHR_mesh_quantization",   "KHR_lights_punctual",
     "KHR_texture_transform",   "EXT_texture_webp",
     "KHR_xmp_json_ld",         "KHR_techniques_webgl",
@@ -96,8 +96,8 @@ void check_required_extensions(const JsonObject& root) {
                                squeezed == std::end(kUnsupportedCompressions) ? ""
                                                                               : squeezed->sentence);
         const bool is_drawn = name.starts_with("KHR_materials_") ||
-                              std::ranges::find(kIgnoredRequiredExtensions, name) !=
-                                  std::end(kIgnoredRequiredExtensions);
+                              std::ranges::find(kAllowedRequiredExtensions, name) !=
+                                  std::end(kAllowedRequiredExtensions);
         root.require_condition(is_drawn,
                                "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
                                "KHR_mesh_quantization, KHR_lights_punctual, "

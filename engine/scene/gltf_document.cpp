@@ -102,7 +102,7 @@ GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
                                 std::vector<UnsupportedFeature>& unsupported) {
     GltfContainer container = read_gltf_container(file, files, account, notes);
     GltfDocument document{.file = file};
-    check_known_members(JsonObject(container.document, file), account, notes);
+    check_known_members(JsonObject(container.document, file), account);
     decode_compressed_geometry(container, file, account);
     check_view_bounds(JsonObject(container.document, file), container.buffers);
     expand_sparse_accessors(container, file, account);

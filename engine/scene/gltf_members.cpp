@@ -39,7 +39,6 @@ struct GltfMemberRule {
     std::string_view of = {};    ///< the list that the index refers to
     std::size_t count = 0;       ///< how many numbers the list must have
     bool unread = false;         ///< only checked, not passed to tinygltf
-    std::string_view note = {};  ///< the note to add if the member is present
     bool made_up = false;        ///< if absent, set to -1 (index) or 0, since tinygltf needs it
     BudgetLimitedSum SceneLoadBudgetUsage::*total = nullptr; ///< counts the objects of the list
     std::size_t bytes = 0;                                   ///< memory for each object of the list
@@ -49,24 +48,23 @@ constexpr GltfMemberRule make_vector_member_rule(GltfObjectKind in, std::string_
                                                  std::size_t count) {
     return {.in = in, .key = key, .kind = GltfMemberKind::numbers, .count = count};
 }
-constexpr GltfMemberRule make_object_member_rule(GltfObjectKind in, std::string_view key,
-                                                 std::string_view of,
-                                                 GltfMemberKind kind = GltfMemberKind::index) {
+constexpr GltfMemberRule make_index_member_rule(GltfObjectKind in, std::string_view key,
+                                                std::string_view of,
+                                                GltfMemberKind kind = GltfMemberKind::index) {
     return {.in = in, .key = key, .kind = kind, .of = of};
 }
 template <typename Made = char>
 constexpr GltfMemberRule
 make_list_member_rule(GltfObjectKind in, std::string_view key, GltfObjectKind is,
                       BudgetLimitedSum SceneLoadBudgetUsage::*total = nullptr) {
-    return {in, key, GltfMemberKind::list, is, {}, 0, false, {}, false, total, sizeof(Made)};
+    return {in, key, GltfMemberKind::list, is, {}, 0, false, false, total, sizeof(Made)};
 }
-constexpr GltfMemberRule make_replaceable_member_rule(GltfMemberRule member) {
+constexpr GltfMemberRule make_placeholder_member_rule(GltfMemberRule member) {
     member.made_up = true;
     return member;
 }
-constexpr GltfMemberRule make_unread_member_rule(GltfMemberRule member,
-                                                 std::string_view note = {}) {
-    member.unread = true, member.note = note;
+constexpr GltfMemberRule make_unread_member_rule(GltfMemberRule member) {
+    member.unread = true;
     return member;
 }
 
@@ -78,13 +76,13 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     {asset, "version", text},
 
     make_list_member_rule<tinygltf::BufferView>(file, "bufferViews", view),
-    make_object_member_rule(view, "buffer", "buffers", needed_index),
+    make_index_member_rule(view, "buffer", "buffers", needed_index),
     {view, "byteOffset", whole},
     {view, "byteLength", whole},
     {view, "byteStride", whole},
 
     make_list_member_rule<tinygltf::Accessor>(file, "accessors", accessor),
-    make_object_member_rule(accessor, "bufferView", "bufferViews"),
+    make_index_member_rule(accessor, "bufferView", "bufferViews"),
     {accessor, "byteOffset", whole},
     {accessor, "componentType", whole},
     {accessor, "count", whole},
@@ -94,7 +92,7 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     {sparse, "count", whole},
     {sparse, "indices", object, sparse_part},
     {sparse, "values", object, sparse_part},
-    make_object_member_rule(sparse_part, "bufferView", "bufferViews"),
+    make_index_member_rule(sparse_part, "bufferView", "bufferViews"),
     {sparse_part, "byteOffset", whole},
     {sparse_part, "componentType", whole},
 
@@ -103,64 +101,64 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     {material, "name", text},
     {material, "normalTexture", object, texture_use},
     {material, "occlusionTexture", object, texture_use},
-    make_object_member_rule(texture_use, "index", "textures", needed_index),
+    make_index_member_rule(texture_use, "index", "textures", needed_index),
     make_unread_member_rule(make_list_member_rule<tinygltf::Texture>(file, "textures", texture)),
-    make_object_member_rule(texture, "source", "images"),
-    make_object_member_rule(texture, "sampler", "samplers"),
+    make_index_member_rule(texture, "source", "images"),
+    make_index_member_rule(texture, "sampler", "samplers"),
     make_unread_member_rule(make_list_member_rule<tinygltf::Image>(file, "images", image)),
-    make_object_member_rule(image, "bufferView", "bufferViews"),
+    make_index_member_rule(image, "bufferView", "bufferViews"),
     {image, "uri", text},
 
     make_list_member_rule<tinygltf::Camera>(file, "cameras", camera,
                                             &SceneLoadBudgetUsage::cameras),
     {camera, "name", text},
     {camera, "type", text},
-    make_replaceable_member_rule({camera, "perspective", object, perspective}),
-    make_replaceable_member_rule({perspective, "yfov", number}),
-    make_replaceable_member_rule({perspective, "znear", number}),
-    make_replaceable_member_rule({camera, "orthographic", object, orthographic}),
-    make_replaceable_member_rule({orthographic, "xmag", number}),
-    make_replaceable_member_rule({orthographic, "ymag", number}),
-    make_replaceable_member_rule({orthographic, "zfar", number}),
-    make_replaceable_member_rule({orthographic, "znear", number}),
+    make_placeholder_member_rule({camera, "perspective", object, perspective}),
+    make_placeholder_member_rule({perspective, "yfov", number}),
+    make_placeholder_member_rule({perspective, "znear", number}),
+    make_placeholder_member_rule({camera, "orthographic", object, orthographic}),
+    make_placeholder_member_rule({orthographic, "xmag", number}),
+    make_placeholder_member_rule({orthographic, "ymag", number}),
+    make_placeholder_member_rule({orthographic, "zfar", number}),
+    make_placeholder_member_rule({orthographic, "znear", number}),
 
     make_list_member_rule<tinygltf::Mesh>(file, "meshes", mesh, &SceneLoadBudgetUsage::meshes),
     {mesh, "name", text},
     make_list_member_rule<tinygltf::Primitive>(mesh, "primitives", primitive,
                                                &SceneLoadBudgetUsage::primitives),
-    make_object_member_rule(primitive, "material", "materials"),
+    make_index_member_rule(primitive, "material", "materials"),
     {primitive, "mode", whole},
-    make_replaceable_member_rule({primitive, "attributes", object, attributes}),
-    make_object_member_rule(attributes, "POSITION", "accessors"),
-    make_object_member_rule(attributes, "NORMAL", "accessors"),
-    make_object_member_rule(attributes, "TEXCOORD_0", "accessors"),
-    make_object_member_rule(attributes, "TEXCOORD_1", "accessors"),
-    make_object_member_rule(attributes, "COLOR_0", "accessors"),
-    make_object_member_rule(attributes, "JOINTS_0", "accessors"),
-    make_object_member_rule(attributes, "WEIGHTS_0", "accessors"),
-    make_object_member_rule(primitive, "indices", "accessors"),
+    make_placeholder_member_rule({primitive, "attributes", object, attributes}),
+    make_index_member_rule(attributes, "POSITION", "accessors"),
+    make_index_member_rule(attributes, "NORMAL", "accessors"),
+    make_index_member_rule(attributes, "TEXCOORD_0", "accessors"),
+    make_index_member_rule(attributes, "TEXCOORD_1", "accessors"),
+    make_index_member_rule(attributes, "COLOR_0", "accessors"),
+    make_index_member_rule(attributes, "JOINTS_0", "accessors"),
+    make_index_member_rule(attributes, "WEIGHTS_0", "accessors"),
+    make_index_member_rule(primitive, "indices", "accessors"),
     make_list_member_rule(primitive, "targets", morph),
-    make_object_member_rule(morph, "POSITION", "accessors"),
-    make_object_member_rule(morph, "NORMAL", "accessors"),
+    make_index_member_rule(morph, "POSITION", "accessors"),
+    make_index_member_rule(morph, "NORMAL", "accessors"),
 
     make_list_member_rule<tinygltf::Node>(file, "nodes", node, &SceneLoadBudgetUsage::nodes),
     {node, "name", text},
-    make_object_member_rule(node, "mesh", "meshes"),
-    make_object_member_rule(node, "camera", "cameras"),
-    make_object_member_rule(node, "children", "nodes", indices),
+    make_index_member_rule(node, "mesh", "meshes"),
+    make_index_member_rule(node, "camera", "cameras"),
+    make_index_member_rule(node, "children", "nodes", indices),
     make_vector_member_rule(node, "matrix", 16),
     make_vector_member_rule(node, "rotation", 4),
     make_vector_member_rule(node, "scale", 3),
     make_vector_member_rule(node, "translation", 3),
-    make_object_member_rule(node, "skin", "skins"),
+    make_index_member_rule(node, "skin", "skins"),
     make_list_member_rule<tinygltf::Skin>(file, "skins", skin),
-    make_object_member_rule(skin, "joints", "nodes", indices),
-    make_object_member_rule(skin, "skeleton", "nodes"),
-    make_object_member_rule(skin, "inverseBindMatrices", "accessors"),
+    make_index_member_rule(skin, "joints", "nodes", indices),
+    make_index_member_rule(skin, "skeleton", "nodes"),
+    make_index_member_rule(skin, "inverseBindMatrices", "accessors"),
 
-    make_object_member_rule(file, "scene", "scenes"),
+    make_index_member_rule(file, "scene", "scenes"),
     make_list_member_rule<tinygltf::Scene>(file, "scenes", scene),
-    make_object_member_rule(scene, "nodes", "nodes", indices),
+    make_index_member_rule(scene, "nodes", "nodes", indices),
 
     make_list_member_rule<tinygltf::Animation>(file, "animations", animation),
     {animation, "name", text},
@@ -168,18 +166,18 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
                                                       &SceneLoadBudgetUsage::channels),
     {channel, "sampler", whole},
     {channel, "target", object, target},
-    make_object_member_rule(target, "node", "nodes"),
+    make_index_member_rule(target, "node", "nodes"),
     {target, "path", text},
     make_list_member_rule<tinygltf::AnimationSampler>(animation, "samplers", sampler),
-    make_replaceable_member_rule(make_object_member_rule(sampler, "input", "accessors")),
-    make_replaceable_member_rule(make_object_member_rule(sampler, "output", "accessors")),
+    make_placeholder_member_rule(make_index_member_rule(sampler, "input", "accessors")),
+    make_placeholder_member_rule(make_index_member_rule(sampler, "output", "accessors")),
     {sampler, "interpolation", text},
 };
 
 class GltfMemberChecker {
 public:
-    GltfMemberChecker(const JsonObject& root, SceneLoadBudgetUsage& account, LoaderNotes& notes)
-        : gltf_root_(root), account_(account), notes_(notes) {}
+    GltfMemberChecker(const JsonObject& root, SceneLoadBudgetUsage& account)
+        : gltf_root_(root), account_(account) {}
 
     void check_object_members(const JsonObject& item, GltfObjectKind in) {
         for (const GltfMemberRule& member : kGltfMemberRules)
@@ -202,7 +200,6 @@ private:
         if (member.kind == GltfMemberKind::indices) item.indices(key, gltf_root_.size(member.of));
         if (member.kind == GltfMemberKind::object)
             check_object_members(*item.read_object_member(key), member.is);
-        if (!member.note.empty()) notes_.add_note(member.note, item.entry());
     }
     void each(const JsonObject& item, const GltfMemberRule& member) {
         item.each(member.key, [&](const JsonObject& one) {
@@ -210,13 +207,11 @@ private:
                 (account_.*member.total).add_amount_within_budget(1, one.place());
             account_.json_memory.add_amount_within_budget(member.bytes, one.place());
             check_object_members(one, member.is);
-            if (!member.note.empty()) notes_.add_note(member.note, one.entry());
         });
     }
 
     const JsonObject& gltf_root_;
     SceneLoadBudgetUsage& account_;
-    LoaderNotes& notes_;
 };
 
 Json convert_members_for_tinygltf(Json& from, GltfObjectKind in);
@@ -260,9 +255,8 @@ Json convert_members_for_tinygltf(Json& from, GltfObjectKind in) {
 
 } // namespace
 
-void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account,
-                         LoaderNotes& notes) {
-    GltfMemberChecker(root, account, notes).check_object_members(root, GltfObjectKind::file);
+void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account) {
+    GltfMemberChecker(root, account).check_object_members(root, GltfObjectKind::file);
 }
 
 Json keep_known_members(Json document) {

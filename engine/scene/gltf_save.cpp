@@ -108,7 +108,7 @@ void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motio
                      tinygltf::Node node) {
     tinygltf::Model& model = writer.model;
     if (const RigAttachment* follows = find_followed_node(motion)) {
-        node.matrix = matrix_to_numbers(follows->node_from_object);
+        node.matrix = to_numbers(follows->node_from_object);
         return add_gltf_node_below_parent(writer, follows, std::move(node));
     }
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
@@ -117,17 +117,17 @@ void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motio
     const int index = list_size_as_int(model.nodes);
     model.scenes[0].nodes.push_back(index);
     if (keys) writer.add_gltf_motion(*keys, rest, index);
-    if (is_scale && rest != dvec3(0)) node.translation = matrix_to_numbers(rest);
-    if (is_scale && scale != dvec3(1)) node.scale = matrix_to_numbers(scale);
+    if (is_scale && rest != dvec3(0)) node.translation = to_numbers(rest);
+    if (is_scale && scale != dvec3(1)) node.scale = to_numbers(scale);
     if (!is_scale && keys) {
         tinygltf::Node& parent = model.nodes.emplace_back();
         parent.name = node.name + "/motion";
-        parent.translation = matrix_to_numbers(rest), parent.children = {index + 1};
+        parent.translation = to_numbers(rest), parent.children = {index + 1};
         dmat4 unmoved = world;
         unmoved[3] = dvec4(0, 0, 0, 1);
-        node.matrix = matrix_to_numbers(unmoved);
+        node.matrix = to_numbers(unmoved);
     } else if (!is_scale) {
-        node.matrix = matrix_to_numbers(world);
+        node.matrix = to_numbers(world);
     }
     model.nodes.push_back(std::move(node));
 }
@@ -146,13 +146,13 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
     const dvec3 forward = normalized_or_zero(camera.target - camera.eye);
     const dvec3 right = normalized_or_zero(glm::cross(forward, camera.up));
     check(right != dvec3(0), Failure::internal, "camera '", camera.name,
-          "' wants an up that is not along its view");
+          "' wants an up vector that is not parallel to its view");
     const dmat4 world(dvec4(right, 0), dvec4(glm::cross(right, forward), 0), dvec4(-forward, 0),
                       dvec4(camera.eye, 1));
     const RigAttachment* follows = camera.follows.rig ? &camera.follows : nullptr;
     tinygltf::Node node;
     node.name = camera.name, node.camera = list_size_as_int(writer.model.cameras);
-    node.matrix = matrix_to_numbers(follows ? follows->node_from_object * world : world);
+    node.matrix = to_numbers(follows ? follows->node_from_object * world : world);
     node.extras = make_catoptric_extras({{"distance", Value(distance)}});
     add_gltf_node_below_parent(writer, follows, std::move(node));
     tinygltf::Camera& to = writer.model.cameras.emplace_back();
@@ -180,7 +180,7 @@ void add_light(GltfWriter& writer, const PunctualLight& light) {
     if (to.type != kind.name)
         to.extras = make_catoptric_extras({{"light", Value(std::string(kind.name))}});
     to.intensity = largest;
-    to.color = matrix_to_numbers(largest > 0 ? dvec3(light.intensity) / largest : dvec3(1));
+    to.color = to_numbers(largest > 0 ? dvec3(light.intensity) / largest : dvec3(1));
     if (std::isfinite(light.range)) to.range = light.range;
     to.spot.innerConeAngle = std::acos(light.cos_inner);
     to.spot.outerConeAngle = std::acos(light.cos_outer);
@@ -206,7 +206,7 @@ std::string pack_glb(GltfWriter& writer) {
 
 } // namespace
 
-std::vector<double> matrix_to_numbers(const dmat4& matrix) {
+std::vector<double> to_numbers(const dmat4& matrix) {
     std::vector<double> list;
     for (int i = 0; i < 16; ++i) list.push_back(matrix[i / 4][i % 4] + 0.0);
     return list;
@@ -236,7 +236,7 @@ int GltfWriter::vectors(const std::vector<vec3>& list) {
     for (const vec3& v : list) box.add(v);
     tinygltf::Accessor& accessor = append_accessor(list, TINYGLTF_TYPE_VEC3,
                                                    TINYGLTF_COMPONENT_TYPE_FLOAT);
-    accessor.minValues = matrix_to_numbers(box.lo), accessor.maxValues = matrix_to_numbers(box.hi);
+    accessor.minValues = to_numbers(box.lo), accessor.maxValues = to_numbers(box.hi);
     return list_size_as_int(model.accessors) - 1;
 }
 

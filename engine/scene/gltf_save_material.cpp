@@ -41,7 +41,7 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
     const double largest = std::max({emission.x, emission.y, emission.z});
     if (largest == 0) return;
     const bool is_common = largest <= 1 && largest > 1e-6;
-    to.emissiveFactor = matrix_to_numbers(is_common ? emission : emission / largest);
+    to.emissiveFactor = to_numbers(is_common ? emission : emission / largest);
     if (material.emission_texture)
         to.emissiveTexture = writer.add_texture_info(*material.emission_texture);
     if (is_common) return;
@@ -69,7 +69,7 @@ void write_dielectric_reflectance(GltfWriter& writer, const Material& material,
     const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (f0 * strength) : dvec3(0);
     to.extensions["KHR_materials_specular"] = Value(
         Value::Object{{"specularFactor", Value(strength)},
-                      {"specularColorFactor", make_number_list(matrix_to_numbers(colour))}});
+                      {"specularColorFactor", make_number_list(to_numbers(colour))}});
     writer.use("KHR_materials_specular");
 }
 
@@ -81,8 +81,7 @@ void write_volume(GltfWriter& writer, const Material& material, tinygltf::Materi
     const double largest = std::max({absorption.x, absorption.y, absorption.z});
     if (largest > 0) {
         volume["attenuationDistance"] = Value(1 / largest);
-        volume["attenuationColor"] = make_number_list(
-            matrix_to_numbers(glm::exp(-absorption / largest)));
+        volume["attenuationColor"] = make_number_list(to_numbers(glm::exp(-absorption / largest)));
     }
     to.extensions["KHR_materials_volume"] = Value(std::move(volume));
     writer.use("KHR_materials_volume");
@@ -104,9 +103,9 @@ void write_extension_factors(GltfWriter& writer, const Material& material, tinyg
 Value make_material_extras(const Material& material) {
     Value::Object ours;
     if (material.mirror && material.reflectance != vec3(1))
-        ours["reflectance"] = make_number_list(matrix_to_numbers(dvec3(material.reflectance)));
+        ours["reflectance"] = make_number_list(to_numbers(dvec3(material.reflectance)));
     if (material.mirror && material.albedo != vec3(0))
-        ours["diffuse"] = make_number_list(matrix_to_numbers(dvec3(material.albedo)));
+        ours["diffuse"] = make_number_list(to_numbers(dvec3(material.albedo)));
     if (!is_one_sided(material) && !material.two_sided) ours["fixed_normals"] = Value(true);
     return ours.empty() ? Value() : make_catoptric_extras(std::move(ours));
 }

@@ -102,12 +102,11 @@ int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
     };
     if (node.parent_from_space != dmat4(1)) {
         tinygltf::Node still;
-        still.matrix = matrix_to_numbers(node.parent_from_space);
+        still.matrix = to_numbers(node.parent_from_space);
         parent = add(std::move(still));
     }
     tinygltf::Node moving;
-    moving.translation = matrix_to_numbers(node.translation),
-    moving.scale = matrix_to_numbers(node.scale);
+    moving.translation = to_numbers(node.translation), moving.scale = to_numbers(node.scale);
     moving.rotation = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
     const int index = add(std::move(moving));
     if (node.translations) add_gltf_animation_track(*node.translations, index, "translation");

@@ -16,11 +16,11 @@ namespace catoptric::scene::gltf {
 int list_size_as_int(const auto& list) { return static_cast<int>(list.size()); }
 
 template <typename Vector>
-std::vector<double> matrix_to_numbers(const Vector& v) {
+std::vector<double> to_numbers(const Vector& v) {
     return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; // adding 0 turns -0.0 into 0.0
 }
 /// Returns the 16 numbers of a matrix, column by column.
-std::vector<double> matrix_to_numbers(const dmat4& matrix);
+std::vector<double> to_numbers(const dmat4& matrix);
 
 /// Returns `extras` that hold `ours` under the key "catoptric".
 tinygltf::Value make_catoptric_extras(tinygltf::Value::Object ours);

@@ -4,7 +4,6 @@
 #include "scene/transform.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -62,7 +62,7 @@ bool is_one_sided(const Material& material);
 /// False for `mirror`, whose reflectance is another member.
 bool has_specular_part(const Material& material);
 /// Returns whether rays pass through the surface: it transmits at least half of the light and has
-/// no metal. Glass casts no shadow.
+/// no metal. Glass casts no shadow unless Scene::tints_glass_shadows is set.
 bool is_glass(const Material& material);
 /// Returns whether a clear coat covers the surface. Glass, unlit surfaces and materials with
 /// `mirror` have no clear coat.

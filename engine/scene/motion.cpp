@@ -36,9 +36,9 @@ Value interpolate_hermite(const Value& value, const Value& out_tangent, const Va
            (3 * s2 - 2 * s3) * next + interval * (s3 - s2) * in_tangent;
 }
 
-dvec3 slerp(const dvec3& a, const dvec3& b, double s) { return glm::mix(a, b, s); }
+dvec3 interpolate_value(const dvec3& a, const dvec3& b, double s) { return glm::mix(a, b, s); }
 /// Interpolates two unit quaternions along the shorter arc.
-dvec4 slerp(const dvec4& a, const dvec4& b, double s) {
+dvec4 interpolate_value(const dvec4& a, const dvec4& b, double s) {
     const glm::dquat q = glm::slerp(glm::dquat(a.w, a.x, a.y, a.z), glm::dquat(b.w, b.x, b.y, b.z),
                                     s);
     return {q.x, q.y, q.z, q.w};
@@ -56,7 +56,8 @@ Value motion_track_value_at(const Track<Value>& track, double time) {
     const double s = (time - track.times[k]) / interval;
     using enum Interpolation;
     if (track.interpolation == step) return track.values[k];
-    if (track.interpolation == linear) return slerp(track.values[k], track.values[k + 1], s);
+    if (track.interpolation == linear)
+        return interpolate_value(track.values[k], track.values[k + 1], s);
     return interpolate_hermite(track.values[k], track.out_tangents[k], track.values[k + 1],
                                track.in_tangents[k + 1], s, interval);
 }
@@ -93,7 +94,7 @@ dmat4 rig_node_transform_to_parent(const NodeRig::RigNode& node, double time) {
 class RigNodeTransformsAtTime {
 public:
     explicit RigNodeTransformsAtTime(double seconds) : seconds_(seconds) {}
-    dmat4 world_from_node(const RigAttachment& follows) {
+    dmat4 world_from_object(const RigAttachment& follows) {
         std::vector<dmat4>& pose = poses_[follows.rig.get()];
         if (pose.empty()) pose = compute_node_transforms(*follows.rig, seconds_);
         return pose[follows.node] * follows.node_from_object;
@@ -192,7 +193,7 @@ double compute_scene_period(const Scene& scene) {
 Camera camera_at_time(const Camera& camera, double seconds) {
     return camera.follows.rig
                ? move_camera_with_node(
-                     camera, RigNodeTransformsAtTime(seconds).world_from_node(camera.follows))
+                     camera, RigNodeTransformsAtTime(seconds).world_from_object(camera.follows))
                : camera;
 }
 
@@ -207,14 +208,14 @@ void move_scene_to_time(Scene& still, const Scene& scene, double seconds) {
     RigNodeTransformsAtTime poses(seconds);
     const auto apply_motion = [&](dmat4& place, const Motion& motion) {
         if (const RigAttachment* follows = find_followed_node(motion))
-            place = poses.world_from_node(*follows);
+            place = poses.world_from_object(*follows);
         const dvec3 offset = motion_translation_at_time(motion, seconds);
         place[3] += dvec4(offset, 0);
         return offset;
     };
     for (Object& object : still.objects) {
         if (const RigAttachment* follows = find_followed_node(object.motion))
-            object.sphere = transform_exact_sphere(object, poses.world_from_node(*follows));
+            object.sphere = transform_exact_sphere(object, poses.world_from_object(*follows));
         const dvec3 offset = apply_motion(object.world_from_object, object.motion);
         if (object.sphere) object.sphere->centre += offset;
         object.motion = std::monostate();
@@ -225,7 +226,7 @@ void move_scene_to_time(Scene& still, const Scene& scene, double seconds) {
     }
     for (Camera& camera : still.cameras)
         if (camera.follows.rig)
-            camera = move_camera_with_node(camera, poses.world_from_node(camera.follows));
+            camera = move_camera_with_node(camera, poses.world_from_object(camera.follows));
 }
 
 SceneAtTime::SceneAtTime(const Scene& scene, double seconds) : scene_(scene) {

@@ -27,7 +27,8 @@ std::vector<std::string> LoaderNotes::lines(const std::string& file) const {
         lines.push_back(file + ": " + text + ": " + std::to_string(count) + " (first: " + first +
                         ")");
     if (others_ > 0)
-        lines.push_back(file + ": more of other kinds, not read: " + std::to_string(others_));
+        lines.push_back(file +
+                        ": further notes of other kinds, not listed: " + std::to_string(others_));
     return lines;
 }
 

@@ -29,13 +29,12 @@ Camera parse_camera_comment(const ObjLine& line, const CommentWordList& words) {
     const dvec3 side = normalized_or_zero(glm::cross(camera.target - camera.eye, camera.up));
     check(side != dvec3(0), Failure::bad_data, line.describe_line_place(), ": camera ",
           quote_text_with_escapes(camera.name),
-          " wants an up that is not along its view, found none");
+          " wants an up vector that is not parallel to its view");
     check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.describe_line_place(), ": camera ",
           quote_text_with_escapes(camera.name),
           " wants a field of view between 0 and 180 degrees, found ", n[9]);
-    check(!is_orthographic || n[10] > 0, Failure::bad_data, line.describe_line_place(),
-          ": camera ", quote_text_with_escapes(camera.name), " wants a height above 0, found ",
-          n.back());
+    check(!is_orthographic || n[10] > 0, Failure::bad_data, line.describe_line_place(), ": camera ",
+          quote_text_with_escapes(camera.name), " wants a height above 0, found ", n.back());
     return camera;
 }
 

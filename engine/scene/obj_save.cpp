@@ -1,6 +1,5 @@
 // Writes a scene as .obj. A mirror is illum 3 with Ks, glass is illum 7, and a light is Ke. Camera,
 // motion and exact spheres are comments that begin with `# catoptric` (obj_text.hpp).
-#include "core/error.hpp"
 #include "core/file.hpp"
 #include "scene/load.hpp"
 #include "scene/material_facts.hpp"

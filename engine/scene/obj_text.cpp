@@ -23,10 +23,10 @@ public:
     ObjReader(const std::string& file, ObjReadContext& context) : file_(file), context_(context) {}
 
     /// Reads one line of the first pass: everything but faces, groups and uses of materials.
-    void read_obj_vertex_line(const ObjLine& line);
-    void number_and_name_materials();
+    void read_first_pass_line(const ObjLine& line);
+    void index_materials_by_name();
     /// Reads one line of the second pass: faces, groups and uses of materials.
-    void read_obj_usemtl_line(const ObjLine& line);
+    void read_second_pass_line(const ObjLine& line);
     RewrittenObjText finish();
 
 private:
@@ -70,7 +70,7 @@ void ObjReader::library(const ObjLine& line) {
     check(!names.empty(), Failure::bad_data, line.describe_line_place(),
           ": mtllib wants a file name, found none");
     const std::string all(line.rest);
-    const bool is_one = names.size() > 1 && all.size() <= SceneFileOpener::kMaxPlanFileNameLength &&
+    const bool is_one = names.size() > 1 && all.size() <= SceneFileOpener::kMaxFileNameLength &&
                         !context_.files
                              .find_scene_file_by_name(all, line.describe_line_place() + ": mtllib")
                              .empty();
@@ -79,7 +79,7 @@ void ObjReader::library(const ObjLine& line) {
 }
 
 /// Maps names to materials. If materials share a name, the first is used.
-void ObjReader::number_and_name_materials() {
+void ObjReader::index_materials_by_name() {
     for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
         material_of_.try_emplace(text_.library.drafts[i].name, i);
 }
@@ -203,7 +203,7 @@ void ObjReader::texture_coordinates(const ObjLine& line) {
     text_.uv.emplace_back(u, has_v ? parse_word_number(line, remove_first_word(rest)) : 0);
 }
 
-void ObjReader::read_obj_vertex_line(const ObjLine& line) {
+void ObjReader::read_first_pass_line(const ObjLine& line) {
     if (line.keyword == "v") {
         position(line);
     } else if (line.keyword == "vt") {
@@ -224,7 +224,7 @@ void ObjReader::read_obj_vertex_line(const ObjLine& line) {
     }
 }
 
-void ObjReader::read_obj_usemtl_line(const ObjLine& line) {
+void ObjReader::read_second_pass_line(const ObjLine& line) {
     if (line.keyword == "v") ++positions_;
     if (line.keyword == "vn") ++normals_;
     if (line.keyword == "vt") ++uvs_;
@@ -247,10 +247,10 @@ RewrittenObjText read_obj_text(const std::string& file, ObjReadContext& context)
     check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
           ": wanted text in UTF-8, found UTF-16");
     for_each_obj_line(file, bytes,
-                      [&](const ObjLine& line) { obj_reader.read_obj_vertex_line(line); });
-    obj_reader.number_and_name_materials();
+                      [&](const ObjLine& line) { obj_reader.read_first_pass_line(line); });
+    obj_reader.index_materials_by_name();
     for_each_obj_line(file, bytes,
-                      [&](const ObjLine& line) { obj_reader.read_obj_usemtl_line(line); });
+                      [&](const ObjLine& line) { obj_reader.read_second_pass_line(line); });
     return obj_reader.finish();
 }
 

@@ -1,6 +1,5 @@
 #include "scene/pattern.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace catoptric::scene {

@@ -20,7 +20,7 @@ double compute_scene_period(const Scene& scene);
 void move_scene_to_time(Scene& still, const Scene& scene, double seconds);
 
 /// Scene at an instant, valid as long as `scene` lives. Only an animated scene is copied, with each
-/// mesh. Throws as `at`.
+/// mesh. Throws as `scene_at_time`.
 class SceneAtTime {
 public:
     SceneAtTime(const Scene& scene, double seconds);

@@ -2,7 +2,6 @@
 // lamps and a spot.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/pattern.hpp"
 #include "scene/shapes.hpp"

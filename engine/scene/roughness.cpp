@@ -2,7 +2,6 @@
 // of each look-up depends on roughness.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/pattern.hpp"
 #include "scene/shapes.hpp"
 

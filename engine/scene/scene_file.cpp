@@ -81,7 +81,7 @@ auto rethrow_as_bad_data(const JsonObject& file, Read&& read) {
 }
 
 template <typename Value>
-Json overrides_to_json(const std::optional<Value>& value) {
+Json optional_to_json(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 
@@ -123,14 +123,14 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
                                                                0, 1);
       },
       [](const SceneOverrides& overrides) {
-          return overrides_to_json(overrides.mirror_max_roughness);
+          return optional_to_json(overrides.mirror_max_roughness);
       }},
      {"dielectric_mirrors",
       [](const JsonObject& file, const Json&, SceneOverrides& overrides) {
           overrides.dielectric_mirrors = file.flag("dielectric_mirrors", false);
       },
       [](const SceneOverrides& overrides) {
-          return overrides_to_json(overrides.dielectric_mirrors);
+          return optional_to_json(overrides.dielectric_mirrors);
       }},
      {"multiple_scattering",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
@@ -152,27 +152,27 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
           overrides.light_samples = read_bounded_whole_number(file, value, "light_samples", 1,
                                                               kMaxLightSamples);
       },
-      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.light_samples); }},
+      [](const SceneOverrides& overrides) { return optional_to_json(overrides.light_samples); }},
      {"environment_shadows",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment_shadows = read_bounded_whole_number(
               file, value, "environment_shadows", 0, kMaxEnvironmentShadows);
       },
       [](const SceneOverrides& overrides) {
-          return overrides_to_json(overrides.environment_shadows);
+          return optional_to_json(overrides.environment_shadows);
       }},
      {"environment",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment = read_text_member(file, value, "environment");
       },
-      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.environment); }},
+      [](const SceneOverrides& overrides) { return optional_to_json(overrides.environment); }},
      {"environment_scale",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment_scale = read_bounded_number(file, value, "environment_scale", 0,
                                                             kMaxLightScale);
       },
       [](const SceneOverrides& overrides) {
-          return overrides_to_json(overrides.environment_scale);
+          return optional_to_json(overrides.environment_scale);
       }},
      {"environment_rotate",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
@@ -180,13 +180,13 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
               file, value, "environment_rotate", -kMaxRotationDegrees, kMaxRotationDegrees);
       },
       [](const SceneOverrides& overrides) {
-          return overrides_to_json(overrides.environment_rotation);
+          return optional_to_json(overrides.environment_rotation);
       }},
      {"ambient",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.ambient = read_bounded_number(file, value, "ambient", 0, kMaxLightScale);
       },
-      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.ambient); }},
+      [](const SceneOverrides& overrides) { return optional_to_json(overrides.ambient); }},
      {"exposure",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           if (value == "auto")
@@ -203,7 +203,7 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.camera = read_text_member(file, value, "camera");
       },
-      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.camera); }},
+      [](const SceneOverrides& overrides) { return optional_to_json(overrides.camera); }},
      {"up",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           file.require_condition(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
@@ -217,7 +217,7 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.animation = read_text_member(file, value, "animation");
       },
-      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.animation); }}}};
+      [](const SceneOverrides& overrides) { return optional_to_json(overrides.animation); }}}};
 
 SceneOverrides read_overrides(const std::string& file, const std::string& text,
                               SceneLoadBudgetUsage& account) {
@@ -257,7 +257,7 @@ std::optional<SceneFile> read_scene_file(const fs::path& scene, const SceneFileO
     const std::string place = found.path.string();
     SceneLoadBudgetUsage account(options.budget);
     SceneFileOpener files(scene, options.root, account);
-    if (found.path.filename().string().size() > SceneFileOpener::kMaxPlanFileNameLength)
+    if (found.path.filename().string().size() > SceneFileOpener::kMaxFileNameLength)
         return std::nullopt;
     const fs::path real = files.find_scene_file_by_name(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;

@@ -102,7 +102,7 @@ std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const Sett
     return objects;
 }
 
-void keep_lights_matching_pattern(Scene& scene, const std::string& pattern) {
+void make_objects_light_scene(Scene& scene, const std::string& pattern) {
     change_object_materials(
         scene, find_emitters_by_pattern(scene, {"--light"}, pattern), [](Material& material) {
             material.light = material.emission;
@@ -233,8 +233,7 @@ void check_override_patterns(const Scene& scene, const SceneOverrides& overrides
 void apply_edit(Scene& scene, const SceneOverrides& overrides) {
     if (overrides.up == UpAxis::z) turn_z_up_to_y_up(scene);
     for (const MirrorOverride& wish : overrides.mirrors) apply_mirror_override(scene, wish);
-    for (const std::string& pattern : overrides.lights)
-        keep_lights_matching_pattern(scene, pattern);
+    for (const std::string& pattern : overrides.lights) make_objects_light_scene(scene, pattern);
     if (overrides.mirror_max_roughness)
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
     scene.has_multiple_scattering = overrides.multiple_scattering.value_or(

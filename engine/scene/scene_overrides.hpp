@@ -54,7 +54,7 @@ struct SceneOverrides {
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;
-    std::optional<std::string> camera; ///< a camera as camera_named takes it
+    std::optional<std::string> camera; ///< a camera as `find_camera_by_name` takes it
     std::optional<UpAxis> up;
     std::optional<std::string> animation; ///< name, or "none"
     std::optional<double> ambient;

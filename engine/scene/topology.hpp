@@ -37,8 +37,8 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
 /// place are one. False without triangles. O(n log n).
 bool is_closed_triangle_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles);
 
-/// Calls `visit(std::span<const Side>)` for each edge with the sides that meet there. A surface is
-/// closed if every edge has two sides.
+/// Calls `visit(std::span<const TriangleEdge>)` for each edge with the sides that meet there. A
+/// surface is closed if every edge has two sides.
 template <typename Visit>
 void for_each_edge(const std::vector<TriangleEdge>& sides, Visit&& visit) {
     for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {

@@ -142,9 +142,10 @@ struct Access {
     /// without `with_lookup`, or before another one.
     static ReflectionTiers read_reflection_tiers(const Frame& frame, std::size_t part = 0);
 
-    /// Submits a frame as Session::frame does. `finish` adds passes that belong to no
-    /// technique before the frame is submitted.
+    /// Submits a frame as Session::frame does, with hooks.
     static Frame render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks);
+    /// As render_frame. `finish` adds passes that belong to no technique before the frame is
+    /// submitted.
     static Frame submit_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
                               const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
     /// Submits a frame and shows it in a window. The screen must belong to the session's engine,
@@ -173,6 +174,6 @@ struct Access {
 };
 
 /// Returns "everything" or "required".
-std::string rendered_work_name(RenderedWork modelling);
+std::string rendered_work_name(RenderedWork work);
 
 } // namespace catoptric::app

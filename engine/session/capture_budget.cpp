@@ -6,8 +6,8 @@ namespace catoptric::app {
 
 std::string describe_capture_budget(const CaptureBudget& capture_budget) {
     const std::uint32_t round = capture_budget.frames_per_cycle(), oldest = round - 1;
-    return fmt::format("captures: at most {} of {} mirror{} a frame; none shows what is older than "
-                       "{} frame{}, and {} more for each further mirror that it is seen by",
+    return fmt::format("captures: at most {} of {} mirror{} a frame; a reflection is at most {} "
+                       "frame{} old, and {} more for each further mirror on the light's path",
                        capture_budget.most, capture_budget.mirrors,
                        capture_budget.mirrors == 1 ? "" : "s", oldest, oldest == 1 ? "" : "s",
                        round);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace catoptric::app {
@@ -53,12 +52,12 @@ CoveredPixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size
 std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameGeometry& geometry,
                                                             const shared::View& view, uvec2 size,
                                                             std::uint64_t most_tests) {
-    struct PixelCoordinates {
+    struct PixelRay {
         f32::Ray ray;
         f32::TriangleTestRayShear shear;
-        float t = std::numeric_limits<float>::max();
+        float nearest = std::numeric_limits<float>::max();
     };
-    std::vector<PixelCoordinates> pixels;
+    std::vector<PixelRay> pixels;
     for (std::size_t i = 0; i < std::size_t{size.x} * size.y; ++i) {
         const f32::Ray ray = make_camera_ray(view, size, i);
         pixels.push_back({ray, f32::make_ray_shear(ray.direction)});
@@ -80,16 +79,17 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameG
             for (int y = box.low.y; y < box.high.y; ++y)
                 for (int x = box.low.x; x < box.high.x; ++x) {
                     const std::size_t i = std::size_t(y) * size.x + std::size_t(x);
-                    PixelCoordinates& pixel = pixels[i];
+                    PixelRay& pixel = pixels[i];
                     float t = 0;
                     vec3 weights;
                     if (range.one_sided && f32::hits_back_face(a, b, c, pixel.ray.direction))
                         continue;
                     if (!f32::intersect_triangle_watertight(a, b, c, pixel.ray.origin, pixel.shear,
                                                             t, weights) ||
-                        !(t < pixel.t)) // of two equal distances, that of the first triangle wins
+                        !(t <
+                          pixel.nearest)) // of two equal distances, that of the first triangle wins
                         continue;
-                    pixel.t = t;
+                    pixel.nearest = t;
                     seen[i] = static_cast<int>(object);
                 }
         }

@@ -11,7 +11,7 @@ namespace catoptric::app {
 
 /// Returns the object that the ray through each pixel's centre meets first, row by row (-1: none).
 /// The result equals that of tracing through a BVH, but no BVH is needed. Each triangle is tested
-/// for the pixels of its bounds on the screen. Costs a projection per triangle, and 32 bytes per
+/// for the pixels of its bounds on the screen. Costs a projection per triangle, and 52 bytes per
 /// pixel. Returns nothing if more than `most_tests` tests were needed, as for many large triangles
 /// behind each other.
 std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameGeometry& geometry,

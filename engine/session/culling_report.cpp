@@ -127,11 +127,11 @@ std::string format_culling_as_json(const Request& request,
 }
 
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request) {
-    constexpr int kMeasuredCutCount = 5; // cuts: the first frames compile what they use
+    constexpr int kFramesBeforeMeasurement = 5; // cuts: the first frames compile what they use
     Session session(engine, request.scene);
     FrameSpec spec = request;
     spec.time = request.instant(1);
-    for (int k = 0; k < kMeasuredCutCount; ++k) {
+    for (int k = 0; k < kFramesBeforeMeasurement; ++k) {
         session.forget();
         session.frame(spec);
     }

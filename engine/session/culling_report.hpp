@@ -13,8 +13,8 @@ namespace catoptric::app {
 std::string format_culling_as_text(const Request& request,
                                    const std::optional<CaptureBudget>& capture_budget = {});
 /// Returns the report as JSON with a final newline: {"schema": "catoptric/why/1", "mirrors": [...],
-/// "lights": [...], "left_out": [...], "not_drawn": [...], "suggested": PLAN, "captures":
-/// CAPTURE_BUDGET or null}.
+/// "lights": [...], "left_out": [...], "not_drawn": [...], "suggested": PLAN, "candidates": [...],
+/// "captures": CAPTURE_BUDGET or null}.
 std::string format_culling_as_json(const Request& request,
                                    const std::optional<CaptureBudget>& capture_budget = {});
 /// Renders a few frames and returns how many captures fit into the request's budget. Returns

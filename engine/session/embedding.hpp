@@ -5,7 +5,6 @@
 #include "session/frame_graph.hpp"
 
 #include <functional>
-#include <memory>
 
 namespace catoptric::app {
 

@@ -12,7 +12,7 @@ namespace catoptric::app {
 
 double choose_exposure_for_picture(const measure::Picture& picture) {
     constexpr double kAutoExposurePercentile = .95, kTargetValue = .8,
-                     kStepsPerStop = 3; // kStepsPerStop: per stop
+                     kExposureStepsPerStop = 3; // exposures are rounded to thirds of a stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
         const double its = compute_luminance(dvec3(pixel));
@@ -22,8 +22,8 @@ double choose_exposure_for_picture(const measure::Picture& picture) {
     const double bright = measure::compute_percentile(std::move(luminances),
                                                       kAutoExposurePercentile);
     if (!(bright > 0)) return 0;
-    const double stops = std::round(kStepsPerStop * std::log2(kTargetValue / bright)) /
-                         kStepsPerStop;
+    const double stops = std::round(kExposureStepsPerStop * std::log2(kTargetValue / bright)) /
+                         kExposureStepsPerStop;
     return std::clamp(stops, -scene::kMaxExposureStops, scene::kMaxExposureStops) +
            0.0; // turns -0 into 0
 }

@@ -80,7 +80,7 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     graph.mark_as_graph_output(images.normals_and_distances);
     graph.mark_as_graph_output(images.objects_and_roughness);
     graph.mark_as_graph_output(images.counters);
-    if (resident.has_new_views()) self.wait_until_buffer_slot_is_free(self.copy);
+    if (resident.has_new_views()) self.wait_until_scene_copy_is_free(self.copy);
     resident.write_views_and_update_trees();
     const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(
         graph, graph::PassTiming::isolated, true);
@@ -103,7 +103,7 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
                  scale = resident.scene_units().scale;
     FirstSurfaces surfaces;
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        const std::uint32_t object = bvh::integer_from_float_bits(objects[i].x);
+        const std::uint32_t object = bvh::unpack_number(objects[i].x);
         const bool is_met = object > 0;
         surfaces.object.push_back(object);
         surfaces.mirror.push_back(is_met ? resident.mirror_number_of_object(object - 1) : 0);

@@ -47,7 +47,6 @@ public:
     /// Returns the number of frames in all, if the picture does not settle earlier.
     int max_frame_count() const;
     const Frame& current_frame() const { return *frame_; }
-    bool has_capture_settled() const { return settled_; }
     /// Returns the times of the measured frames so far.
     const std::vector<FrameTimes>& list_frame_times() const { return times_; }
     /// Returns the results up to the frame rendered last.

@@ -28,7 +28,7 @@ std::string format_for_message(const Json& value) {
 std::size_t find_variant_index(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
     for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        const gpu::ShaderBuildVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
     }
@@ -36,7 +36,7 @@ std::size_t find_variant_index(std::string_view name, Failure failure, const std
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
-std::uint8_t find_choice_index(const gpu::ShaderBuildVariant& variant, const Json& choice,
+std::uint8_t find_choice_index(const gpu::ShaderVariant& variant, const Json& choice,
                                Failure failure, const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
@@ -49,7 +49,7 @@ Json make_device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
-gpu::ShaderVariantChoices read_profile_if_usable(const fs::path& file, const DeviceInfo& device) {
+gpu::ShaderVariantChoices read_device_profile(const fs::path& file, const DeviceInfo& device) {
     return parse_device_profile(read_json_text(file, "a device profile", kMaxProfileBytes),
                                 file.string(), device);
 }
@@ -60,7 +60,7 @@ gpu::ShaderVariantChoices find_profile_choices(const fs::path& folder, DeviceInf
     std::error_code error;
     if (!fs::exists(fs::symlink_status(file, error))) return choose_default_variants(device);
     try {
-        const gpu::ShaderVariantChoices choices = read_profile_if_usable(file, device);
+        const gpu::ShaderVariantChoices choices = read_device_profile(file, device);
         device.profile = file.filename().string();
         return choices;
     } catch (const Error& refused) {
@@ -142,7 +142,7 @@ gpu::ShaderVariantChoices parse_device_profile(const std::string& text, const st
 VariantNames name_variant_choices(const gpu::ShaderVariantChoices& choices) {
     VariantNames variants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const gpu::ShaderBuildVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         variants.emplace_back(variant.name, variant.choices[choices[i]]);
     }
     return variants;
@@ -164,7 +164,7 @@ gpu::ShaderVariantChoices choose_shader_variants(const EngineOptions& options, D
     if (!options.variants.empty()) {
         choices = parse_variant_choices(options.variants, device);
     } else if (!options.profile.empty()) {
-        choices = read_profile_if_usable(options.profile, device);
+        choices = read_device_profile(options.profile, device);
         device.profile = options.profile.filename().string();
     } else if (!options.profiles.empty()) {
         choices = find_profile_choices(options.profiles, device);

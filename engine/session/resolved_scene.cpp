@@ -232,7 +232,7 @@ ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOpt
         wanted.said.emplace_back(
             "--environment-shadows has no effect: the scene has no environment "
             "(--environment adds one)");
-    scene::sort_unsupported_features(wanted.scene);
+    scene::add_unsupported_lighting_features(wanted.scene);
     warn_of_scene_with_many_mirrors(wanted.scene);
     return wanted;
 }

@@ -6,7 +6,6 @@
 #include "scene/hash.hpp"
 #include "scene/light.hpp"
 #include "scene/light_kind.hpp"
-#include "scene/load.hpp"
 #include "scene/pose.hpp"
 #include "session/coverage.hpp"
 #include "session/rays.hpp"

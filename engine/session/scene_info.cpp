@@ -1,7 +1,6 @@
 #include "session/scene_info.hpp"
 
 #include "scene/classify.hpp"
-#include "scene/load.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
 #include "session/candidates.hpp"

@@ -119,17 +119,18 @@ Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScre
 }
 
 std::optional<std::uint32_t> WindowScreen::Impl::acquire() {
-    acquire_ms = 0;
-    const Stopwatch watch(acquire_ms);
+    const SteadyClock::time_point begin = SteadyClock::now();
     const std::optional<std::uint32_t> acquired = swapchain.acquire_image();
+    acquire_ms = elapsed_milliseconds(begin);
     image = acquired.value_or(0);
     return acquired;
 }
 
 bool WindowScreen::Impl::present() {
-    present_ms = 0;
-    const Stopwatch watch(present_ms);
-    return swapchain.present_image(image);
+    const SteadyClock::time_point begin = SteadyClock::now();
+    const bool is_presented = swapchain.present_image(image);
+    present_ms = elapsed_milliseconds(begin);
+    return is_presented;
 }
 
 void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
@@ -150,13 +151,13 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
 
     const uvec2 size = swapchain.size_in_pixels();
     const auto picture = [&](std::size_t part) {
-        return frame.parts.at(part == WindowPictures::kCanvasTextureIndex ? 0 : part).display;
+        return frame.parts.at(part == WindowPictures::kCanvasPicture ? 0 : part).display;
     };
     const ImageHandle first = picture(showing.first), second = picture(showing.second);
     const shared::ScreenParameters screening{
         spec.size, static_cast<std::uint32_t>(showing.kind),
-        (showing.first == WindowPictures::kCanvasTextureIndex ? 1u : 0u) |
-            (showing.second == WindowPictures::kCanvasTextureIndex ? 2u : 0u),
+        (showing.first == WindowPictures::kCanvasPicture ? 1u : 0u) |
+            (showing.second == WindowPictures::kCanvasPicture ? 2u : 0u),
         showing.divider, showing.gain};
     const ImageHandle target = frame.graph.import_external_resource(
         {"window", swapchain.texel_format(), size.x, size.y}, &images.at(image), std::nullopt,

@@ -32,10 +32,10 @@ struct WindowPictures {
         split, ///< the first picture left of the divider, the second picture right of the divider
         difference ///< difference of the displayed pictures, times `gain`
     };
-    static constexpr std::size_t kCanvasTextureIndex = ~std::size_t{0};
+    static constexpr std::size_t kCanvasPicture = ~std::size_t{0};
 
     PictureArrangement kind = PictureArrangement::one;
-    std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvasTextureIndex
+    std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvasPicture
     float divider = 0;                 ///< pixels from the left
     float gain = 1;
     /// Picture of the caller, of the frame's size, encoded as by measure::to_display; null: none.

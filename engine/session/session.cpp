@@ -49,8 +49,8 @@ void hash_ambient_light(require::RequiredWorkModel& model, double ambient) {
                     ContentHash().add_value(content_hash).add_value(ambient).current_hash();
 }
 
-std::string rendered_work_name(RenderedWork modelling) {
-    return modelling == RenderedWork::everything ? "everything" : "required";
+std::string rendered_work_name(RenderedWork work) {
+    return work == RenderedWork::everything ? "everything" : "required";
 }
 
 struct FrameSequence::Impl {
@@ -74,7 +74,7 @@ FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
 FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
 FrameSequence::~FrameSequence() = default;
 
-void Session::Impl::wait_until_buffer_slot_is_free(std::size_t of) {
+void Session::Impl::wait_until_scene_copy_is_free(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
         runner.wait_for_frame(graph::SubmittedFrameTicket{read_by[of]});
 }
@@ -83,7 +83,7 @@ double Session::Impl::update_device_scene(const DeviceSceneKey& wanted) {
     if (scene_key == wanted && resident->has_needed_face_edges()) return 0;
     // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
-    wait_until_buffer_slot_is_free(next);
+    wait_until_scene_copy_is_free(next);
     copy = next;
     const SteadyClock::time_point start = SteadyClock::now();
     if (scene_key && scene_key->size != wanted.size) resident->discard_needed_face_edges();
@@ -115,8 +115,8 @@ Session::Impl::parse_and_cache_technique_plans(const FrameSpec& spec) {
 }
 
 const std::shared_ptr<const require::RequiredWorkModel>&
-Session::Impl::find_required_work_model(RenderedWork modelling, bool is_ablated) {
-    std::shared_ptr<const require::RequiredWorkModel>& model = models[{modelling, is_ablated}];
+Session::Impl::find_required_work_model(RenderedWork work, bool is_ablated) {
+    std::shared_ptr<const require::RequiredWorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
     require::RequiredWorkModelInput question{scene_at_current_instant(), scene_key->camera,
                                              scene_key->size};
@@ -124,8 +124,8 @@ Session::Impl::find_required_work_model(RenderedWork modelling, bool is_ablated)
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // look-ups with removed causes read faces that a search
                                        // would never read
-    if (modelling == RenderedWork::required && !requirements) requirements.emplace(scene);
-    require::RequiredWorkModel made = modelling == RenderedWork::everything
+    if (work == RenderedWork::required && !requirements) requirements.emplace(scene);
+    require::RequiredWorkModel made = work == RenderedWork::everything
                                           ? require::make_everything_model(question)
                                           : requirements->make_work_model_for_request(question);
     hash_ambient_light(made, scene_key->ambient);
@@ -188,7 +188,7 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
                                            self.runner.make_history(),
                                            self.find_capture_histories(spec, *model, follows));
     const double declare_ms = compute_milliseconds_since(start);
-    if (self.resident->has_new_views()) self.wait_until_buffer_slot_is_free(self.copy);
+    if (self.resident->has_new_views()) self.wait_until_scene_copy_is_free(self.copy);
     const SteadyClock::time_point trees = SteadyClock::now();
     self.resident->write_views_and_update_trees();
     const double hierarchy_ms = compute_milliseconds_since(trees);

@@ -25,8 +25,9 @@ double sum_capture_milliseconds(const graph::GraphFrameTimes& times, const std::
 
 void check_capture_limit(const FrameSpec& spec) {
     const bool is_limited = spec.most_captures > 0 || spec.budget_ms != 0;
-    check(!is_limited || spec.model == RenderedWork::required, Failure::usage,
-          "a limit of captures that a frame draws is of the model required, not of everything");
+    check(
+        !is_limited || spec.model == RenderedWork::required, Failure::usage,
+        "limits of captures (most_captures, budget_ms): wanted the model required, found everything");
     check(spec.most_captures == 0 || spec.budget_ms == 0, Failure::usage,
           "captures that a frame draws are limited by number (", spec.most_captures,
           ") and by milliseconds (", spec.budget_ms, "): wanted one of them");

@@ -45,7 +45,7 @@ struct Session::Impl {
     /// work.
     double update_device_scene(const DeviceSceneKey& wanted);
     /// Waits until no frame in flight reads copy `of` of the scene data.
-    void wait_until_buffer_slot_is_free(std::size_t of);
+    void wait_until_scene_copy_is_free(std::size_t copy_index);
     /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
     /// after a cut, and after an edit. Until then, `auto` keeps the plan suggested for the first
     /// frame.
@@ -53,7 +53,7 @@ struct Session::Impl {
     parse_and_cache_technique_plans(const FrameSpec& spec);
     /// Returns the model of the scene at its present instant.
     const std::shared_ptr<const require::RequiredWorkModel>&
-    find_required_work_model(RenderedWork modelling, bool is_ablated);
+    find_required_work_model(RenderedWork work, bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
     std::vector<reflect::PreviousCaptureHistory>
     find_capture_histories(const FrameSpec& spec, const require::RequiredWorkModel& model,

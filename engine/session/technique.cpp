@@ -37,7 +37,7 @@ void check_search_definition(const Search& search) {
         check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
               "' already");
     check(search.name != reflect::kAutoPlanName, Failure::usage, "'", search.name,
-          "' is what the requirements suggest, and no name of a technique");
+          "' is the plan that the program chooses: wanted another name");
     for (const std::string& row : search.compared)
         check(row == search.name || row.starts_with(search.name + ":"), Failure::usage,
               "technique '", search.name, "': wanted rows of its own to compare, found '", row,

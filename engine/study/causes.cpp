@@ -4,7 +4,6 @@
 #include "core/text.hpp"
 #include "measure/causes.hpp"
 #include "measure/display.hpp"
-#include "measure/lines.hpp"
 #include "measure/masks.hpp"
 #include "measure/picture_mean.hpp"
 #include "measure/pixel_error.hpp"

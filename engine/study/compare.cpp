@@ -13,7 +13,6 @@
 #include "session/access.hpp"
 #include "session/device_facts.hpp"
 #include "session/exposure.hpp"
-#include "session/plan_file.hpp"
 #include "session/processor.hpp"
 #include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
@@ -296,8 +295,8 @@ private:
         return measure::choose_target_noise_floor(rows);
     }
 
-    /// The number of a row's last frame, to compute the row's errors again later.
-    struct FrameNumberOfJudgedPicture {
+    /// The result of a row's last frame and its number, to compute the row's errors again later.
+    struct JudgedPicture {
         TechniqueResult part;
         int number = 0; ///< number of the frame, from 1
     };
@@ -354,14 +353,13 @@ private:
         if (compare_request_.on_finished_row) compare_request_.on_finished_row(comparison_);
     }
 
-    /// Returns the rows whose frames are measured one by one; with `together` one group of all
-    /// rows.
+    /// Returns the groups of rows that share frames: one row each, or all rows with `together`.
     std::vector<std::vector<std::string>> group_rows_rendered_together() const {
         const std::vector<std::string>& texts = compare_request_.base.techniques;
         if (compare_request_.together) return {texts};
-        std::vector<std::vector<std::string>> lanes;
-        for (const std::string& text : texts) lanes.push_back({text});
-        return lanes;
+        std::vector<std::vector<std::string>> groups;
+        for (const std::string& text : texts) groups.push_back({text});
+        return groups;
     }
 
     void measure_all_rounds() {
@@ -380,14 +378,14 @@ private:
         // Every second round measures the rows in reverse order. The same row then never always
         // follows another, whose remaining work could disturb it.
         for (std::size_t place = 0; place < all.size(); ++place) {
-            const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
+            const std::size_t group = round % 2 == 0 ? place : all.size() - 1 - place;
             report_row_to_watcher(compare_request_.watcher,
-                                  describe_rows_measured_together(lane) + ", round " +
+                                  describe_rows_measured_together(group) + ", round " +
                                       std::to_string(round + 1) + " of " +
                                       std::to_string(comparison_.rounds),
                                   static_cast<std::size_t>(round) * all.size() + place,
                                   count_row_measurements(all.size()));
-            measure_round_of_row(lane, all[lane], round);
+            measure_round_of_row(group, all[group], round);
         }
         // If the first round will be measured again, files are not written now, because that would
         // interrupt the device.
@@ -396,10 +394,11 @@ private:
     }
 
     /// Returns the label of the rows that are measured together, for the watcher.
-    std::string describe_rows_measured_together(std::size_t lane) const {
-        std::string text = compare_request_.together ? "all rows in one frame"
-                                                     : group_rows_rendered_together()[lane].front();
-        if (compare_request_.both_models) text += ", model " + rendered_work_name(models_[lane]);
+    std::string describe_rows_measured_together(std::size_t group) const {
+        std::string text = compare_request_.together
+                               ? "all rows in one frame"
+                               : group_rows_rendered_together()[group].front();
+        if (compare_request_.both_models) text += ", model " + rendered_work_name(models_[group]);
         return text;
     }
 
@@ -417,21 +416,21 @@ private:
     /// of the last round's pictures, which would have interrupted the device.
     void measure_first_round_again() {
         std::vector<double> clear_ms = measure_cube_clear_times(0, 0);
-        for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+        for (std::size_t group = 0; group < runs_.size(); ++group) {
             report_row_to_watcher(compare_request_.watcher,
-                                  describe_rows_measured_together(lane) + ", first round again",
+                                  describe_rows_measured_together(group) + ", first round again",
                                   static_cast<std::size_t>(comparison_.rounds) * runs_.size() +
-                                      lane,
+                                      group,
                                   count_row_measurements(runs_.size()));
-            runs_[lane]->measure_first_round_again();
-            runs_[lane]->suspend_frames();
+            runs_[group]->measure_first_round_again();
+            runs_[group]->suspend_frames();
         }
         clear_ms_.front() = std::move(clear_ms);
         comparison_.clear_ms = measure::summarise_samples(clear_ms_);
-        for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-            runs_[lane]->replace_first_round();
-            for (std::size_t i = 0; i < runs_[lane]->technique_count(); ++i)
-                fill_times_of_row(lane + i, *runs_[lane]);
+        for (std::size_t group = 0; group < runs_.size(); ++group) {
+            runs_[group]->replace_first_round();
+            for (std::size_t i = 0; i < runs_[group]->technique_count(); ++i)
+                fill_times_of_row(group + i, *runs_[group]);
         }
         for (const auto& [index, picture] : unjudged_) judge_row(index, picture);
         unjudged_.clear();
@@ -444,7 +443,7 @@ private:
                rows;
     }
 
-    void judge_row(std::size_t index, const FrameNumberOfJudgedPicture& picture) {
+    void judge_row(std::size_t index, const JudgedPicture& picture) {
         compute_errors_of_measured_row(index, picture.part, picture.number);
         if (truths_.has_reference_noise()) judged_[index] = picture;
     }
@@ -458,24 +457,24 @@ private:
 
     /// Measures one round of a row. Computes the row's errors after the first round, and again if
     /// its last picture differs.
-    void measure_round_of_row(std::size_t lane, const std::vector<std::string>& texts, int round) {
+    void measure_round_of_row(std::size_t group, const std::vector<std::string>& texts, int round) {
         const bool first = round == 0, last = round + 1 == comparison_.rounds;
         if (first) {
             Request request = compare_request_.base;
             request.techniques = texts;
-            request.model = models_[lane];
+            request.model = models_[group];
             runs_.push_back(
                 std::make_unique<RowMeasurement>(shared_session_, request, compare_request_.watcher,
                                                  repeats_first_round() ? count_first_frames() : 0));
         }
-        RowMeasurement& run = *runs_[lane];
+        RowMeasurement& run = *runs_[group];
         run.measure_one_round_of_frames(
             choose_frame_count_of_round(compare_request_.base.frames, comparison_.rounds, round));
         const std::vector<TechniqueResult> parts = first || last ? run.list_technique_results()
                                                                  : std::vector<TechniqueResult>();
         run.suspend_frames();
         for (std::size_t i = 0; i < texts.size(); ++i) {
-            const std::size_t index = lane + i;
+            const std::size_t index = group + i;
             if (first) add_comparison_row(texts[i], parts[i]);
             fill_times_of_row(index, run);
             const report::Row& row = comparison_.rows[index];
@@ -505,9 +504,9 @@ private:
     std::vector<std::vector<double>> clear_ms_; ///< clear times by round
     std::vector<std::vector<std::string>> row_warnings_;
     std::vector<std::string> study_warnings_;
-    std::vector<FrameNumberOfJudgedPicture>
-        judged_; ///< frames of each row; empty if the reference has no noise
-    std::vector<std::pair<std::size_t, FrameNumberOfJudgedPicture>>
+    std::vector<JudgedPicture>
+        judged_; ///< last result of each row; default without noise of the reference
+    std::vector<std::pair<std::size_t, JudgedPicture>>
         unjudged_; ///< pictures of the last round, with the row's index
     report::Comparison comparison_;
 };

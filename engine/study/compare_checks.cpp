@@ -47,7 +47,7 @@ void check_has_mirror(const scene::Scene& scene) {
 void check_round_limit(int rounds) {
     check(rounds >= static_cast<int>(measure::kMinIntervalSamples), Failure::usage,
           "rounds: wanted at least ", measure::kMinIntervalSamples,
-          ", fewer bound no median, found ", rounds);
+          ", because fewer give no 95 % interval of the median, found ", rounds);
 }
 
 void check_row_techniques(const std::vector<std::string>& techniques) {

@@ -86,7 +86,7 @@ void estimate_row_noise(report::Row& row, const measure::NoisyReferenceHalves& h
                         const std::vector<std::uint32_t>& hits, double exposure) {
     const measure::Picture found = measure::apply_exposure(row.hdr, exposure);
     std::vector<measure::NoiseFreeErrorEstimate> estimates;
-    for (const measure::Mask& mask : measure::list_row_masks_by_name(hits))
+    for (const measure::Mask& mask : measure::compute_row_masks(hits))
         estimates.push_back(
             measure::estimate_noise_free_error_by_halves(found, halves, mask, row.flip_map));
     measure::set_noise_of_row(row, estimates);
@@ -122,7 +122,7 @@ measure::Errors compute_masked_errors(const measure::Picture& picture,
         return compute_masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
     };
     measure::Errors errors;
-    const std::vector<measure::Mask> masks = measure::list_row_masks_by_name(hits);
+    const std::vector<measure::Mask> masks = measure::compute_row_masks(hits);
     for (std::size_t i = 0; i < masks.size(); ++i)
         errors.*measure::list_row_masks()[i].error = against(masks[i]);
     for (std::size_t i = 0; i < mirrors; ++i)

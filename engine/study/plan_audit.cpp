@@ -146,8 +146,8 @@ SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::si
     view.size = samples(view.step);
     view.first = (size - view.size * view.step) / 2U + uvec2(view.step / 2);
     view.camera = camera;
-    const double height = static_cast<double>(view.size.y * view.step) / size.y; // height of the
-                                                                                 // whole picture
+    // The height of the samples as a share of the picture's height.
+    const double height = static_cast<double>(view.size.y * view.step) / size.y;
     const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     if (view.size * view.step == size)
         return view; // the whole picture is sampled, with exactly

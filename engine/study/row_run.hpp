@@ -41,7 +41,7 @@ public:
     /// returns the picture of the last of these frames.
     void measure_first_round_again();
     void replace_first_round();
-    /// Returns the results of the last frame. Call before `suspend`.
+    /// Returns the results of the last frame. Call before `suspend_frames`.
     std::vector<TechniqueResult> list_technique_results() const { return frames_.result().parts; }
     /// Frees the session for other frames until the next `measure_one_round_of_frames`.
     void suspend_frames() { frames_.suspend_frame_loop(); }

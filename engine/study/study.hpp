@@ -52,7 +52,8 @@ struct Study {
     void (*check_count)(std::string_view option, int count) = nullptr;
     /// Throws `usage` for a reference that the study cannot use. May be null.
     void (*check_reference)(const std::string& reference) = nullptr;
-    /// Computes facts that must be known before rows are measured. May be null.
+    /// Checks the request and computes facts that must be known before rows are measured. Throws
+    /// `usage`. May be null.
     void (*prepare)(const CompareRequest& request, int count,
                     report::Comparison& comparison) = nullptr;
     /// Adds the results to the rows or to the comparison. After an exception (a signal, a failure
@@ -60,7 +61,7 @@ struct Study {
     /// measure::set_row_metric_of_study, by the name of a metric.
     void (*run)(const StudyInput& input);
     /// Metrics that `run` sets by measure::set_row_metric_of_study. JSON, CSV and tables show them
-    /// if the study was asked for. Their member `get` stays unset.
+    /// if the study was asked for. Their member `get` is Metric::IsMetricOfStudy.
     std::vector<measure::Metric> metrics = {};
     /// The study's part of report.md and report.html, if it has `tables`. Its name is that of the
     /// study.

@@ -151,7 +151,7 @@ void check_view_count(std::string_view option, int count) {
     constexpr int kMinViewsForInterval = measure::kMinIntervalSamples;
     check(count == 1 || count >= kMinViewsForInterval, Failure::usage, option,
           ": wanted 1 or at least ", kMinViewsForInterval,
-          ", since fewer bound no median with 95 % confidence, found ", count);
+          ", because fewer give no 95 % interval of the median, found ", count);
 }
 
 void measure_drawn_views(const StudyInput& input) {

@@ -7,9 +7,6 @@
 #include "session/watcher.hpp"
 #include "session/work.hpp"
 
-#include <cmath>
-#include <cstdint>
-
 namespace catoptric::app {
 
 namespace {

@@ -51,7 +51,7 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     EmbeddingEngineAccess::choose_engine_shader_variants(engine, defaults);
     TuningResult tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
     for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        const gpu::ShaderBuildVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         tuned.tried.push_back({.variant = std::string(variant.name),
                                .choice = std::string(variant.choices[1 - defaults[i]]),
                                .standard = std::string(variant.choices[defaults[i]]),

@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json.hpp"
-#include "core/text.hpp"
 #include "output.hpp"
 #include "parse.hpp"
 

@@ -98,7 +98,7 @@ int choose_frame_count(const BenchArguments& options) {
     return options.common.frames.value_or(app::Request().frames);
 }
 
-void load_scene_without_cache(const CommonOptions& common) {
+void load_benchmark_scene(const CommonOptions& common) {
     app::load_resolved_scene(common.scene, {.load = make_scene_file_options(common),
                                             .overrides = common.overrides,
                                             .use_scene_file = common.use_scene_file});
@@ -110,7 +110,7 @@ void add_benchmark_subjects(app::Engine& engine, const BenchSceneSelection& aske
                             std::vector<app::BenchmarkSubject>& subjects) {
     const CommonOptions common = asked.common;
     subjects.push_back(app::make_benchmark_subject("load/" + request.scene.name,
-                                                   [common] { load_scene_without_cache(common); }));
+                                                   [common] { load_benchmark_scene(common); }));
     subjects.push_back(app::make_session_benchmark_subject(engine, request.scene));
     subjects.push_back(app::make_bvh_benchmark_subject(request.scene));
     const auto session = std::make_shared<app::Session>(engine, request.scene);
@@ -131,10 +131,10 @@ void check_output_options(const BenchArguments& options,
 /// Writes the result to stdout, and also to a file if the user asks for one.
 void write_bench_result(const BenchArguments& options, const std::string& json,
                         const std::string& table) {
-    print_result(options.common.manners.json ? json : table);
+    print_result(options.common.output_options.json ? json : table);
     if (options.output.empty()) return;
     write_file(options.output, json);
-    print_note_unless_quiet(options.common.manners, "written: " + options.output);
+    print_note_unless_quiet(options.common.output_options, "written: " + options.output);
 }
 
 int run_measurement(const BenchArguments& options) {
@@ -153,12 +153,12 @@ int run_measurement(const BenchArguments& options) {
     }
     check_output_options(options, inputs, ", which the scene is read from");
     app::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.manners);
+    print_device_and_warnings(engine, options.common.output_options);
     const int iterations = choose_frame_count(options);
     std::vector<app::BenchmarkSubject> subjects;
     for (std::size_t i = 0; i < list.size(); ++i)
         add_benchmark_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
-    ProgressPrinter progress(options.common.manners);
+    ProgressPrinter progress(options.common.output_options);
     const measure::BenchmarkRun run = app::run_benchmarks(
         subjects, meter,
         {.iterations = iterations,
@@ -182,8 +182,8 @@ void warn_of_different_circumstances(const measure::BenchmarkRun& before,
         print_warning("others were at work beside what was measured; times are not to be trusted");
 }
 
-int find_exit_code_of_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
-                              const measure::BenchmarkRun& after) {
+int report_benchmark_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
+                             const measure::BenchmarkRun& after) {
     warn_of_different_circumstances(before, after);
     const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(before, after);
     if (options.against.empty() &&
@@ -211,7 +211,7 @@ int compare_benchmark_files(const BenchArguments& options) {
     std::vector<measure::BenchmarkRun> runs;
     for (const std::string& file : files)
         runs.push_back(report::read_benchmarks(read_file(file), file));
-    return find_exit_code_of_changes(options, runs[0], runs[1]);
+    return report_benchmark_changes(options, runs[0], runs[1]);
 }
 
 int run_against_program(const BenchArguments& options) {
@@ -221,12 +221,12 @@ int run_against_program(const BenchArguments& options) {
     const int frames = std::max(1, (choose_frame_count(options) + options.rounds - 1) /
                                        options.rounds);
     const std::vector<std::string> words(options.command.begin() + 2, options.command.end());
-    ProgressPrinter progress(options.common.manners);
+    ProgressPrinter progress(options.common.output_options);
     const std::array runs = bench_programs_in_turn({options.against, own},
                                                    make_command_words_for_round(words, frames),
                                                    options.rounds, make_progress_watcher(progress));
     progress.clear();
-    return find_exit_code_of_changes(options, runs[0], runs[1]);
+    return report_benchmark_changes(options, runs[0], runs[1]);
 }
 
 int run_shader_tuning(const BenchArguments& options) {

@@ -6,11 +6,9 @@
 #include "output_checks.hpp"
 #include "progress.hpp"
 #include "report/costs.hpp"
-#include "report/text.hpp"
 #include "scene/built_in.hpp"
 #include "session/device_facts.hpp"
 #include "study/compare_checks.hpp"
-#include "table.hpp"
 
 #include <fmt/format.h>
 
@@ -108,8 +106,8 @@ int run_cost_fit(const CostsArguments& arguments) {
     if (!asked.times.empty()) inputs.emplace_back(asked.times);
     if (!asked.output.empty()) check_outputs_differ_from_inputs({asked.output}, inputs);
     app::Engine engine(make_engine_options(asked.common.device));
-    print_device_and_warnings(engine, asked.common.manners);
-    ProgressPrinter progress(asked.common.manners);
+    print_device_and_warnings(engine, asked.common.output_options);
+    ProgressPrinter progress(asked.common.output_options);
     const app::Watcher watcher = make_progress_watcher(progress);
     const measure::DeviceCosts costs =
         asked.times.empty()
@@ -117,10 +115,10 @@ int run_cost_fit(const CostsArguments& arguments) {
             : fit_costs_of_other_device(asked, engine, std::move(requests.front()), watcher);
     progress.clear();
     const std::string json = report::to_json(costs);
-    print_result(asked.common.manners.json ? json : make_costs_text(costs));
+    print_result(asked.common.output_options.json ? json : make_costs_text(costs));
     if (asked.output.empty()) return 0;
     write_file(asked.output, json);
-    print_note_unless_quiet(asked.common.manners, "written: " + asked.output);
+    print_note_unless_quiet(asked.common.output_options, "written: " + asked.output);
     return 0;
 }
 

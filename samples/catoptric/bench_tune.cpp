@@ -69,11 +69,11 @@ int run_device_tuning(const CommonOptions& common, int rounds, const std::string
     app::EngineOptions opened = make_engine_options(common.device);
     opened.profiles.clear(); // tuning starts from the defaults
     app::Engine engine(opened);
-    print_device_and_warnings(engine, common.manners);
+    print_device_and_warnings(engine, common.output_options);
     const app::DeviceInfo& device = engine.device();
     const fs::path place = choose_profile_path(output, device, request.scene.files);
 
-    ProgressPrinter progress(common.manners);
+    ProgressPrinter progress(common.output_options);
     const app::TuningResult tuned = app::tune_shader_variants(
         engine, request,
         {.iterations = request.frames,
@@ -84,9 +84,9 @@ int run_device_tuning(const CommonOptions& common, int rounds, const std::string
         print_warning(
             "others were at work beside what was measured; what is taken may be their doing");
     const std::string text = app::make_profile_text(device, tuned.tried);
-    print_result(common.manners.json ? text : make_tuning_table(device, tuned.tried));
+    print_result(common.output_options.json ? text : make_tuning_table(device, tuned.tried));
     write_file(place, text);
-    print_note_unless_quiet(common.manners, "written: " + place.string());
+    print_note_unless_quiet(common.output_options, "written: " + place.string());
     if (common.device.validate) engine.check_validation();
     return 0;
 }

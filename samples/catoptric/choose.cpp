@@ -6,7 +6,6 @@
 #include "core/file.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
-#include "measure/certificate.hpp"
 #include "options.hpp"
 #include "output_checks.hpp"
 #include "parse.hpp"
@@ -19,7 +18,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 namespace catoptric::cli {
@@ -149,7 +147,7 @@ app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options
     request.watcher = make_progress_watcher(progress);
     request.tell = [&progress, &options](const std::string& step) {
         progress.clear();
-        print_note_unless_quiet(options.common.manners, step);
+        print_note_unless_quiet(options.common.output_options, step);
     };
     return request;
 }
@@ -164,7 +162,7 @@ int certify_plan_and_print_result(const ChooseOptions& options, const app::Choos
     if (!options.output.empty() && proof.holds())
         write_file(options.output, report::serialise_json(document));
     if (options.common.device.validate) engine.check_validation();
-    print_result(options.common.manners.json
+    print_result(options.common.output_options.json
                      ? report::serialise_json(document)
                      : std::string(proof.holds() ? "holds: " : "does not hold: ") +
                            app::describe_proof(request, proof) + "\n");
@@ -198,11 +196,12 @@ int run_choose(const ChooseOptions& options) {
     check(options.common.reference_file.empty(), Failure::usage,
           "--reference: wanted a technique, found a file");
     if (!options.output.empty()) check_file_can_be_made(options.output);
-    ProgressPrinter progress(options.common.manners, ProgressPrinter::ProgressOffTerminal::tenths);
+    ProgressPrinter progress(options.common.output_options,
+                             ProgressPrinter::ProgressOffTerminal::tenths);
     const app::ChooseRequest request = make_choose_request_from_options(options, progress);
     if (!options.output.empty()) check_output_place(options, request);
     app::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.manners);
+    print_device_and_warnings(engine, options.common.output_options);
     if (!options.certified.empty())
         return certify_plan_and_print_result(options, request, engine, progress);
     const app::PlanChoice choice = app::choose_plan(engine, request);
@@ -210,7 +209,7 @@ int run_choose(const ChooseOptions& options) {
     report::Json document = app::make_choice_json(request, choice, options.common.scene);
     document["command"] = options.command;
     if (choice.chosen) write_file(options.output, report::serialise_json(document));
-    if (options.common.manners.json) {
+    if (options.common.output_options.json) {
         print_result(report::serialise_json(document));
     } else {
         std::string text = make_candidate_table(request, choice);
@@ -222,7 +221,7 @@ int run_choose(const ChooseOptions& options) {
                                  : "no plan: " + choice.failure + "\n"));
     }
     if (choice.chosen)
-        print_note_unless_quiet(options.common.manners, "written: " + options.output);
+        print_note_unless_quiet(options.common.output_options, "written: " + options.output);
     if (options.common.device.validate) engine.check_validation();
     return choice.chosen ? 0 : 1;
 }
@@ -273,8 +272,8 @@ void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
                         parse_integer("--training-views", text, 6, 10'000));
                 });
     verb.option("--proof-views", "N",
-                "fresh views on which plans are proved, at least 6 (as few as can prove the share: "
-                "59 for 95 % with 95 % confidence)",
+                "fresh views on which plans are proved, at least as many as can prove the share "
+                "(59 for 95 % with 95 % confidence)",
                 [&limits](const std::string& text) {
                     limits.proof_views = static_cast<int>(
                         parse_integer("--proof-views", text, 6, 10'000));

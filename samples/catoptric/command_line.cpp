@@ -110,7 +110,8 @@ void refuse_unknown_words(const CLI::App& verb) {
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
 }
 
-/// Returns the option of `app` or of the last verb whose name starts the parser's message.
+/// Returns the option of `app` or of the parsed verb with the longest name that the parser's
+/// message contains; null: none.
 const CLI::Option* find_option_in_message(const CLI::App& app, const std::string& words) {
     const CLI::Option* longest = nullptr;
     std::vector<const CLI::App*> apps{&app};

@@ -9,7 +9,6 @@
 #include "figure_options.hpp"
 #include "measure/budget.hpp"
 #include "measure/causes.hpp"
-#include "measure/interval.hpp"
 #include "measure/lag.hpp"
 #include "measure/row_notes.hpp"
 #include "options.hpp"
@@ -227,22 +226,22 @@ public:
     /// Prints the table of one finished scene, and the warnings but the first `known`, which were
     /// printed when the scene was read.
     void print_comparison_table(const report::Comparison& comparison, std::size_t known) const {
-        const OutputOptions& manners = compare_options_.common.manners;
+        const OutputOptions& output_options = compare_options_.common.output_options;
         for (std::size_t i = known; i < comparison.warnings.size(); ++i)
             print_warning(comparison.warnings[i]);
         for (const report::Row& row : comparison.rows)
             for (const std::string& what : measure::list_row_notes(comparison, row))
-                print_note_unless_quiet(manners, row.label + ": " + what);
+                print_note_unless_quiet(output_options, row.label + ": " + what);
         for (const std::string& sentence :
              list_axes_without_effect(comparison, compare_options_.axes))
-            print_note_unless_quiet(manners, sentence);
+            print_note_unless_quiet(output_options, sentence);
         std::size_t views = 0;
         for (const report::Row& row : comparison.rows) views = std::max(views, row.views.size());
-        if (views > 0 && !manners.json)
-            print_note_unless_quiet(manners, "the report has the errors over " +
-                                                 std::to_string(views) +
-                                                 " drawn views; the table shows one view");
-        if (!manners.json)
+        if (views > 0 && !output_options.json)
+            print_note_unless_quiet(output_options, "the report has the errors over " +
+                                                        std::to_string(views) +
+                                                        " drawn views; the table shows one view");
+        if (!output_options.json)
             print_result((is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
                          make_compare_table(comparison) +
                          (measure::has_time_or_flip_budget(comparison)
@@ -253,7 +252,7 @@ public:
     }
     /// Prints the document of all scenes at the end.
     void print_all_scenes() const {
-        if (compare_options_.common.manners.json && !is_one_)
+        if (compare_options_.common.output_options.json && !is_one_)
             print_result(report::to_json(several_.scene_reports()));
     }
 
@@ -266,7 +265,7 @@ private:
 
 /// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
-                                 std::size_t index, const CompareOptions& budget,
+                                 std::size_t index, const CompareOptions& options,
                                  ProgressPrinter& progress, CompareReportOutput& output,
                                  const BaselineGate& gate) {
     const std::size_t row_count = list_requested_rows(request).size();
@@ -278,7 +277,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
-    comparison.max_ms = budget.max_ms, comparison.max_flip = budget.max_flip;
+    comparison.max_ms = options.max_ms, comparison.max_flip = options.max_flip;
     progress.clear();
     // If no row was finished, nothing is written, because an earlier report in the folder is worth
     // more.
@@ -288,7 +287,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
 }
 
 int run_compare(const CompareOptions& options) {
-    const OutputOptions& manners = options.common.manners;
+    const OutputOptions& output_options = options.common.output_options;
     throw_unless_option_given(!options.folder.empty(), "compare", "-o DIR",
                               "the folder for the report");
     check_folder_can_be_made(options.folder);
@@ -299,7 +298,7 @@ int run_compare(const CompareOptions& options) {
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
     app::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.manners);
+    print_device_and_warnings(engine, options.common.output_options);
     report::create_folder(options.folder);
     for (const app::CompareRequest& request : requests)
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
@@ -308,12 +307,12 @@ int run_compare(const CompareOptions& options) {
         for (const app::CompareRequest& request : requests)
             report::create_folder(options.figures.scene_folder(request.images));
         if (!make_pdf)
-            print_note_unless_quiet(manners,
+            print_note_unless_quiet(output_options,
                                     "--figures: SVG without PDF: wanted the program rsvg-convert "
                                     "in PATH (apt install librsvg2-bin), found none");
     }
 
-    ProgressPrinter progress(manners, ProgressPrinter::ProgressOffTerminal::tenths);
+    ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::tenths);
     CompareReportOutput output(options, requests.size());
     std::vector<std::string> broken;
     bool keeps_budgets = true;
@@ -323,7 +322,7 @@ int run_compare(const CompareOptions& options) {
                                                             progress, output, gate);
         if (comparison.stopped || i + 1 == requests.size()) output.print_all_scenes();
         if (!comparison.stopped && i + 1 == requests.size())
-            print_note_unless_quiet(manners, "written: " + options.folder);
+            print_note_unless_quiet(output_options, "written: " + options.folder);
         check_not_stopped(options, comparison);
         try {
             if (!options.figures.folder.empty())
@@ -339,7 +338,7 @@ int run_compare(const CompareOptions& options) {
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
     if (const std::string verdict = gate.finish(); !verdict.empty())
-        manners.json ? print_message(verdict) : print_result(verdict);
+        output_options.json ? print_message(verdict) : print_result(verdict);
     if (figure_failure) std::rethrow_exception(figure_failure);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
@@ -349,7 +348,7 @@ int run_compare(const CompareOptions& options) {
 
 enum class StudyOptionKind : std::uint8_t { number, words, flag };
 
-StudyOptionKind find_study_option(const app::Study& study) {
+StudyOptionKind find_study_option_kind(const app::Study& study) {
     if (!study.number.empty()) return StudyOptionKind::number;
     return study.words.empty() ? StudyOptionKind::flag : StudyOptionKind::words;
 }
@@ -362,7 +361,7 @@ void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKi
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});
         };
-        if (find_study_option(study) != kind) continue;
+        if (find_study_option_kind(study) != kind) continue;
         if (kind == StudyOptionKind::flag) {
             verb.option_without_value(option, help, [choose] { choose(1); });
             continue;
@@ -472,8 +471,8 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                     options->csv = all ? report::CsvColumnSet::all : report::CsvColumnSet::table;
                 });
     verb.flag("--inline",
-              "put all pictures into report.html, also if they take more than 16 MiB; otherwise it "
-              "loads so many from images/",
+              "put all pictures into report.html; without it, a page with more than 16 MiB of "
+              "pictures loads them from images/",
               options->inlines_pictures);
     add_figure_options(verb, options->figures);
 }

@@ -1,7 +1,6 @@
 // catoptric completion: prints a script with which a shell completes verbs, options, techniques and
 // scenes. The script follows from the tables of the program.
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "parse.hpp"

@@ -31,7 +31,7 @@ per degree; if one of them is a PNG, both are rounded to 8 bits.
 Exit code 1 if a figure is over its threshold, or if a threshold is given and a pixel is not finite.)";
 
 struct DiffOptions {
-    OutputOptions manners;
+    OutputOptions output_options;
     std::string a, b, mask;
     double exposure = 0;
     std::optional<double> most_flip, most_rmse;
@@ -88,18 +88,17 @@ std::string format_metric_value(const measure::MetricValue& value) {
 std::string format_diff_facts(const PictureDiffFacts& facts) {
     std::string text;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        text += fmt::format(
-            "{:<12}  {}{}{}\n", quantity.name,
-            format_metric_value(measure::metric_value_of_difference(quantity, facts.difference)),
-            quantity.unit.empty() ? "" : " ", quantity.unit);
+        text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
+                            format_metric_value(measure::metric_value(quantity, facts.difference)),
+                            quantity.unit.empty() ? "" : " ", quantity.unit);
     return text + format_mean_of_picture("A", facts.a_mean, facts.a_clamped) +
            format_mean_of_picture("B", facts.b_mean, facts.b_clamped);
 }
 
 int run_diff(const DiffOptions& options) {
     const PictureDiffFacts facts = compare_files(options);
-    print_result(options.manners.json ? format_picture_difference_as_json(facts)
-                                      : format_diff_facts(facts));
+    print_result(options.output_options.json ? format_picture_difference_as_json(facts)
+                                             : format_diff_facts(facts));
     check(facts.over.empty(), Failure::threshold, join_with_commas(facts.over));
     return 0;
 }
@@ -127,7 +126,7 @@ void add_diff_verb(CommandLine& program) {
     verb.option("--exposure", "STOPS",
                 "exposure: light is multiplied by 2^STOPS before the comparison (0)",
                 [options](const std::string& text) { options->exposure = parse_stops(text); });
-    add_output_options(verb, options->manners);
+    add_output_options(verb, options->output_options);
     verb.set_verb_action([options] { return run_diff(*options); });
 }
 

@@ -38,11 +38,12 @@ struct GraphOptions {
 };
 
 app::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
-    const app::GraphPlanFormat asked = options.common.manners.json ? app::GraphPlanFormat::json
-                                                                   : app::GraphPlanFormat::text;
+    const app::GraphPlanFormat asked = options.common.output_options.json
+                                           ? app::GraphPlanFormat::json
+                                           : app::GraphPlanFormat::text;
     const app::GraphPlanFormat format = options.format.value_or(asked);
-    check(!options.common.manners.json || format == app::GraphPlanFormat::json, Failure::usage,
-          "--json and --format: stdout has room for one of them");
+    check(!options.common.output_options.json || format == app::GraphPlanFormat::json,
+          Failure::usage, "--json and --format: stdout has room for one of them");
     check(!options.why || format != app::GraphPlanFormat::dot, Failure::usage,
           "--why: wanted --format text or json, found dot");
     return format;
@@ -71,7 +72,7 @@ int run_graph(const GraphOptions& options) {
         return 0;
     }
     app::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.manners);
+    print_device_and_warnings(engine, options.common.output_options);
     if (options.why) {
         request.model = app::RenderedWork::required;
         print_culling_report(request, format, app::measure_capture_budget(engine, request));

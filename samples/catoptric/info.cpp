@@ -29,8 +29,8 @@ constexpr const char* kInfoExamples = R"(Examples:
   catoptric info room.glb
   catoptric info room.glb --mirror 'wall mirror' --write)";
 
-DeviceAndSceneInfo gather_info_facts(const DeviceOptions& device) {
-    DeviceAndSceneInfo facts;
+ProgramInfo gather_info_facts(const DeviceOptions& device) {
+    ProgramInfo facts;
     try {
         app::EngineOptions options = make_engine_options(device);
         options.cache.clear(); // `info` compiles no shaders
@@ -58,7 +58,7 @@ DeviceAndSceneInfo gather_info_facts(const DeviceOptions& device) {
     return facts;
 }
 
-std::string format_info_facts(const DeviceAndSceneInfo& facts) {
+std::string format_info_facts(const ProgramInfo& facts) {
     std::string text = fmt::format("catoptric {} ({})\n", app::version(), app::commit());
     if (facts.device) {
         const app::DeviceInfo& device = *facts.device;
@@ -92,7 +92,7 @@ std::optional<double> find_shown_exposure(app::Request& request, const InfoOptio
         500'000; // building a BVH over more costs as much as a picture
     if (const std::size_t count = scene::triangle_count(request.scene);
         count > kMaxExposureTriangles) {
-        print_note_unless_quiet(options.common.manners,
+        print_note_unless_quiet(options.common.output_options,
                                 fmt::format("exposure not told: wanted at most {} triangles, "
                                             "found {}; render chooses it",
                                             kMaxExposureTriangles, count));
@@ -100,12 +100,12 @@ std::optional<double> find_shown_exposure(app::Request& request, const InfoOptio
     }
     try {
         app::Engine engine(make_engine_options(options.common.device));
-        print_device_and_warnings(engine, options.common.manners);
+        print_device_and_warnings(engine, options.common.output_options);
         app::Session session(engine, std::move(request.scene));
         return app::measure_auto_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
-        print_note_unless_quiet(options.common.manners,
+        print_note_unless_quiet(options.common.output_options,
                                 std::string("exposure not told: ") + error.what());
         return std::nullopt;
     }
@@ -129,7 +129,7 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     if (wanted.is_camera_seeded)
         overrides.camera = request.camera.name; // the name holds the camera's numbers
     write_file(path, scene::write_scene_file_text(overrides, options.common.scene));
-    print_note_unless_quiet(options.common.manners, "written: " + path.string());
+    print_note_unless_quiet(options.common.output_options, "written: " + path.string());
 }
 
 int print_scene_info(const InfoOptions& options) {
@@ -142,7 +142,8 @@ int print_scene_info(const InfoOptions& options) {
     words.exposure = find_shown_exposure(request, options); // moves the scene away
     words.ambient = request.ambient;
     if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
-    print_result(options.common.manners.json ? make_scene_json(words) : format_scene_info(words));
+    print_result(options.common.output_options.json ? make_scene_json(words)
+                                                    : format_scene_info(words));
     return 0;
 }
 
@@ -150,8 +151,9 @@ int run_info(const InfoOptions& options) {
     check(options.writes || !options.replaces, Failure::usage, "--force: wanted --write beside it");
     if (!options.common.scene.empty()) return print_scene_info(options);
     check(!options.writes, Failure::usage, "--write: wanted a SCENE");
-    const DeviceAndSceneInfo facts = gather_info_facts(options.common.device);
-    print_result(options.common.manners.json ? make_info_json(facts) : format_info_facts(facts));
+    const ProgramInfo facts = gather_info_facts(options.common.device);
+    print_result(options.common.output_options.json ? make_info_json(facts)
+                                                    : format_info_facts(facts));
     return 0;
 }
 
@@ -173,7 +175,7 @@ void add_info_verb(CommandLine& program) {
     add_device_options(verb, options->common.device);
     add_view_options(verb, options->common);
     add_scene_override_options(verb, options->common);
-    add_output_options(verb, options->common.manners);
+    add_output_options(verb, options->common.output_options);
     verb.set_verb_action([options] { return run_info(*options); });
 }
 

@@ -95,7 +95,7 @@ std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
     document["flip_source"] = facts.flip_source;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         document[std::string(quantity.name)] = report::make_metric_value_json(
-            measure::metric_value_of_difference(quantity, facts.difference));
+            measure::metric_value(quantity, facts.difference));
     document["mean"] = {{"a", vector_to_json(facts.a_mean.rgb)},
                         {"b", vector_to_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", vector_to_json(facts.a_clamped.rgb)},
@@ -230,7 +230,7 @@ std::string make_metrics_json() {
     return serialise_json({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 
-std::string make_info_json(const DeviceAndSceneInfo& facts) {
+std::string make_info_json(const ProgramInfo& facts) {
     Json document{
         {"schema", "catoptric/info/1"}, {"version", app::version()}, {"commit", app::commit()}};
     document["device"] = facts.device ? device_info_to_json(*facts.device) : Json();

@@ -17,7 +17,8 @@ struct PictureDiffFacts {
     std::string a, b, mask;
     uvec2 size{0, 0};
     double exposure = 0;
-    std::string flip_source; ///< source of the FLIP code, see measure/flip.hpp
+    std::string flip_source; ///< values that FLIP compares: "float" or "8-bit" (measure/flip.hpp),
+                             ///< see measure/flip.hpp
     measure::Difference difference;
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words
@@ -59,14 +60,14 @@ std::string make_named_list_json(const std::string& kind, const std::vector<Name
 /// Returns the table of metrics: {"name", "summary", "unit", "mask", "better"}.
 std::string make_metrics_json();
 
-struct DeviceAndSceneInfo {
+struct ProgramInfo {
     std::optional<app::DeviceInfo> device;
     int lanes = 0; ///< lanes that run together in the device's shaders
     std::string why_no_device;
     /// Name of each group of features, and its features.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;
 };
-std::string make_info_json(const DeviceAndSceneInfo& facts);
+std::string make_info_json(const ProgramInfo& facts);
 
 /// Facts that `info SCENE` reports.
 struct SceneInfoFacts {

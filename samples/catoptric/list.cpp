@@ -5,10 +5,8 @@
 #include "options.hpp"
 #include "parse.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "session/engine.hpp"
 #include "session/folders.hpp"
-#include "table.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -141,7 +139,7 @@ std::string make_list_output(const std::string& kind, const std::string& name, b
 
 void add_list_verb(CommandLine& program) {
     struct ListOptions {
-        OutputOptions manners;
+        OutputOptions output_options;
         std::string kind, name;
     };
     const auto options = std::make_shared<ListOptions>();
@@ -151,10 +149,10 @@ void add_list_verb(CommandLine& program) {
                   CommandVerb::VerbArgumentNeed::required);
     verb.argument("NAME", "name of a technique, to list its knobs", options->name,
                   CommandVerb::VerbArgumentNeed::optional);
-    add_output_options(verb, options->manners);
+    add_output_options(verb, options->output_options);
     verb.set_verb_action([options] {
         parse_choice_index("list", options->kind, kListableKinds);
-        print_result(make_list_output(options->kind, options->name, options->manners.json));
+        print_result(make_list_output(options->kind, options->name, options->output_options.json));
         return 0;
     });
 }

@@ -3,7 +3,6 @@
 #include "session/lanes.hpp"
 
 #include "core/error.hpp"
-#include "core/knob.hpp"
 #include "core/stopwatch.hpp"
 #include "core/text.hpp"
 #include "parse.hpp"
@@ -73,8 +72,8 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
                 [&](const std::string& text) { parse_model_option(text, common); });
     verb.option(
         "--reference", "T",
-        "technique of the reference picture of compare (raytrace:depth=16; rays=64 more if a "
-        "mirror is rough), or FILE.exr that keeps the latter",
+        "technique of the reference picture of compare (raytrace:depth=16, with rays=64 if a "
+        "mirror is rough), or FILE.exr that stores a reference with noise",
         [&](const std::string& text) {
             if (text.ends_with(".exr")) {
                 common.reference_file = text;
@@ -98,9 +97,9 @@ scene::Camera choose_camera(const CommonOptions& common, app::ResolvedScene& wan
     if (wanted.is_camera_seeded) {
         scene::Camera camera = app::make_seeded_camera(wanted.scene, common.time.value_or(0),
                                                        common.seed);
-        print_note_unless_quiet(common.manners, "camera drawn from seed " +
-                                                    std::to_string(common.seed) + ": " +
-                                                    camera.name);
+        print_note_unless_quiet(common.output_options, "camera drawn from seed " +
+                                                           std::to_string(common.seed) + ": " +
+                                                           camera.name);
         return camera;
     }
     return app::choose_or_add_camera(wanted, double(common.size.x) / double(common.size.y));
@@ -133,15 +132,15 @@ double parse_stops(const std::string& text) {
     return parse_real("--exposure", text, -scene::kMaxExposureStops, scene::kMaxExposureStops);
 }
 
-void add_output_options(CommandVerb& verb, OutputOptions& manners) {
+void add_output_options(CommandVerb& verb, OutputOptions& output_options) {
     verb.heading("Output");
-    verb.flag("--json", "print one JSON document on stdout instead of text", manners.json);
-    verb.flag("-q,--quiet", "print no progress and no information on stderr", manners.quiet);
-    verb.flag("-v,--verbose", "print more information on stderr", manners.verbose);
+    verb.flag("--json", "print one JSON document on stdout instead of text", output_options.json);
+    verb.flag("-q,--quiet", "print no progress and no information on stderr", output_options.quiet);
+    verb.flag("-v,--verbose", "print more information on stderr", output_options.verbose);
     verb.option("--progress", "WHEN",
                 "when to show progress: auto (on a terminal), always or never (auto)",
                 [&](const std::string& text) {
-                    manners.progress = static_cast<ProgressMode>(
+                    output_options.progress = static_cast<ProgressMode>(
                         parse_choice_index("--progress", text, {"auto", "always", "never"}));
                 });
 }
@@ -204,7 +203,7 @@ void add_common_options_without_scene(CommandVerb& verb, CommonOptions& common) 
     add_scene_override_options(verb, common);
     add_device_options(verb, common.device);
     add_validate_option(verb, common.device);
-    add_output_options(verb, common.manners);
+    add_output_options(verb, common.output_options);
 }
 
 void add_common_options(CommandVerb& verb, CommonOptions& common) {
@@ -247,7 +246,7 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     for (const std::string& warning : asked.wanted.scene.warnings) print_warning(warning);
     request.camera = choose_camera(common, asked.wanted);
     for (const std::string& sentence : asked.wanted.said)
-        print_note_unless_quiet(common.manners, sentence);
+        print_note_unless_quiet(common.output_options, sentence);
     if (!check) warn_of_no_mirror(asked.wanted.scene);
     request.size = common.size;
     request.frames = common.frames.value_or(request.frames);
@@ -279,8 +278,8 @@ app::EngineOptions make_engine_options(const DeviceOptions& device) {
             .cache = app::find_cache_folder()};
 }
 
-void print_device_and_warnings(const app::Engine& engine, const OutputOptions& manners) {
-    print_detail_if_verbose(manners,
+void print_device_and_warnings(const app::Engine& engine, const OutputOptions& output_options) {
+    print_detail_if_verbose(output_options,
                             "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) print_warning(engine.warning());
     if (const std::string text = app::make_vector_width_warning(engine); !text.empty())

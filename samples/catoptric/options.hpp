@@ -27,7 +27,7 @@ inline constexpr const char* kNoProfileName = "none";
 
 /// The options that all rendering verbs share. The help states the same defaults.
 struct CommonOptions {
-    OutputOptions manners;
+    OutputOptions output_options;
     std::string scene = "cornell-mirrors";
     scene::SceneLoadBudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
@@ -58,7 +58,7 @@ inline constexpr const char* kMeasuringOptions = "Frames, times and errors";
 inline constexpr const char* kDeviceOptions = "Device";
 
 /// Adds --json, --quiet, -v and --progress.
-void add_output_options(CommandVerb& verb, OutputOptions& manners);
+void add_output_options(CommandVerb& verb, OutputOptions& output_options);
 /// Adds SCENE, all common options, and the options of `add_output_options`. `common` must outlive
 /// the parsing.
 void add_common_options(CommandVerb& verb, CommonOptions& common);
@@ -111,6 +111,6 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
                                       const std::function<void(const scene::Scene&)>& check = {});
 app::EngineOptions make_engine_options(const DeviceOptions& device);
 /// Prints the device and the engine's warnings to stderr.
-void print_device_and_warnings(const app::Engine& engine, const OutputOptions& manners);
+void print_device_and_warnings(const app::Engine& engine, const OutputOptions& output_options);
 
 } // namespace catoptric::cli

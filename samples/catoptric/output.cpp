@@ -88,12 +88,12 @@ void print_message(const std::string& text) {
     std::fwrite(whole.data(), 1, whole.size(), stderr); // a failure here cannot be reported
 }
 
-void print_note_unless_quiet(const OutputOptions& manners, const std::string& text) {
-    if (!manners.quiet) print_message(text);
+void print_note_unless_quiet(const OutputOptions& output_options, const std::string& text) {
+    if (!output_options.quiet) print_message(text);
 }
 
-void print_detail_if_verbose(const OutputOptions& manners, const std::string& text) {
-    if (manners.verbose && !manners.quiet) print_message(text);
+void print_detail_if_verbose(const OutputOptions& output_options, const std::string& text) {
+    if (output_options.verbose && !output_options.quiet) print_message(text);
 }
 
 void print_warning(const std::string& text) { print_message("catoptric: warning: " + text); }

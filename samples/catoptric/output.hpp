@@ -22,22 +22,22 @@ struct OutputOptions {
 /// instead of killing the program. Files opened later cannot take the place of a closed stream.
 void prepare_standard_streams();
 
-/// Writes the result, text or JSON, to stdout and flushes it. Removes characters that a terminal
+/// Writes the result, text or JSON, to stdout and flushes it. Escapes characters that a terminal
 /// might obey (`escape_control_characters`). Throws `Failure::io`, without a message if the reader
 /// has gone.
 void print_result(std::string_view result);
 /// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `print_result`
 /// does.
 void print_picture_bytes(std::string_view result);
-/// Writes one message to stderr, with the same characters removed as by `print_result`. In a
+/// Writes one message to stderr, with the same characters escaped as by `print_result`. In a
 /// message of several lines, all lines but the first begin with two spaces. Other line breaks are
 /// escaped.
 void print_message(const std::string& text);
 
 /// Writes a line to stderr: `print_note_unless_quiet` unless --quiet, `print_detail_if_verbose`
 /// only with -v, `print_warning` always.
-void print_note_unless_quiet(const OutputOptions& manners, const std::string& text);
-void print_detail_if_verbose(const OutputOptions& manners, const std::string& text);
+void print_note_unless_quiet(const OutputOptions& output_options, const std::string& text);
+void print_detail_if_verbose(const OutputOptions& output_options, const std::string& text);
 void print_warning(const std::string& text);
 
 /// Throws the error that ended a run early, with the number of finished rows and their folder.

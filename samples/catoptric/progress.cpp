@@ -46,12 +46,14 @@ std::string format_duration(double seconds) {
                      : fmt::format("{}:{:02}", minutes, rest);
 }
 
-ProgressPrinter::ProgressPrinter(const OutputOptions& manners, ProgressOffTerminal off_terminal)
-    : is_active_(!manners.quiet &&
-                 (manners.progress == ProgressMode::always ||
-                  (manners.progress == ProgressMode::automatic && is_stderr_terminal()))),
+ProgressPrinter::ProgressPrinter(const OutputOptions& output_options,
+                                 ProgressOffTerminal off_terminal)
+    : is_active_(!output_options.quiet &&
+                 (output_options.progress == ProgressMode::always ||
+                  (output_options.progress == ProgressMode::automatic && is_stderr_terminal()))),
       rewrites_(is_stderr_terminal()),
-      in_tenths_(!is_active_ && !manners.quiet && manners.progress == ProgressMode::automatic &&
+      in_tenths_(!is_active_ && !output_options.quiet &&
+                 output_options.progress == ProgressMode::automatic &&
                  off_terminal == ProgressOffTerminal::tenths) {}
 
 ProgressPrinter::~ProgressPrinter() { clear(); }

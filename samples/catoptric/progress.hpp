@@ -20,7 +20,7 @@ public:
         nothing,
         tenths, ///< a line per finished tenth of the rows: "30 % done, ..."
     };
-    explicit ProgressPrinter(const OutputOptions& manners,
+    explicit ProgressPrinter(const OutputOptions& output_options,
                              ProgressOffTerminal off_terminal = ProgressOffTerminal::nothing);
     /// Removes the progress line from the terminal.
     ~ProgressPrinter();

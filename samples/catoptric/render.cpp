@@ -125,7 +125,7 @@ void check_output_options(const RenderOptions& options) {
           "--camera-path: wanted it without --camera, found both");
     throw_unless_option_given(!options.output.empty(), "render", "-o OUT",
                               "a name ending in .exr, .png or .mp4, or - for stdout");
-    check(!writes_to_stdout(options) || !options.common.manners.json, Failure::usage,
+    check(!writes_to_stdout(options) || !options.common.output_options.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
     if (!writes_to_stdout(options)) {
         check_file_can_be_made(list_output_files(options, 1).front());
@@ -146,7 +146,8 @@ void check_output_options(const RenderOptions& options) {
 void check_picture_places(const RenderOptions& options, const scene::Scene& scene,
                           const std::vector<std::string>& pictures) {
     std::vector<std::filesystem::path> outputs;
-    if (writes_to_stdout(options) || options.common.manners.json) outputs.push_back(kStdoutPath);
+    if (writes_to_stdout(options) || options.common.output_options.json)
+        outputs.push_back(kStdoutPath);
     for (const std::string& file : pictures) outputs.emplace_back(file);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
@@ -301,10 +302,10 @@ std::vector<double> list_gpu_times(const app::RunResult& result) {
 
 void print_render_summary(const RenderOptions& options, const app::Request& request,
                           const app::RunResult& result) {
-    const OutputOptions& manners = options.common.manners;
+    const OutputOptions& output_options = options.common.output_options;
     const app::TechniqueResult& part = result.parts.front();
     for (const std::string& what : part.notes)
-        print_note_unless_quiet(manners, part.label + ": " + what);
+        print_note_unless_quiet(output_options, part.label + ": " + what);
     const measure::Mean mean = measure::mean_of(part.hdr, measure::ValueRange::clamped);
     const std::string output = writes_to_stdout(options) ? "stdout" : options.output;
     std::string frames = fmt::format("{} frame{}", result.frames.size(),
@@ -314,14 +315,15 @@ void print_render_summary(const RenderOptions& options, const app::Request& requ
         const measure::SampleSummary ms = measure::summarise_samples(list_gpu_times(result));
         frames = fmt::format("{:.4g} ms [{:.4g} - {:.4g}]", ms.median, ms.p05, ms.p95);
     }
-    print_note_unless_quiet(manners,
+    print_note_unless_quiet(output_options,
                             fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}",
                                         part.label, part.scene_passes, frames, mean.all, output));
     if (part.capture_budget)
-        print_detail_if_verbose(manners, app::describe_capture_budget(*part.capture_budget));
+        print_detail_if_verbose(output_options, app::describe_capture_budget(*part.capture_budget));
     if (request.until_settled) return;
     for (const app::PassTime& pass : result.frames.back().passes)
-        print_detail_if_verbose(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
+        print_detail_if_verbose(output_options,
+                                fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
 }
 
 void warn_of_nonfinite(const measure::Picture& picture) {
@@ -332,7 +334,7 @@ void warn_of_nonfinite(const measure::Picture& picture) {
 }
 
 int run_render(const RenderOptions& options) {
-    const OutputOptions& manners = options.common.manners;
+    const OutputOptions& output_options = options.common.output_options;
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output_options(options);
     app::Request request = make_render_request(options);
@@ -340,9 +342,9 @@ int run_render(const RenderOptions& options) {
     const std::vector<std::string> files = list_output_files(options, request.frames);
     check_picture_places(options, request.scene, files);
     app::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.manners);
+    print_device_and_warnings(engine, options.common.output_options);
 
-    ProgressPrinter progress(manners);
+    ProgressPrinter progress(output_options);
     const app::Watcher watcher = make_progress_watcher(progress);
     report_row_to_watcher(watcher, choice.label, 0, 1);
     std::optional<PictureOrigin> origin = make_picture_origin(options, request, engine.device());
@@ -363,7 +365,7 @@ int run_render(const RenderOptions& options) {
     const std::string document = make_render_json(request, options.common.first_frame,
                                                   engine.device(), result, options.output);
     if (!options.profile.empty()) write_file(options.profile, document);
-    if (manners.json) print_result(document);
+    if (output_options.json) print_result(document);
     print_render_summary(options, request, result);
     if (options.common.device.validate) engine.check_validation();
     return 0;

@@ -1,7 +1,6 @@
 // catoptric results: writes a site of static pages about many reports.
 #include "core/error.hpp"
 #include "options.hpp"
-#include "output_checks.hpp"
 #include "parse.hpp"
 #include "report/json.hpp"
 #include "results_site.hpp"
@@ -25,7 +24,7 @@ the front of each device, from its latest report, and the history of each row by
 
 struct ResultsOptions {
     std::vector<std::string> words;
-    OutputOptions manners;
+    OutputOptions output_options;
 };
 
 int run_results(const ResultsOptions& options) {
@@ -37,27 +36,28 @@ int run_results(const ResultsOptions& options) {
     if (adds) {
         check_folder_can_be_made(words[2]);
         const AddedReport added = add_report_to_site(words[1], words[2]);
-        if (options.manners.json)
+        if (options.output_options.json)
             print_result(report::serialise_json({{"schema", "catoptric/results-added/1"},
                                                  {"report", added.name},
                                                  {"comparisons", added.comparisons},
                                                  {"known", added.is_known}}));
         print_note_unless_quiet(
-            options.manners,
+            options.output_options,
             added.is_known ? "the site has this report: " + added.name
                            : fmt::format("added: {}, {} {}", added.name, added.comparisons,
                                          added.comparisons == 1 ? "comparison" : "comparisons"));
         return 0;
     }
     const BuiltSite built = build_site(words[1]);
-    if (options.manners.json)
+    if (options.output_options.json)
         print_result(report::serialise_json({{"schema", "catoptric/results-built/1"},
                                              {"index", words[1] + "/index.html"},
                                              {"pages", built.pages},
                                              {"reports", built.reports}}));
-    print_note_unless_quiet(options.manners, fmt::format("written: {}/index.html, {} pages from {} "
-                                                         "reports",
-                                                         words[1], built.pages, built.reports));
+    print_note_unless_quiet(options.output_options,
+                            fmt::format("written: {}/index.html, {} pages from {} "
+                                        "reports",
+                                        words[1], built.pages, built.reports));
     return 0;
 }
 
@@ -69,7 +69,7 @@ void add_results_verb(CommandLine& program) {
         "results", "collect reports, and write a site with a page for each scene");
     verb.examples(kResultsExamples);
     verb.arguments("ACTION", "add REPORT.json SITE, or build SITE", options->words);
-    add_output_options(verb, options->manners);
+    add_output_options(verb, options->output_options);
     verb.set_verb_action([options] { return run_results(*options); });
 }
 

@@ -41,7 +41,7 @@ std::string format_titled_table(const std::string& title, const SceneTableCells&
 /// The first factors, metallic and roughness, have columns of their own.
 constexpr std::size_t kMaterialFactorColumns = 2;
 
-std::string describe_surface_kind(const app::MaterialInfo& material) {
+std::string describe_material_details(const app::MaterialInfo& material) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
     if (material.light != vec3(0)) add("lights " + format_colour(material.light));
@@ -71,7 +71,7 @@ SceneTableCells list_material_cells(const app::SceneInfo& info) {
                          std::to_string(material.objects), format_colour(material.albedo),
                          fmt::format("{:.3g}", material.factors[0]),
                          fmt::format("{:.3g}", material.factors[1]), format_colour(material.f0),
-                         describe_surface_kind(material)});
+                         describe_material_details(material)});
     }
     return cells;
 }

@@ -24,7 +24,7 @@ static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<const char*>::is_always_lock_free,
               "a signal handler may only store without a lock");
 
-std::int64_t monotonic_milliseconds() {
+std::int64_t monotonic_nanoseconds() {
     timespec time{};
     ::clock_gettime(CLOCK_MONOTONIC, &time); // allowed in a signal handler
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -55,9 +55,9 @@ void handle_signal(int number) {
     if (!is_looked_at.load()) exit_from_signal(number);
     const int error = errno;
     std::int64_t never = 0;
-    if (first_at.compare_exchange_strong(never, monotonic_milliseconds())) {
+    if (first_at.compare_exchange_strong(never, monotonic_nanoseconds())) {
         number_of_signal.store(number);
-    } else if (monotonic_milliseconds() - first_at.load() > kSignalRepeatNanoseconds) {
+    } else if (monotonic_nanoseconds() - first_at.load() > kSignalRepeatNanoseconds) {
         std::signal(number, SIG_DFL);
         std::raise(number); // delivered when this handler returns
     }

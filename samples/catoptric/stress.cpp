@@ -27,7 +27,7 @@ constexpr const char* kStressExamples = R"(Examples:
 Exit code 1 if a row fails.)";
 
 struct StressOptions {
-    OutputOptions manners;
+    OutputOptions output_options;
     std::string folder;
     std::vector<std::string> only;
     uvec2 size{256, 256};
@@ -64,10 +64,10 @@ int run_stress(const StressOptions& options) {
         check_outputs_differ_from_inputs(outputs, {});
     }
     app::Engine engine(make_engine_options(options.device));
-    print_device_and_warnings(engine, options.manners);
+    print_device_and_warnings(engine, options.output_options);
     if (!options.folder.empty())
         report::create_folder(std::filesystem::path(options.folder) / "images");
-    ProgressPrinter progress(options.manners);
+    ProgressPrinter progress(options.output_options);
     report::StressReportWriter writer(options.folder);
     const auto write = [&](const report::StressResults& so_far) {
         if (!options.folder.empty()) writer.write_stress_results(so_far);
@@ -81,13 +81,13 @@ int run_stress(const StressOptions& options) {
                  .on_finished_row = write});
     progress.clear();
     if (!found.rows.empty()) write(found); // an empty table would replace an earlier one
-    print_result(options.manners.json ? report::to_json(found) : make_stress_text(found));
+    print_result(options.output_options.json ? report::to_json(found) : make_stress_text(found));
     if (found.stopped)
         throw_incomplete_run(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty())
-        print_note_unless_quiet(options.manners, "written: " + options.folder);
+        print_note_unless_quiet(options.output_options, "written: " + options.folder);
     for (const std::string& part : found.list_stress_parts_not_run())
-        print_note_unless_quiet(options.manners, "not run: " + part);
+        print_note_unless_quiet(options.output_options, "not run: " + part);
     if (options.device.validate) engine.check_validation();
     return found.has_failed_stress_row() ? static_cast<int>(Failure::threshold) : 0;
 }
@@ -110,7 +110,7 @@ void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
                 [options](const std::string& text) { options->seed = parse_seed("--seed", text); });
     add_device_options(verb, options->device);
     add_validate_option(verb, options->device);
-    add_output_options(verb, options->manners);
+    add_output_options(verb, options->output_options);
     verb.set_verb_action([options] { return run_stress(*options); });
 }
 

@@ -48,12 +48,12 @@ void run_sweep_plan_action(const SweepOptions& options) {
     write_sweep_plan(plan, folder);
     const auto timings = static_cast<std::size_t>(
         std::ranges::count_if(plan.pieces, &SweepPiece::is_timing));
-    print_note_unless_quiet(options.run.manners,
+    print_note_unless_quiet(options.run.output_options,
                             fmt::format("written: {}: {} picture pieces, {} timing pieces; run "
                                         "them with 'catoptric sweep run {}'",
                                         (folder / "plan.json").string(),
                                         plan.pieces.size() - timings, timings, folder.string()));
-    if (options.run.manners.json)
+    if (options.run.output_options.json)
         print_result(report::serialise_json({{"schema", "catoptric/sweep-planned/1"},
                                              {"pictures", plan.pieces.size() - timings},
                                              {"timings", timings}}));
@@ -67,8 +67,8 @@ void run_sweep_run_action(const SweepOptions& options) {
                                    counts.finished_before);
     if (counts.elsewhere > 0)
         text += fmt::format(", {} are in work in other processes", counts.elsewhere);
-    print_note_unless_quiet(options.run.manners, text);
-    if (options.run.manners.json)
+    print_note_unless_quiet(options.run.output_options, text);
+    if (options.run.output_options.json)
         print_result(report::serialise_json({{"schema", "catoptric/sweep-run/1"},
                                              {"run", counts.run},
                                              {"finished_before", counts.finished_before},
@@ -103,18 +103,18 @@ std::string list_first_pieces(const std::vector<std::string>& ids, const std::st
 
 int run_sweep_check_action(const SweepOptions& options) {
     const SweepState state = check_sweep(options.path, read_sweep_plan(options.path));
-    const OutputOptions& manners = options.run.manners;
-    if (manners.json) {
+    const OutputOptions& output_options = options.run.output_options;
+    if (output_options.json) {
         print_result(report::serialise_json(make_sweep_state_json(state)));
         return state.is_complete() ? 0 : 1;
     }
     std::string text = fmt::format("{} of {} pieces have a result, {} are in work\n",
                                    state.finished, state.pieces, state.in_work.size());
-    text += list_first_pieces(state.in_work, "in work", manners.verbose);
-    text += list_first_pieces(state.missing, "missing", manners.verbose);
+    text += list_first_pieces(state.in_work, "in work", output_options.verbose);
+    text += list_first_pieces(state.missing, "missing", output_options.verbose);
     for (const auto& [id, why] : state.broken)
         text += "broken: " + why + "; delete this file and run the piece again\n";
-    text += list_first_pieces(state.unknown, "belongs to no piece", manners.verbose);
+    text += list_first_pieces(state.unknown, "belongs to no piece", output_options.verbose);
     if (state.identities.size() > 1)
         text += fmt::format("results come from {} identities\n", state.identities.size());
     print_result(text);
@@ -133,13 +133,13 @@ void run_sweep_merge_action(const SweepOptions& options) {
     for (const auto& [name, content] : merged.files) write_file(out / name, content);
     if (merged.is_mixed)
         print_note_unless_quiet(
-            options.run.manners,
+            options.run.output_options,
             fmt::format("results of {} identities: {:.3g} % of {} pixels of their common pictures "
                         "differ by more than 1/255",
                         merged.identities.size(), 100 * merged.difference.share(),
                         merged.difference.pixels));
-    if (options.run.manners.json) print_result(merged.files.back().second); // merged.json
-    print_note_unless_quiet(options.run.manners, "written: " + out.string());
+    if (options.run.output_options.json) print_result(merged.files.back().second); // merged.json
+    print_note_unless_quiet(options.run.output_options, "written: " + out.string());
 }
 
 int run_sweep(const SweepOptions& options) {
@@ -191,7 +191,7 @@ void add_sweep_verb(CommandLine& program) {
               "merge pictures of different programs, drivers or processors, and say how much they "
               "differ",
               options->across_identities);
-    add_output_options(verb, options->run.manners);
+    add_output_options(verb, options->run.output_options);
     verb.set_verb_action([options] { return run_sweep(*options); });
 }
 

@@ -1,7 +1,6 @@
 #include "sweep_groups.hpp"
 
 #include "report/text.hpp"
-#include "sweep_run.hpp"
 
 #include <fmt/format.h>
 

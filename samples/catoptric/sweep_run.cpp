@@ -85,7 +85,7 @@ class SweepRunner {
 public:
     SweepRunner(const fs::path& folder, const SweepPlan& plan, const SweepRunOptions& options)
         : folder_(folder), plan_(plan), options_(options), locks_(folder / "locks"),
-          progress_(options.manners, ProgressPrinter::ProgressOffTerminal::tenths) {
+          progress_(options.output_options, ProgressPrinter::ProgressOffTerminal::tenths) {
         watcher_.stop = &stop_on_signals();
     }
 
@@ -182,7 +182,7 @@ private:
             } else {
                 progress_.row(describe_piece(piece), counts.run, counts.run + left);
                 progress_.frame(0, 1);
-                print_detail_if_verbose(options_.manners, "begun: " + piece.id);
+                print_detail_if_verbose(options_.output_options, "begun: " + piece.id);
                 write_result(piece,
                              piece.is_timing() ? measure_times(piece) : measure_errors(piece));
                 ++counts.run;
@@ -219,7 +219,7 @@ private:
         engine_ = std::make_unique<app::Engine>(make_engine_options(device));
         engine_key_ = key;
         is_validated_ = device.validate;
-        print_device_and_warnings(*engine_, options_.manners);
+        print_device_and_warnings(*engine_, options_.output_options);
         identity_ = make_identity(*engine_);
         has_drawn_common_pictures_ = false;
         return *engine_;
@@ -316,7 +316,7 @@ private:
                 compute_row_errors_in_view(piece);
             } catch (const Error& error) {
                 if (must_failure_end_all_pieces(error.failure)) throw;
-                print_detail_if_verbose(options_.manners,
+                print_detail_if_verbose(options_.output_options,
                                         describe_piece(piece) +
                                             ": no common pictures: " + error.what());
             }

@@ -14,7 +14,7 @@ struct SweepRunOptions {
     std::vector<std::string> pieces; ///< ids of the pieces to run; empty: all
     enum class PieceKinds : std::uint8_t { all, pictures, timings };
     PieceKinds kinds = PieceKinds::all;
-    OutputOptions manners;
+    OutputOptions output_options;
 };
 
 /// Number of pieces by what `run_sweep_pieces` found or did.

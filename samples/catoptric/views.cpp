@@ -142,8 +142,8 @@ int run_views(const ViewsOptions& options) {
     write_file(files[2], make_views_text(views));
     write_file(files[1], report::serialise_json(make_views_gltf(views, request.size)));
     write_file(files[0], document);
-    if (options.common.manners.json) print_result(document);
-    print_note_unless_quiet(options.common.manners,
+    if (options.common.output_options.json) print_result(document);
+    print_note_unless_quiet(options.common.output_options,
                             fmt::format("written: {}; render {} pictures of {}x{} there",
                                         options.folder, views.size(), request.size.x,
                                         request.size.y));
@@ -171,7 +171,7 @@ void add_views_verb(CommandLine& program) {
                 });
     add_view_options(verb, options->common);
     add_scene_override_options(verb, options->common);
-    add_output_options(verb, options->common.manners);
+    add_output_options(verb, options->common.output_options);
     verb.set_verb_action([options] { return run_views(*options); });
 }
 

@@ -11,6 +11,6 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float distance = captured_distance(mirror, direction);
     vec3 corrected = parallax_direction(offset, direction, distance);
     vec3 blended = amount == 1.0 ? corrected : normalize(mix(direction, corrected, amount));
-    return Lookup(blended, is_miss(distance) ? kSearchMissState : kHit, 0.0, 0.0);
+    return Lookup(blended, is_miss(distance) ? kMiss : kHit, 0.0, 0.0);
 }
 #include "lib/mirror.glsl"

@@ -48,8 +48,7 @@ void draw_frame_times(const SceneViewer& viewer) {
                         times.frame_count() == 1 ? "frame" : "frames");
 }
 
-void draw_scene_facts(const PanelShownData& seen, PanelButtonRequests& wants) {
-    const scene::Scene& scene = seen.scene;
+void draw_scene_facts(const scene::Scene& scene, PanelButtonRequests& wants) {
     ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
                 scene::triangle_count(scene), scene.materials.size());
     if (ImGui::TreeNode("objects", "objects (%zu)", scene.objects.size())) {

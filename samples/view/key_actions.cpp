@@ -54,7 +54,7 @@ EditedPlanState remove_mirror_settings(EditedPlanState plan) {
 
 void ViewLoop::show_message(const std::string& text) {
     state_.said = text;
-    cli::print_note_unless_quiet(view_options_.common.manners, text);
+    cli::print_note_unless_quiet(view_options_.common.output_options, text);
 }
 
 std::string ViewLoop::command() const {
@@ -67,7 +67,7 @@ std::string ViewLoop::command() const {
                                viewer_->make_frame_spec().size);
 }
 
-void ViewLoop::select_next_camera(std::size_t index) {
+void ViewLoop::select_camera(std::size_t index) {
     const std::vector<scene::Camera>& cameras = request_.scene.cameras;
     if (!cameras.empty()) state_.camera = cameras[index % cameras.size()];
 }
@@ -98,7 +98,7 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
                                                                    : app::RenderedWork::required;
         break;
     case KeyAction::camera:
-        select_next_camera(
+        select_camera(
             static_cast<std::size_t>(std::ranges::find(cameras, state_.camera) - cameras.begin()) +
             1);
         break;
@@ -107,7 +107,7 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
 
 void ViewLoop::perform_panel_requests(const PanelButtonRequests& wants) try {
     if (wants.cuts) viewer_->discard_frame_history();
-    if (wants.camera) select_next_camera(*wants.camera);
+    if (wants.camera) select_camera(*wants.camera);
     if (wants.copies) {
         window_.copy_to_clipboard(command());
         show_message("copied: " + command());

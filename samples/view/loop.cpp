@@ -83,7 +83,7 @@ void ViewLoop::open(SceneChangeOrigin scene) {
     viewer_ = std::make_unique<SceneViewer>(window_, options, request_);
     controls_.upload_overlay_font(viewer_->window_screen());
     if (scene == SceneChangeOrigin::same) return; // the state stays the same
-    cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.manners);
+    cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.output_options);
     app::resolve_auto_exposure(viewer_->viewer_session(), request_);
     state_.camera = request_.camera;
     state_.exposure = request_.exposure;
@@ -196,13 +196,14 @@ void ViewLoop::print_times() const {
     lines.push_back(times.gpu());
     lines.push_back(times.frame());
     for (const TimeTableRow& line : lines)
-        cli::print_detail_if_verbose(view_options_.common.manners,
+        cli::print_detail_if_verbose(view_options_.common.output_options,
                                      fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
 
 int ViewLoop::finish_view_run() {
     print_times();
-    if (audit_) cli::print_note_unless_quiet(view_options_.common.manners, audit_->describe());
+    if (audit_)
+        cli::print_note_unless_quiet(view_options_.common.output_options, audit_->describe());
     if (!view_options_.screenshot.empty()) viewer_->write_picture(view_options_.screenshot);
     if (view_options_.common.device.validate) viewer_->viewer_engine().check_validation();
     if (is_user_simulated()) return 0;

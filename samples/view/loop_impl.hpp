@@ -30,7 +30,7 @@ private:
     void recover_from_error(const Error& error);
     void show_message(const std::string& text);
     std::string command() const;
-    void select_next_camera(std::size_t index);
+    void select_camera(std::size_t index);
     void print_times() const;
     int finish_view_run();
 

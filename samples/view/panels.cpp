@@ -147,7 +147,7 @@ void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 win
     if (section("Motion")) draw_playback_controls(state, seen.period);
     if (section("Times")) draw_frame_times(seen.viewer);
     if (section("Left out", false)) draw_culled_work(state, seen.viewer);
-    if (section("Scene", false)) draw_scene_facts(seen, wants);
+    if (section("Scene", false)) draw_scene_facts(seen.scene, wants);
     ImGui::End();
 }
 

@@ -31,6 +31,6 @@ void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 win
 void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                         const std::vector<PlanEntry>& entries);
 void draw_frame_times(const SceneViewer& viewer);
-void draw_scene_facts(const PanelShownData& seen, PanelButtonRequests& wants);
+void draw_scene_facts(const scene::Scene& scene, PanelButtonRequests& wants);
 
 } // namespace catoptric::view

@@ -40,14 +40,14 @@ ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
         shown.techniques = {technique_text_of_plan(set_knob_in_plan(state.plan, "show", "state"))};
         break;
     case ViewMode::numbers:
-    case ViewMode::causes: shown.first = app::WindowPictures::kCanvasTextureIndex; break;
+    case ViewMode::causes: shown.first = app::WindowPictures::kCanvasPicture; break;
     case ViewMode::split:
     case ViewMode::difference:
         shown.kind = state.mode == ViewMode::split
                          ? app::WindowPictures::PictureArrangement::split
                          : app::WindowPictures::PictureArrangement::difference;
         if (state.against == ComparisonPicture::reference) {
-            shown.second = app::WindowPictures::kCanvasTextureIndex;
+            shown.second = app::WindowPictures::kCanvasPicture;
         } else if (const std::string other = technique_text_of_plan(state.other);
                    other != shown.techniques[0]) {
             shown.techniques.push_back(other);

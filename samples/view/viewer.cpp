@@ -177,8 +177,8 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
                 std::move(overlay)};
     if (needs_host_picture(state)) showing_.canvas = make_host_picture(state);
     if (!showing_.canvas) { // not made yet: show the plan's picture
-        if (showing_.first == app::WindowPictures::kCanvasTextureIndex) showing_.first = 0;
-        if (showing_.second == app::WindowPictures::kCanvasTextureIndex) showing_.second = 0;
+        if (showing_.first == app::WindowPictures::kCanvasPicture) showing_.first = 0;
+        if (showing_.second == app::WindowPictures::kCanvasPicture) showing_.second = 0;
     }
     collect_finished_frames(kFramesInFlight - 1);
     const double begin = current_milliseconds();
@@ -214,8 +214,8 @@ void SceneViewer::write_picture(const std::filesystem::path& file) const {
     check(last_.has_value(), Failure::usage, "there is no frame yet to be written");
     if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
     const auto picture = [&](std::size_t part) {
-        return part == app::WindowPictures::kCanvasTextureIndex ? *showing_.canvas
-                                                                : last_->read(part).display;
+        return part == app::WindowPictures::kCanvasPicture ? *showing_.canvas
+                                                           : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
     if (showing_.kind == app::WindowPictures::PictureArrangement::difference)

@@ -11,12 +11,12 @@
 // The number, from 1, of the mirror that rays pass through, because a mirror's capture does not show the mirror itself.
 // 0: rays pass through no mirror.
 uint left_out;
-bool is_object_seen_by_camera(uint object) { return left_out == 0u || read_surface(object).mirror != left_out; }
+bool does_ray_meet_object(uint object) { return left_out == 0u || read_surface(object).mirror != left_out; }
 // How shadows are computed: kShadowRay, or the method of the technique.
 uint shadow_by;
 
 #define TRACE_PRIVATE_STACK
-#define TRACE_SEES(object) is_object_seen_by_camera(object)
+#define TRACE_SEES(object) does_ray_meet_object(object)
 #define SHADOW_BY shadow_by
 #include "lib/whitted.glsl"
 

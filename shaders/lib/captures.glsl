@@ -25,11 +25,11 @@ layout(set = 0, binding = 31, scalar) uniform Captures { CaptureLookupTable capt
 #define DISTANCE_CUBES_NEAREST(i) samplerCubeArray(distance_cubes[i], nearest_texels)
 #define SURFACE_CUBES(i) samplerCubeArray(surface_cubes[i], nearest_texels)
 // FACES declares a technique's texture array with one layer for each cube face, and FACES_OF reads such an array.
-// WHOLE_FACES and WHOLE_FACES_OF do the same for arrays of unsigned integers.
+// UINT_FACES and UINT_FACES_OF do the same for arrays of unsigned integers.
 #define FACES(name) texture2DArray name[kMaxCubeArrays]
 #define FACES_OF(name, i) sampler2DArray(name[i], nearest_texels)
-#define WHOLE_FACES(name) utexture2DArray name[kMaxCubeArrays]
-#define WHOLE_FACES_OF(name, i) usampler2DArray(name[i], nearest_texels)
+#define UINT_FACES(name) utexture2DArray name[kMaxCubeArrays]
+#define UINT_FACES_OF(name, i) usampler2DArray(name[i], nearest_texels)
 // 1: a table gives each mirror its array of captures, and its cube in that array. 0: mirror n's capture is cube n of
 // the only array. The engine specialises shaders before the driver sees them. Comparisons with absent arrays therefore
 // cost nothing, and a shader without a table has no binding for a table.

@@ -35,7 +35,7 @@ DRAWN(13) uvec3 drawn_numbers;
 uint drawn_view_layer() { return uint(gl_InstanceIndex) & ((1u << kInstanceLayerBits) - 1u); }
 uint drawn_object_index() { return uint(gl_InstanceIndex) >> kInstanceLayerBits; }
 
-void write_drawn_pixel(View view, Surface surface) {
+void write_drawn_object(View view, Surface surface) {
     eye_layer = vec4(view.eye, drawn_view_layer());
     drawn_numbers = uvec3(drawn_object_index(), surface.mirror, surface.detail);
     Light light = lights[0];

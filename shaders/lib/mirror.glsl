@@ -90,7 +90,7 @@ bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
     // If the captured mirror is an exact sphere, reflect_at_exact_sphere has found that the ray misses that sphere.
     if (read_probe(next).radius > 0.0) return false;
     // Only the capture knows the light of a lit mirror.
-    if (details != 0u && read_probe(next).kind >= kMirrorNeedsDiffuseLight) return false;
+    if (details != 0u && read_probe(next).kind >= kMirrorLit) return false;
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
@@ -111,7 +111,7 @@ void set_distance_of_last_search_hit(float distance) {}
 float find_path_distance_to_end(uint mirror, MirrorPath path, Lookup lookup) {
     float distance = distance_of_last_search_hit() > 0.0 ? distance_of_last_search_hit() : captured_distance(mirror, lookup.direction);
     vec3 end = read_probe(mirror).centre + lookup.direction * distance;
-    return lookup.state == kSearchMissState ? kLargestFloat : dot(end - path.at, path.direction);
+    return lookup.state == kMiss ? kLargestFloat : dot(end - path.at, path.direction);
 }
 
 // Searches the other mirrors' captures for the end of the ray, and takes the first that finds a surface. A search that
@@ -173,7 +173,7 @@ float rough_lookup_alpha(MirrorPath path, Lookup lookup, float roughness) {
     float from_centre = distance_of_last_search_hit();
     if (distance_law != kLawNone && !(from_centre > 0.0)) from_centre = captured_distance(path.mirror, lookup.direction);
     // A surface outside the scene is so far away that the mirror and the capture's centre see it alike.
-    if (distance_law != kLawNone && lookup.state != kSearchMissState && is_finite(from_centre) && from_centre > 0.0) {
+    if (distance_law != kLawNone && lookup.state != kMiss && is_finite(from_centre) && from_centre > 0.0) {
         vec3 end = path.centre + lookup.direction * from_centre;
         ratio = distance(end, path.at) / from_centre;
         if (distance_law == kLawExact && has_surfaces != 0u) {
@@ -341,7 +341,7 @@ void main() {
             }
         }
     }
-    write_captured_surface(apply_shown_picture_mode(colour, lookup));
+    write_fragment_outputs(apply_shown_picture_mode(colour, lookup));
 #ifndef ABLATE
     if (rough == kRoughRays && is_stopped) out_colour.rgb = vec3(uintBitsToFloat(0x7fc00000u)); // the pixel is NaN
 #endif

@@ -7,12 +7,12 @@
 
 // Answers of a search. Hit: the search ended on a captured surface. Unknown: the ray went behind a surface that hides
 // the rest of the ray from the capture's centre. Miss: the ray leaves the scene without meeting a captured surface.
-const uint kHit = 0u, kUnknown = 1u, kSearchMissState = 2u;
+const uint kHit = 0u, kUnknown = 1u, kMiss = 2u;
 
 // The result of a search: the place in a capture that shows the radiance along a reflected ray.
 struct Lookup {
     vec3 direction; // unit direction of the lookup from the capture's centre
-    uint state;     // answer of the search: kHit, kUnknown or kSearchMissState
+    uint state;     // answer of the search: kHit, kUnknown or kMiss
     float residual; // relative distance between the found point and the captured surface in its direction
     float layer;    // capture layer: 0 for the nearest surface, 1 for the surface behind it; or kLeaves
 };
@@ -92,7 +92,7 @@ vec3 captured_colour(uint mirror, vec3 direction) {
 // Returns the colour that a search in a capture of one layer found. A ray that leaves the scene sees the environment.
 vec3 colour_found_by_search(uint mirror, Lookup lookup) {
     bool leaves = lookup.state == kUnknown && lookup.layer == kLeaves;
-    if (leaves || (environment_kind != kNoEnvironment && lookup.state == kSearchMissState)) return environment_radiance(lookup.direction);
+    if (leaves || (environment_kind != kNoEnvironment && lookup.state == kMiss)) return environment_radiance(lookup.direction);
     return captured_colour(mirror, lookup.direction);
 }
 

@@ -87,8 +87,8 @@ bool find_mean_blocker(uint light, LampExtent extent, SoftShadowReceiver receive
 }
 
 // Returns the share of a lamp's points that the receiver sees, 0 to 1, and sets light_tint to the mean tint of their light.
-// `normal` faces the lamp. `facet` is the unit normal of the receiver's plane, on either side. `error` is the largest error of
-// the position along the normal, scene units. `hard`: the visible share of the lamp's centre, with its light_tint.
+// `facet` is the unit normal of the receiver's plane, on either side. `error` is the largest error of the position along
+// this normal, scene units. `hard`: the visible share of the lamp's centre, with its light_tint.
 float sample_soft_shadow_map(uint light, vec3 position, vec3 facet, float error, float hard) {
     LampExtent extent = lamp_extents[light];
     SoftShadowReceiver receiver;

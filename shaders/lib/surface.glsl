@@ -112,7 +112,7 @@ float captured_surface_number() {
 // The largest colour of the image format. Colours are clamped to this value, so that no capture holds an infinity.
 layout(constant_id = LARGEST_COLOUR_CONSTANT) const float largest_colour = 3.402823466e38;
 
-void write_captured_surface(vec3 colour) {
+void write_fragment_outputs(vec3 colour) {
     out_colour = vec4(min(colour, vec3(largest_colour)), 1);
     out_distance = length(from_eye) * distance_scale;
     out_more = vec4(0); // an output that is not written would be undefined

@@ -50,7 +50,7 @@ void main() {
 #ifdef LAYERED
     gl_Layer = int(drawn_view_layer());
 #endif
-    write_drawn_pixel(view, surface);
+    write_drawn_object(view, surface);
 #ifdef PLACED
     out_normal = transform_normal_to_scene(placement, normal);
 #else

@@ -242,7 +242,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     RayArc arc;
     if (!make_ray_arc(offset, direction, arc)) {
         float distance = captured_distance(mirror, direction);
-        if (is_miss(distance)) return Lookup(direction, kSearchMissState, 0.0, 0.0);
+        if (is_miss(distance)) return Lookup(direction, kMiss, 0.0, 0.0);
         found_distance = distance;
         return Lookup(direction, kHit, 0.0, 0.0);
     }
@@ -294,7 +294,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     // The ray met no surface. A ray that left the scene with at most one captured surface in front is a miss. Any other
     // ray was lost behind two surfaces that face the centre.
     uint count = count_surfaces_in_front(a);
-    if (count < 2u) return Lookup(direction, kSearchMissState, 0.0, float(count));
+    if (count < 2u) return Lookup(direction, kMiss, 0.0, float(count));
     found_distance = guessed_distance;
     return guess;
 }

@@ -19,7 +19,7 @@ layout(constant_id = OWN_CONSTANTS) const uint steps = 16u;
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     RayArc arc;
     if (!make_ray_arc(offset, direction, arc))
-        return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kSearchMissState : kHit, 0.0, 0.0);
+        return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
     float step = atan(arc.end.y, arc.end.x) / float(steps);
     vec2 turn = vec2(cos(step), sin(step)), place = vec2(1, 0);
     ArcSample last = sample_capture_on_arc(mirror, arc, place);
@@ -50,6 +50,6 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         last = next;
     } while (k < steps);
     if (is_ray_behind_surface(last)) return guess;
-    return Lookup(direction, state == kHit ? kSearchMissState : kUnknown, 0.0, 0.0);
+    return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
 }
 #include "lib/mirror.glsl"

@@ -9,6 +9,6 @@
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float distance = captured_distance(mirror, direction);
-    return Lookup(parallax_direction(offset, direction, distance), is_miss(distance) ? kSearchMissState : kHit, 0.0, 0.0);
+    return Lookup(parallax_direction(offset, direction, distance), is_miss(distance) ? kMiss : kHit, 0.0, 0.0);
 }
 #include "lib/mirror.glsl"

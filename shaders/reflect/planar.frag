@@ -180,7 +180,7 @@ void main() {
     Surface surface = find_surface_at_fragment(n, facet);
     vec3 shown = rough == kRoughNone ? surface.reflectance * sharp_view_colour() : reflected_view_colour(surface, n);
     if (lights_mirrors != 0u) shown += shade_drawn_fragment(surface, n, facet);
-    write_captured_surface(shown);
+    write_fragment_outputs(shown);
     if (passes_distances != 0u) {
         count_distance_lookup();
         out_distance = max(out_distance, texelFetch(mirrored_distances, ivec2(gl_FragCoord.xy), 0).r);

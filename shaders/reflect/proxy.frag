@@ -36,7 +36,7 @@ bool intersects_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) 
 // Returns the lookup of a ray that leaves the scene, because it misses the box or sphere, or no surface was captured.
 Lookup make_outward_lookup(uint mirror, vec3 direction) {
     bool empty = is_miss(captured_distance(mirror, direction));
-    return Lookup(direction, empty ? kSearchMissState : kUnknown, 0.0, empty ? 0.0 : kLeaves);
+    return Lookup(direction, empty ? kMiss : kUnknown, 0.0, empty ? 0.0 : kLeaves);
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {

@@ -24,7 +24,7 @@
 #include "reflect/pyramid.glsl"
 #include "reflect/silhouette.glsl"
 
-layout(set = 0, binding = 20) uniform WHOLE_FACES(bounds);
+layout(set = 0, binding = 20) uniform UINT_FACES(bounds);
 
 // The most cells that a search visits. The software driver stops an invocation's loops after 65,535 iterations.
 const int kMaxCellVisits = 4096;
@@ -128,7 +128,7 @@ void advance_walk_to_next_cell(inout PyramidCellWalk walk, RayArc arc, vec2 leav
 }
 
 uint read_packed_bounds(uint mirror, ivec3 place) {
-#define PACKED(i) texelFetch(WHOLE_FACES_OF(bounds, i), place, 0).r
+#define PACKED(i) texelFetch(UINT_FACES_OF(bounds, i), place, 0).r
     count_distance_lookup();
     RETURN_OF_ARRAY(mirror, PACKED)
 }
@@ -208,7 +208,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     RayArc arc = make_pyramid_arc(offset, direction);
     // The ray's line passes through the centre, so that the ray's own direction is the only direction to look up.
     if (!(length(arc.bend) > kMinArcAngle && length(direction + arc.from) > kMinArcAngle))
-        return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kSearchMissState : kHit, 0.0, 0.0);
+        return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
     int face = distance_edge(mirror);
     ArcOnCubeFace line = project_arc_on_face(cube_face(arc.from), arc);
     PyramidCellWalk walk = PyramidCellWalk(line, texel_of_arc_point(line, 0.0, face), max(top_pyramid_level(face) - kStartLevelBelowTop, 1), 0.0);
@@ -243,7 +243,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         advance_walk_to_next_cell(walk, arc, leave, face);
     } while (walk.s < 1.0 && visits < kMaxCellVisits);
     if (walk.s < 1.0) return Lookup(normalize(arc_direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
-    if (in_sight) return Lookup(direction, state == kHit ? kSearchMissState : kUnknown, 0.0, 0.0);
+    if (in_sight) return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
     if (nothing_beside) return Lookup(direction, kUnknown, 0.0, kLeaves);
     return Lookup(normalize(arc_direction_at(arc, last_in_sight)), kUnknown, 0.0, 0.0);
 }

@@ -43,7 +43,7 @@ void bisect_towards_surface_edge(uint mirror, RayArc arc, inout ArcSample front,
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float first = captured_distance(mirror, direction);
     RayArc arc;
-    if (!make_ray_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kSearchMissState : kHit, 0.0, 0.0);
+    if (!make_ray_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kMiss : kHit, 0.0, 0.0);
     bool leaves = is_miss(first);
     ArcSample front = ArcSample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = ArcSample(arc.end,
         reciprocal_or_zero(first), reciprocal_or_zero(first));
@@ -52,7 +52,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         if (!is_ray_behind_surface(behind)) {
             if (front.captured > 0.0 && bisect_to_missing_surface_edge(mirror, arc, front, behind))
                 return Lookup(arc_direction_at(arc, front.place), kHit, abs(front.depth) / front.captured, 0.0);
-            if (!is_ray_behind_surface(behind)) return Lookup(direction, kSearchMissState, 0.0, 0.0);
+            if (!is_ray_behind_surface(behind)) return Lookup(direction, kMiss, 0.0, 0.0);
         }
     } else {
         vec2 place = guess_crossing_at_captured_distance(arc, offset, direction, first);

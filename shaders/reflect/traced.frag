@@ -9,7 +9,7 @@ layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
 void main() {
     discard_cut_out_fragments();
-    write_captured_surface(vec3(0));
+    write_fragment_outputs(vec3(0));
 #ifdef FIRST_HIT
     out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), drawn_mirror_number(), tracer);
 #endif

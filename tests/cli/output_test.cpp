@@ -186,7 +186,8 @@ TEST_F(CommandLineTest, CompareInterruptedDuringLagKeepsItsRows) {
     process.signal_at = "lag of reuse";
     const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
-    EXPECT_THAT(ended.err, testing::HasSubstr("2 of 2 rows; their lag was not measured to its end"));
+    EXPECT_THAT(ended.err,
+                testing::HasSubstr("2 of 2 rows; their lag was not measured to its end"));
     const nlohmann::json document = nlohmann::json::parse(read_output_file("out/report.json"));
     EXPECT_EQ(document["complete"], false);
     EXPECT_EQ(document["rows"].size(), 2U);

@@ -315,8 +315,8 @@ TEST_F(CommandLineTest, GraphPrintsTextDotAndJson) {
 }
 
 TEST_F(CommandLineTest, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
-    const std::string said = "captures: at most 1 of 4 mirrors a frame; none shows what is older "
-                             "than 3 frames, and 4 more for each further mirror that it is seen by";
+    const std::string said = "captures: at most 1 of 4 mirrors a frame; a reflection is at most 3 "
+                             "frames old, and 4 more for each further mirror on the light's path";
     const Words small{"--technique", "parallax:face=8,shadow_map=16", "--size", "16x16"};
     const auto run = [&](Words words) {
         words.insert(words.end(), small.begin(), small.end());

@@ -108,8 +108,8 @@ TEST_F(ResultsSite, JsonOptionPrintsOneDocument) {
         EXPECT_EQ(document["schema"], "catoptric/results-added/1");
         EXPECT_EQ(document["known"], is_known);
         EXPECT_EQ(document["comparisons"], 1);
-        EXPECT_TRUE(std::filesystem::exists(
-            folder / "s/reports" / document["report"].get<std::string>()));
+        EXPECT_TRUE(
+            std::filesystem::exists(folder / "s/reports" / document["report"].get<std::string>()));
     }
     const test::ProcessResult built = run_cli({"results", "build", "s", "--json"});
     EXPECT_EQ(json::parse(built.out), json::parse(R"({"schema": "catoptric/results-built/1",

@@ -126,8 +126,8 @@ TEST_F(DrawnViews, TooFewViewsForAMedianAreRefused) {
     for (const std::string count : {"2", "3", "5"})
         expect_usage_refused(
             {"compare", "-o", "out", "--views", count}, 2,
-            {"--views: wanted 1 or at least 6, since fewer bound no median with 95 % "
-             "confidence, found " +
+            {"--views: wanted 1 or at least 6, because fewer give no 95 % interval of the "
+             "median, found " +
              count});
 }
 

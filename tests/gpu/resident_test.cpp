@@ -232,7 +232,7 @@ std::vector<std::uint32_t> read_buffer_words(const gpu::GpuBuffer& buffer, std::
 /// slot is written.
 TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kListSlotCount = 3, kListWordCount = 9000;
-    render::DoubleBufferedDeviceList list("list", gpu::BufferUsage::plain, kListSlotCount);
+    render::DeviceList list("list", gpu::BufferUsage::plain, kListSlotCount);
     std::vector<std::uint32_t> current_words(kListWordCount, 1);
     list.set_device_list_contents(current_words);
     for (std::size_t slot = 0; slot < kListSlotCount; ++slot)
@@ -256,7 +256,7 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
 }
 
 TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
-    render::DoubleBufferedDeviceList list("list", gpu::BufferUsage::plain, 1);
+    render::DeviceList list("list", gpu::BufferUsage::plain, 1);
     std::vector<std::uint32_t> current_words(100000, 1);
     list.set_device_list_contents(current_words);
     EXPECT_EQ(list.upload_changed_pages(resident_test_device(), 0), 1u);

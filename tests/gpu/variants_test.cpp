@@ -31,7 +31,7 @@ TEST(Variants, EachVariantIsAConstantOfTheRayTracer) {
         for (const gpu::SpecialisationConstant& constant :
              gpu::reflect_spirv(build, gpu::find_shader(build).words).constants)
             known.push_back(constant.name);
-    for (const gpu::ShaderBuildVariant& variant : gpu::list_shader_variants())
+    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
         EXPECT_THAT(known, Contains(std::string(variant.constant)));
 }
 
@@ -72,7 +72,7 @@ void expect_same_bytes(const std::vector<vec3>& a, const std::vector<vec3>& b) {
 
 TEST(Variants, EachVariantRendersTheSameBytes) {
     const std::vector<vec3> wanted = render_with_variants("raytrace:depth=3", {});
-    for (const gpu::ShaderBuildVariant& variant : gpu::list_shader_variants()) {
+    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants()) {
         SCOPED_TRACE(variant.name);
         expect_same_bytes(
             wanted, render_with_variants("raytrace:depth=3", {{std::string(variant.name),
@@ -83,7 +83,7 @@ TEST(Variants, EachVariantRendersTheSameBytes) {
 /// Tests all variants together in `hybrid`, which traces only a list of pixels.
 TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
     app::VariantNames all;
-    for (const gpu::ShaderBuildVariant& variant : gpu::list_shader_variants())
+    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
         all.emplace_back(variant.name, variant.choices[1]);
     expect_same_bytes(render_with_variants("hybrid:face=16", {}),
                       render_with_variants("hybrid:face=16", all));

@@ -295,8 +295,7 @@ TEST(CaptureBudget, InvalidBudgetsAreRefused) {
     };
     app::FrameSpec spec = make_spec_with_capture_budget(scene, 2);
     spec.model = app::RenderedWork::everything;
-    refused(spec, "a limit of captures that a frame draws is of the model required, not of "
-                  "everything");
+    refused(spec, "limits of captures (most_captures, budget_ms): wanted the model required");
     spec = make_spec_with_capture_budget(scene, 2);
     spec.budget_ms = 4;
     refused(spec, "limited by number (2) and by milliseconds (4): wanted one of them");

@@ -284,7 +284,7 @@ TEST_F(CaptureCacheFramesTest, BudgetIsRefusedBeforeChangesAreKnown) {
     render_and_list_passes(); // the result of this frame's comparison is never read
     most_ = 1;
     test::expect_error([&] { render_and_list_passes(); }, Failure::internal,
-                       {"captures 'capture' are put off before it is known what changed"});
+                       {"captures 'capture' depend on comparisons of faces"});
 }
 
 TEST_F(CaptureCacheFramesTest, OnlyShadowMapsThatAreNeededAreDrawn) {

@@ -11,7 +11,7 @@ using namespace catoptric;
 
 constexpr uvec2 kProxyPictureSize{128, 128};
 constexpr int kSearchHitState = 0,
-              kSearchMissState = 2; // states of a search, as in shaders/lib/probe.glsl
+              kMiss = 2; // states of a search, as in shaders/lib/probe.glsl
 
 // The rasteriser snaps vertices to 1/256 of a pixel, so rays are reflected at slightly different
 // points than in the reference. This shows only at the outline of the ball, where normals change
@@ -102,7 +102,7 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
                 0u);
             ASSERT_GT(pixels.size(), 1000u);
             // unorm8 cannot store infinity, so the number of misses is not checked for that format.
-            const auto misses = std::ranges::count(pixels, kSearchMissState,
+            const auto misses = std::ranges::count(pixels, kMiss,
                                                    &measure::LookupDirectionError::state);
             EXPECT_EQ(misses, distance == "r32f" ? std::ssize(pixels) : misses) << shape;
             double worst;

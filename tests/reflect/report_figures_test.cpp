@@ -328,8 +328,9 @@ TEST(ReportFigures, FewFramesAreOneRoundEach) {
     EXPECT_EQ(times["rounds"], times["samples"]);
     EXPECT_TRUE(times["ci95"].is_null());
     request.rounds = 5;
-    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { compare_and_read_report(request); }),
-              "rounds: wanted at least 6, fewer bound no median, found 5");
+    EXPECT_EQ(
+        test::catch_error_text(Failure::usage, [&] { compare_and_read_report(request); }),
+        "rounds: wanted at least 6, because fewer give no 95 % interval of the median, found 5");
 }
 
 /// Rows take turns in rounds, but each row must show what it shows when measured alone: it keeps

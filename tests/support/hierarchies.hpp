@@ -69,9 +69,8 @@ inline void expect_valid_bvh(const catoptric::bvh::Bvh& bvh, std::size_t triangl
     EXPECT_EQ(all.lo, vec3(bvh.nodes[0]));
     EXPECT_EQ(all.hi, vec3(bvh.nodes[1]));
     EXPECT_EQ(census.triangles, triangles);
-    EXPECT_EQ(catoptric::bvh::integer_from_float_bits(bvh.nodes[0].w), triangles);
-    EXPECT_EQ(catoptric::bvh::integer_from_float_bits(bvh.nodes[1].w),
-              catoptric::bvh::count_nodes(bvh));
+    EXPECT_EQ(catoptric::bvh::unpack_number(bvh.nodes[0].w), triangles);
+    EXPECT_EQ(catoptric::bvh::unpack_number(bvh.nodes[1].w), catoptric::bvh::count_nodes(bvh));
     EXPECT_EQ(census.nodes + 1, catoptric::bvh::count_nodes(bvh));
     EXPECT_LE(census.deepest, catoptric::bvh::kMaxTreeDepth);
     // A word that is stored in `w` must be a normal float, because devices may change other values

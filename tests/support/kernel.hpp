@@ -117,8 +117,7 @@ private:
 
     bool has_sphere_primitives() const {
         for (std::size_t i = 2; i < bvh_.triangles.size(); i += 3)
-            if ((bvh::integer_from_float_bits(bvh_.triangles[i].w) & bvh::kSpherePrimitiveFlag) !=
-                0)
+            if ((bvh::unpack_number(bvh_.triangles[i].w) & bvh::kSpherePrimitiveFlag) != 0)
                 return true;
         return false;
     }

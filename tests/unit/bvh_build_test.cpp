@@ -22,8 +22,7 @@ std::vector<TriangleReference> make_triangle_references(std::span<const Triangle
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const BoundingBox box = compute_triangle_bounds(triangles[i].a, triangles[i].b,
                                                         triangles[i].c, 0);
-        result.push_back(
-            {load_simd_vector(box.lo, index_to_bits_in_float(i)), load_simd_vector(box.hi, 0)});
+        result.push_back({load_simd_vector(box.lo, pack_number(i)), load_simd_vector(box.hi, 0)});
     }
     return result;
 }
@@ -57,7 +56,7 @@ TEST(BvhBuild, MedianDividesAlongTheWidestAxis) {
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const vec3 centre = triangles[i].a * vec3(size[0], size[1], size[2]);
             references.push_back(
-                {load_simd_vector(centre, index_to_bits_in_float(i)), load_simd_vector(centre, 0)});
+                {load_simd_vector(centre, pack_number(i)), load_simd_vector(centre, 0)});
             centres.add_point(references.back().lo);
         }
         const vec3 extent = centres.to_bounding_box().extent();
@@ -100,7 +99,7 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
         std::vector<TriangleReference> all = make_triangle_references(
             make_random_triangles(count, seed));
         TriangleReferenceSpanRange part;
-        for (const TriangleReference& r : all) part.add_triangle_reference_to_bin(r);
+        for (const TriangleReference& r : all) part.add_reference(r);
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const std::vector<TriangleReference> along = sort_references_along_axis(all, axis);
@@ -116,20 +115,20 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
             }
         }
         SahSplitBins bins;
-        bins.add_triangle_references_of_bins(all, CentroidToBinMapping(part.centres));
+        bins.add_references(all, CentroidToBinMapping(part.centres));
         const std::optional<BinnedSahSplit> split = find_best_binned_sah_split(bins, most);
         ASSERT_TRUE(split);
         const std::size_t middle = bins.left_triangle_count_of_split(*split);
         std::vector<TriangleReference> sides(count);
         std::array<SimdBox, 2> centres;
-        split->scatter_references_to_bins(all, CentroidToBinMapping(part.centres),
-                                          {sides.data(), &sides[middle]}, centres);
+        split->scatter_references_to_sides(all, CentroidToBinMapping(part.centres),
+                                           {sides.data(), &sides[middle]}, centres);
         EXPECT_NEAR(node_cost_of_references(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
                                                       side == 0 ? middle : count - middle);
             TriangleReferenceSpanRange made;
-            for (const TriangleReference& r : own) made.add_triangle_reference_to_bin(r);
+            for (const TriangleReference& r : own) made.add_reference(r);
             EXPECT_EQ(bins.extents(*split)[side].to_bounding_box(), made.box.to_bounding_box());
             EXPECT_EQ(centres[side].to_bounding_box(), made.centres.to_bounding_box());
             EXPECT_TRUE(
@@ -223,7 +222,7 @@ TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
         const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 3);
         std::vector<char> seen(input.triangles.size());
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
-            const std::uint32_t number = integer_from_float_bits(bvh.triangles[i + 1].w);
+            const std::uint32_t number = unpack_number(bvh.triangles[i + 1].w);
             ASSERT_LT(number, seen.size());
             ASSERT_EQ(seen[number]++, 0);
             const Triangle& t = input.triangles[number];

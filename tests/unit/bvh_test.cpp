@@ -64,9 +64,7 @@ TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
 std::size_t count_casters_before(const Bvh& bvh, std::size_t place) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < place; ++i)
-        count += (integer_from_float_bits(bvh.triangles[3 * i + 2].w) & kCastsNoShadowFlag) == 0
-                     ? 1
-                     : 0;
+        count += (unpack_number(bvh.triangles[3 * i + 2].w) & kCastsNoShadowFlag) == 0 ? 1 : 0;
     return count;
 }
 
@@ -220,7 +218,7 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_LT(integer_from_float_bits(bvh.triangles[3 * i + 1].w), 16u)
+        EXPECT_LT(unpack_number(bvh.triangles[3 * i + 1].w), 16u)
             << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeafTriangles, triangles.front());
     EXPECT_EQ(build_bvh(few).copies, 0u) << "a leaf has room for them";

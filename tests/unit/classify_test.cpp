@@ -140,28 +140,28 @@ std::vector<std::string> list_scene_feature_ids(const Scene& scene) {
 
 TEST(SettleGaps, IndirectLightOfDiffuseSurfacesIsListedAsUnsupported) {
     Scene scene = make_panel_scene({.name = "wall", .albedo = vec3(.5f)});
-    sort_unsupported_features(scene);
+    add_unsupported_lighting_features(scene);
     EXPECT_THAT(list_scene_feature_ids(scene), testing::IsEmpty()) << "nothing lights it";
     scene.punctual.push_back({.intensity = vec3(1)});
-    sort_unsupported_features(scene);
+    add_unsupported_lighting_features(scene);
     ASSERT_THAT(list_scene_feature_ids(scene), ElementsAre("indirect-left-out"));
     EXPECT_EQ(scene.unsupported[0].count, 1u);
     EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'wall'");
     EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
     scene.punctual.clear();
     scene.environment = std::make_shared<Environment>();
-    sort_unsupported_features(scene);
+    add_unsupported_lighting_features(scene);
     EXPECT_THAT(list_scene_feature_ids(scene),
                 ElementsAre("indirect-left-out", "environment-unshadowed"));
     // A second call must not list anything twice.
-    sort_unsupported_features(scene);
+    add_unsupported_lighting_features(scene);
     EXPECT_THAT(list_scene_feature_ids(scene),
                 ElementsAre("indirect-left-out", "environment-unshadowed"));
     for (const Material& none : {Material{.albedo = vec3(0)},
                                  {.albedo = vec3(1), .unlit = true},
                                  make_metal_material(0)}) {
         scene.materials[0] = none;
-        sort_unsupported_features(scene);
+        add_unsupported_lighting_features(scene);
         EXPECT_THAT(list_scene_feature_ids(scene), testing::IsEmpty()) << "it has no diffuse part";
     }
 }

@@ -64,9 +64,9 @@ TEST(EnvironmentCells, AliasTableDrawsCellsByTheirDensity) {
     const auto count = static_cast<double>(cells.texels.size());
     std::map<std::uint32_t, double> probability;
     for (const vec4& texel : cells.texels) {
-        const vec4& rest = cells.texels[bvh::integer_from_float_bits(texel.y)];
-        probability[bvh::integer_from_float_bits(texel.z)] += double(texel.x) / count;
-        probability[bvh::integer_from_float_bits(rest.z)] += (1 - double(texel.x)) / count;
+        const vec4& rest = cells.texels[bvh::unpack_number(texel.y)];
+        probability[bvh::unpack_number(texel.z)] += double(texel.x) / count;
+        probability[bvh::unpack_number(rest.z)] += (1 - double(texel.x)) / count;
     }
     double sum = 0;
     for (const auto& [cell, share] : probability) {

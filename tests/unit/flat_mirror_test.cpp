@@ -224,7 +224,7 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
         for (std::size_t i = 0; i < views.size(); ++i) {
             if (!views[i].within) continue;
             ASSERT_LT(*views[i].within, i) << "after the view that shows it";
-            EXPECT_NE(views[*views[i].within].mirror, views[i].mirror);
+            EXPECT_NE(views[*views[i].within].plane_index, views[i].plane_index);
             depth[i] = depth[*views[i].within] + 1;
             const graph::PixelRectangle &inner = views[i].area,
                                         &outer = views[*views[i].within].area;
@@ -245,7 +245,7 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
     most = 16;
     for (const auto& view : render::find_mirrored_views(eye, corner, {64, 64}, most)) {
         EXPECT_FALSE(view.within);
-        EXPECT_NE(view.mirror, 0u) << "black";
+        EXPECT_NE(view.plane_index, 0u) << "black";
     }
 }
 

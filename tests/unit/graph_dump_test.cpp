@@ -90,7 +90,7 @@ passes
       writes 'kept' [0,1) as colour, loaded
 
 culled
-  'vain': nobody wants what it writes: 'say "no"'
+  'vain': no output depends on what it writes: 'say "no"'
 
 images
   'first' rgba16f 8x8, 2 layers, passes 1 to 2, heap 0 at 0, 1024 bytes, shares with 'third'
@@ -134,12 +134,14 @@ TEST_F(GraphDumpTest, JsonListsPassesImagesAndBuffers) {
               Json::parse(R"([{"image": "kept", "layers": [0, 1], "use": "colour",
                                "clear": false}])"));
     EXPECT_EQ(json["culled"], Json::parse(R"([{"name": "vain", "reason":
-                                "nobody wants what it writes: 'say \"no\"'"}])"));
+                                "no output depends on what it writes: 'say \"no\"'"}])"));
     EXPECT_EQ(json["images"][3],
               Json::parse(R"({"name": "kept", "format": "rgba16f", "size": [8, 8], "layers": 2,
                               "cube": false, "used": true, "first": 3, "last": 5, "heap": 0,
                               "offset": 3328, "bytes": 2048, "alone": true})"));
-    EXPECT_EQ(json["images"][5]["used"], false);
+    for (const auto& [member, value] :
+         {std::pair("used", Json(false)), std::pair("first", Json(0)), std::pair("last", Json(0))})
+        EXPECT_EQ(json["images"][5][member], value) << member;
     EXPECT_EQ(json["buffers"][0]["name"], "args");
     EXPECT_EQ(json["scene_passes"], 1);
     EXPECT_EQ(json["bytes"], 5376);

@@ -142,8 +142,8 @@ TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
         .record(record_no_commands);
     v.g.set_content_hash_of_image_part(v.cubes.select_image_layers(0, 6), 7);
     EXPECT_EQ(graph_lifetime_error_text(v.g),
-              "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
-              "layers [6,12) are made from");
+              "pass 'make' writes 'cubes' [0,12), which is persistent, but no content hash "
+              "is set for layers [6,12)");
 }
 
 TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
@@ -151,13 +151,13 @@ TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
     v.add_reading_pass(v.cubes);
     v.g.set_content_hash_of_image_part(v.cubes.select_image_layers(0, 6), 7);
     EXPECT_EQ(graph_lifetime_error_text(v.g),
-              "'cubes' [0,6) is said to be made from something, but no pass writes "
+              "'cubes' [0,6) has a content hash, but no pass writes "
               "layers [0,6)");
     HashedCubeGraph w;
     w.add_writing_pass_with_hash(w.cubes.select_image_layers(6, 6), 1);
     w.g.set_content_hash_of_image_part(w.cubes.select_image_layers(6, 7), 1);
     EXPECT_EQ(graph_lifetime_error_text(w.g),
-              "'cubes' [6,13) is said to be made from something, but the image has "
+              "'cubes' [6,13) has a content hash, but the image has "
               "layers [0,12) and 1 mip(s)");
 }
 
@@ -174,7 +174,8 @@ TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
         v.g.set_content_hash_of_image_part(v.out, 1);
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "made_from() of image 'out', which is not kept");
+        EXPECT_STREQ(error.what(),
+                     "set_content_hash_of_image_part() of image 'out', which is not persistent");
     }
 }
 
@@ -255,13 +256,13 @@ TEST(Imported, ImportedResourceAsOutputIsRefused) {
         {.name = "window"}, nullptr, ResourceUse::sampled, ResourceUse::sampled);
     g.mark_as_graph_output(image);
     EXPECT_EQ(graph_lifetime_error_text(g),
-              "'window' [0,1) is wanted, but imported: read it where it comes from");
+              "'window' [0,1) is an output, but imported: read it where it comes from");
     Graph h;
     const BufferHandle buffer = h.import_external_resource(BufferDesc{.name = "back", .bytes = 4},
                                                            nullptr);
     h.mark_as_graph_output(buffer);
     EXPECT_EQ(graph_lifetime_error_text(h),
-              "buffer 'back' is wanted, but imported: read it where it comes from");
+              "buffer 'back' is an output, but imported: read it where it comes from");
 }
 
 TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
@@ -361,7 +362,7 @@ TEST_F(GraphMipLevelTest, OutputOfMipsOutOfRangeIsRefused) {
     add_mip_writing_pass(0);
     g.mark_as_graph_output(image.select_image_mips(0, 5));
     EXPECT_EQ(graph_lifetime_error_text(g),
-              "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
+              "'pyramid' [0,2) mips [0,5) is an output, but the image has mips [0,4)");
 }
 
 TEST_F(GraphMipLevelTest, AttachmentsOfDifferentSizesAreRefused) {

@@ -262,7 +262,7 @@ TEST_F(SmallGraphPlanTest, UnneededPassIsCulledWithAReason) {
     EXPECT_THAT(list_surviving_pass_names(g, plan), ElementsAre("a", "c"));
     ASSERT_EQ(plan.culled.size(), 1u);
     EXPECT_EQ(plan.culled[0].pass, 1u);
-    EXPECT_EQ(plan.culled[0].reason, "nobody wants what it writes: 'b', 'args'");
+    EXPECT_EQ(plan.culled[0].reason, "no output depends on what it writes: 'b', 'args'");
     EXPECT_FALSE(plan.images[b.id].used);
     EXPECT_FALSE(plan.buffers[args.id].used);
 }

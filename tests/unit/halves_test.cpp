@@ -332,7 +332,7 @@ TEST(Halves, DifferencesBelowTheFloorTie) {
     near.error.flip_floor = far.error.flip_floor = .02;
     EXPECT_FALSE(measure::has_less_flip(near, far));
     EXPECT_FALSE(measure::has_less_flip(far, near));
-    EXPECT_TRUE(measure::is_faster_or_closer_row(far, near)) << "it is faster and ties in FLIP";
+    EXPECT_TRUE(measure::beats_row(far, near)) << "it is faster and ties in FLIP";
     report::Comparison made = report::sample::make_comparison({near, far});
     made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{1});

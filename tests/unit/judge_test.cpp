@@ -14,10 +14,10 @@ TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
     measure::Row a = make_row("a", 1, .1, .1), b = make_row("b", 2, .1, .2);
     a.frame_ms = make_time_samples(9), b.frame_ms = make_time_samples(3);
     EXPECT_TRUE(measure::is_confidently_faster(a, b));
-    EXPECT_TRUE(measure::is_faster_or_closer_row(a, b));
+    EXPECT_TRUE(measure::beats_row(a, b));
     a.moves = b.moves = true;
     EXPECT_TRUE(measure::is_confidently_faster(b, a)) << "the host's work counts";
-    EXPECT_FALSE(measure::is_faster_or_closer_row(a, b)) << "it is closer, and slower";
+    EXPECT_FALSE(measure::beats_row(a, b)) << "it is closer, and slower";
     EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (std::vector<std::size_t>{1, 0}));
 }
 
@@ -65,15 +65,15 @@ TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
               Front{1});
-    EXPECT_FALSE(measure::is_faster_or_closer_row(black, make_row_with_equal_times(3, .6)));
-    EXPECT_FALSE(measure::is_faster_or_closer_row(make_row_with_equal_times(1, .1), black));
+    EXPECT_FALSE(measure::beats_row(black, make_row_with_equal_times(3, .6)));
+    EXPECT_FALSE(measure::beats_row(make_row_with_equal_times(1, .1), black));
     measure::Comparison made;
     made.rows = {black, make_row_with_equal_times(2, .1)};
     made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
     EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
-    ASSERT_EQ(measure::rank_rows_by_time(made).black.size(), 1U);
-    EXPECT_TRUE(measure::rank_rows_by_time(made).beaten_by_beaten.empty());
+    ASSERT_EQ(measure::rank_rows(made).black.size(), 1U);
+    EXPECT_TRUE(measure::rank_rows(made).beaten_by_beaten.empty());
 }
 
 /// A row whose picture comes from a file can be the row with the least error, but has no place in
@@ -91,7 +91,7 @@ TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
     EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[1]).first, 0u);
     EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[0]});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
-    const measure::TimeRanking ranking = measure::rank_rows_by_time(made);
+    const measure::RowRanking ranking = measure::rank_rows(made);
     EXPECT_EQ(ranking.untimed, std::vector<const measure::Row*>{&made.rows[1]});
     EXPECT_TRUE(ranking.beaten_by_beaten.empty());
     EXPECT_EQ(measure::find_ray_tracing_verdict(made).others, 2u);
@@ -119,18 +119,18 @@ TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
                     .low,
                 1.05, 1e-12);
 
-    EXPECT_TRUE(measure::is_faster_or_closer_row(make_row_with_equal_times(10, 1),
-                                                 make_row_with_varying_time(12, 1)));
-    EXPECT_FALSE(measure::is_faster_or_closer_row(make_row_with_equal_times(10, 1),
-                                                  make_row_with_varying_time(11, 1)));
-    EXPECT_TRUE(measure::is_faster_or_closer_row(make_row_with_varying_time(11, .9),
-                                                 make_row_with_equal_times(10, 1)))
+    EXPECT_TRUE(
+        measure::beats_row(make_row_with_equal_times(10, 1), make_row_with_varying_time(12, 1)));
+    EXPECT_FALSE(
+        measure::beats_row(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)));
+    EXPECT_TRUE(
+        measure::beats_row(make_row_with_varying_time(11, .9), make_row_with_equal_times(10, 1)))
         << "closer, and not told apart in time";
-    EXPECT_FALSE(measure::is_faster_or_closer_row(make_row_with_varying_time(12, .9),
-                                                  make_row_with_equal_times(10, 1)))
+    EXPECT_FALSE(
+        measure::beats_row(make_row_with_varying_time(12, .9), make_row_with_equal_times(10, 1)))
         << "closer, but slower";
-    EXPECT_FALSE(measure::is_faster_or_closer_row(make_row_with_equal_times(10, 1.1),
-                                                  make_row_with_varying_time(12, 1)));
+    EXPECT_FALSE(
+        measure::beats_row(make_row_with_equal_times(10, 1.1), make_row_with_varying_time(12, 1)));
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_varying_time(11, 1), make_row_with_equal_times(10, 1)}),
               (Front{1, 0}));
@@ -146,7 +146,7 @@ TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     a.error.rmse = a.error_all.flip = .5;
     EXPECT_TRUE(measure::has_less_flip(a, b));
     EXPECT_FALSE(measure::has_less_flip(b, a));
-    EXPECT_TRUE(measure::is_faster_or_closer_row(a, b));
+    EXPECT_TRUE(measure::beats_row(a, b));
     // With six drawn views, b is closer in only four, so neither row counts as closer.
     for (int view = 0; view < 6; ++view) {
         a.views.push_back(a), b.views.push_back(b);
@@ -178,7 +178,7 @@ TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
               Front{3});
-    EXPECT_FALSE(measure::is_faster_or_closer_row(make_row_with_equal_times(1, 1), no_error));
+    EXPECT_FALSE(measure::beats_row(make_row_with_equal_times(1, 1), no_error));
 }
 
 TEST(Judge, TiedRowsShareTheirPlaces) {

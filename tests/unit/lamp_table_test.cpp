@@ -34,7 +34,7 @@ void add_right_triangle(LampScene& scene, vec3 corner, float leg, vec3 emission)
 }
 
 std::uint32_t count_table_triangles(const std::vector<vec4>& table) {
-    return bvh::integer_from_float_bits(table[0].y);
+    return bvh::unpack_number(table[0].y);
 }
 
 /// Returns the probability with which the alias table draws each object.
@@ -42,13 +42,11 @@ std::map<std::uint32_t, double>
 sum_alias_table_probabilities_by_object(const std::vector<vec4>& table) {
     const std::uint32_t count = count_table_triangles(table);
     std::map<std::uint32_t, double> result;
-    const auto object = [&](std::uint32_t i) {
-        return bvh::integer_from_float_bits(table[3 + 3 * i].w);
-    };
+    const auto object = [&](std::uint32_t i) { return bvh::unpack_number(table[3 + 3 * i].w); };
     for (std::uint32_t i = 0; i < count; ++i) {
         const double share = table[1 + 3 * i].w;
         result[object(i)] += share / count;
-        result[object(bvh::integer_from_float_bits(table[2 + 3 * i].w))] += (1 - share) / count;
+        result[object(bvh::unpack_number(table[2 + 3 * i].w))] += (1 - share) / count;
     }
     return result;
 }

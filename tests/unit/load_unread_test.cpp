@@ -173,7 +173,7 @@ TEST_F(LoadUnreadFeaturesTest, NumberOfWarningsIsLimited) {
     const std::vector<std::string> lines = load_and_list_warnings("x.glb", gltf.glb_bytes());
     EXPECT_EQ(lines.size(), 41u);
     EXPECT_EQ(lines[0], "extension 'EXT_0', not read: 1 (first: nodes[1])");
-    EXPECT_EQ(lines[40], "more of other kinds, not read: 160");
+    EXPECT_EQ(lines[40], "further notes of other kinds, not listed: 160");
     std::string text = kTriangle + "f 1 2 3\n";
     for (int i = 0; i < 200; ++i) text += "x" + std::to_string(i) + "\n";
     EXPECT_THAT(load_and_list_warnings("x.obj", text),

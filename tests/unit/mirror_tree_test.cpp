@@ -14,9 +14,8 @@ using namespace catoptric;
 
 struct MirrorTreeNode {
     explicit MirrorTreeNode(const std::vector<vec4>& tree, std::size_t i)
-        : lowest(tree[2 * i]), highest(tree[2 * i + 1]),
-          mirror(bvh::integer_from_float_bits(tree[2 * i].w)),
-          past(bvh::integer_from_float_bits(tree[2 * i + 1].w)) {}
+        : lowest(tree[2 * i]), highest(tree[2 * i + 1]), mirror(bvh::unpack_number(tree[2 * i].w)),
+          past(bvh::unpack_number(tree[2 * i + 1].w)) {}
     bool does_node_enclose_box(const vec3& lo, const vec3& hi) const {
         return all(lessThanEqual(lowest, lo)) && all(lessThanEqual(hi, highest));
     }

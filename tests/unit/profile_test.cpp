@@ -29,7 +29,7 @@ app::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (build 
 /// times as long as the default.
 measure::ShaderVariantTrial make_shader_variant_trial(std::size_t variant,
                                                       const std::vector<double>& ratios) {
-    const gpu::ShaderBuildVariant& row = gpu::list_shader_variants()[variant];
+    const gpu::ShaderVariant& row = gpu::list_shader_variants()[variant];
     measure::ShaderVariantTrial one{.variant = std::string(row.name),
                                     .choice = std::string(row.choices[1]),
                                     .standard = std::string(row.choices[0]),

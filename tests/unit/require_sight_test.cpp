@@ -156,8 +156,8 @@ TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
     EXPECT_THAT(model.mirrors[3].sees, IsEmpty());
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "the capture of mirror 4 'ball'");
-    EXPECT_EQ(model.left_out[0].why, "'partition' hides it from the camera, and walls from each of "
-                                     "the 3 mirrors that are seen");
+    EXPECT_EQ(model.left_out[0].why, "'partition' hides it from the camera, and walls hide it from "
+                                     "each of the 3 mirrors that are seen");
     EXPECT_EQ(model.left_out[0].error, 0);
 }
 

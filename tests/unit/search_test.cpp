@@ -102,7 +102,7 @@ TEST(Search, InvalidSearchIsRefusedWithTheReason) {
         search_error_text({.name = "outside", .knobs = {{.name = "a", .high = 1, .value = 2}}}),
         HasSubstr("knob 'a': wanted a value from 0 to 1, found 2"));
     EXPECT_THAT(search_error_text({.name = "auto"}),
-                HasSubstr("'auto' is what the requirements suggest"));
+                HasSubstr("'auto' is the plan that the program chooses"));
     EXPECT_THAT(search_error_text({.name = "outside", .compared = {"outsid:face=4"}}),
                 HasSubstr("wanted rows of its own to compare, found 'outsid:face=4'"));
     EXPECT_THAT(search_error_text({.name = "outside", .knobs = {{.name = "a=b"}}}),

@@ -196,7 +196,7 @@ TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
         const measure::Difference found = measure::difference(green, black, mask, map);
         const auto& table = measure::list_difference_metrics();
         const auto row = std::ranges::find(table, "test_only_greener", &measure::Metric::name);
-        return std::get<double>(measure::metric_value_of_difference(*row, found));
+        return std::get<double>(measure::metric_value(*row, found));
     };
     EXPECT_EQ(greener({}), 1);
     EXPECT_EQ(greener({255, 0}), 0);
@@ -213,7 +213,7 @@ TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
     EXPECT_EQ(find("psnr").better, measure::BetterDirection::more);
     const auto refused = [](const measure::Metric& quantity, const auto& of) {
         try {
-            measure::metric_value_of_difference(quantity, of);
+            measure::metric_value(quantity, of);
         } catch (const Error& error) {
             return std::string(error.what());
         }

@@ -71,11 +71,11 @@ TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
 
 TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
     EXPECT_EQ(app::describe_capture_budget({.mirrors = 16, .most = 3}),
-              "captures: at most 3 of 16 mirrors a frame; none shows what is older than 5 frames, "
-              "and 6 more for each further mirror that it is seen by");
+              "captures: at most 3 of 16 mirrors a frame; a reflection is at most 5 frames old, "
+              "and 6 more for each further mirror on the light's path");
     EXPECT_EQ(app::describe_capture_budget({.mirrors = 4, .most = 2}),
-              "captures: at most 2 of 4 mirrors a frame; none shows what is older than 1 frame, "
-              "and 2 more for each further mirror that it is seen by");
+              "captures: at most 2 of 4 mirrors a frame; a reflection is at most 1 frame old, "
+              "and 2 more for each further mirror on the light's path");
     EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_cycle(), 1u);
 }
 

@@ -336,8 +336,8 @@ TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
     for (const int count : {-1, 0, 2, 5})
         EXPECT_THAT(
             test::catch_error_text(Failure::usage, [&] { app::draw_random_views(request, count); }),
-            HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
-                      "% confidence, found " +
+            HasSubstr("views: wanted 1 or at least 6, because fewer give no 95 % interval of "
+                      "the median, found " +
                       std::to_string(count)));
 }
 

@@ -208,7 +208,8 @@ TEST_F(WrongGraphTest, TwoLayoutsAtOnceAreRefused) {
 TEST_F(WrongGraphTest, OutputThatIsNeverWrittenIsRefused) {
     add_writing_pass(cubes);
     g.mark_as_graph_output(out);
-    EXPECT_EQ(wrong_graph_error_text(g), "'out' [0,1) is wanted, but no pass writes layers [0,1)");
+    EXPECT_EQ(wrong_graph_error_text(g),
+              "'out' [0,1) is an output, but no pass writes layers [0,1)");
 }
 
 TEST_F(WrongGraphTest, OutputLayersThatAreNeverWrittenAreRefused) {
@@ -218,32 +219,33 @@ TEST_F(WrongGraphTest, OutputLayersThatAreNeverWrittenAreRefused) {
         .record(record_no_commands);
     g.mark_as_graph_output(cubes.select_image_layers(3, 6));
     EXPECT_EQ(wrong_graph_error_text(g),
-              "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
+              "'cubes' [3,9) is an output, but no pass writes layers [6,9)");
 }
 
 TEST_F(WrongGraphTest, OutputBufferThatIsNeverWrittenIsRefused) {
     add_writing_pass(out);
     g.mark_as_graph_output(args);
-    EXPECT_EQ(wrong_graph_error_text(g), "buffer 'args' is wanted, but no pass writes it");
+    EXPECT_EQ(wrong_graph_error_text(g), "buffer 'args' is an output, but no pass writes it");
 }
 
 TEST_F(WrongGraphTest, OutputLayersOutOfRangeAreRefused) {
     add_writing_pass(out);
     g.mark_as_graph_output(out.select_image_layers(0, 2));
-    EXPECT_EQ(wrong_graph_error_text(g), "'out' [0,2) is wanted, but the image has layers [0,1)");
+    EXPECT_EQ(wrong_graph_error_text(g),
+              "'out' [0,2) is an output, but the image has layers [0,1)");
 }
 
 TEST_F(WrongGraphTest, OutputOfThePreviousFrameIsRefused) {
     add_writing_pass(out);
     g.mark_as_graph_output(g.previous_contents(out));
     EXPECT_EQ(wrong_graph_error_text(g),
-              "previous('out') [0,1) is wanted: only this frame's contents can be");
+              "previous('out') [0,1) is an output: only this frame's contents can be");
 }
 
 TEST_F(WrongGraphTest, OutputOfAnotherGraphIsRefused) {
     add_writing_pass(out);
     g.mark_as_graph_output(ImageHandle{.id = 9, .layer_count = 1});
-    EXPECT_EQ(wrong_graph_error_text(g), "image number 9 is wanted, but the graph has 3");
+    EXPECT_EQ(wrong_graph_error_text(g), "image number 9 is an output, but the graph has 3");
 }
 
 TEST_F(WrongGraphTest, PreviousOfAnUnwrittenImageIsRefused) {

@@ -1,8 +1,10 @@
 // Tests of the controls that edit a plan. A simulated mouse clicks everywhere in the panel, without
 // a window or a device.
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "scene/load.hpp"
 #include "session/technique_choice.hpp"
+#include "support/folder.hpp"
 #include "view/panels.hpp"
 
 #include <gmock/gmock.h>
@@ -49,12 +51,26 @@ public:
         }
     }
 
+    /// Returns the text of the scene's facts, with all lists open.
+    std::string read_scene_facts(const std::filesystem::path& folder) {
+        const std::string file = (folder / "facts.txt").string();
+        PanelButtonRequests wants;
+        ImGui::NewFrame();
+        ImGui::Begin("facts");
+        ImGui::LogToFile(2, file.c_str());
+        draw_scene_facts(shown_scene_, wants);
+        ImGui::LogFinish();
+        ImGui::End();
+        ImGui::Render();
+        return read_file(file);
+    }
+
 private:
     const scene::Scene& shown_scene_;
     ImGuiContext* context_;
 };
 
-class ViewPanelTest : public testing::Test {
+class ViewPanelTest : public test::InFolder {
 protected:
     ViewPanelTest() {
         unsigned char* texels = nullptr;
@@ -124,6 +140,18 @@ TEST_F(ViewPanelTest, ControlsEditTheChosenOneOfTwoPlans) {
     const std::set<std::string> texts = list_plans_reached_by_click(
         state, [](const ViewState& s) { return s.edits_other ? s.plan : ViewState().plan; });
     EXPECT_THAT(texts, Each(technique_text_of_plan(parse_plan_text("secant"))));
+}
+
+TEST_F(ViewPanelTest, FactsOfTheSceneListMirrorsAndCameras) {
+    scene.objects.back().sphere.reset();
+    const std::size_t number = scene::mirrors(scene).size();
+    ASSERT_EQ(scene::mirrors(scene).back(), scene.objects.size() - 1);
+    const std::string facts = PanelWithoutWindow(scene, fonts).read_scene_facts(folder);
+    EXPECT_THAT(facts, testing::HasSubstr(std::to_string(scene.objects.size()) + " objects, "));
+    EXPECT_THAT(facts, testing::HasSubstr("mirror 1: ball1, a sphere\n"));
+    EXPECT_THAT(facts, testing::HasSubstr("mirror " + std::to_string(number) + ": " +
+                                          scene.objects.back().name + "\n"));
+    EXPECT_THAT(facts, testing::HasSubstr("0 " + scene.cameras[0].name));
 }
 
 } // namespace

@@ -186,7 +186,7 @@ TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
     state.other = state.plan; // a frame accepts each technique only once
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid"));
     state.against = ComparisonPicture::reference;
-    EXPECT_EQ(choose_shown_pictures(state).second, app::WindowPictures::kCanvasTextureIndex);
+    EXPECT_EQ(choose_shown_pictures(state).second, app::WindowPictures::kCanvasPicture);
     EXPECT_TRUE(needs_host_picture(state));
     state.mode = ViewMode::answers;
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid:show=state"));
