@@ -79,8 +79,11 @@ void remove_stale_temporaries(const fs::path& target) {
         if (!name.starts_with(beginning)) continue;
         int process = 0;
         const char *first = name.data() + beginning.size(), *last = name.data() + name.size();
-        const auto [end, wrong] = std::from_chars(first, last, process);
-        if (wrong != std::errc() || process <= 0 || (end != last && *end != '-')) continue;
+        std::from_chars_result read = std::from_chars(first, last, process);
+        if (read.ec != std::errc() || process <= 0) continue;
+        if (std::uint64_t number = 0; read.ptr != last && *read.ptr == '-')
+            read = std::from_chars(read.ptr + 1, last, number);
+        if (read.ec != std::errc() || read.ptr != last) continue;
         if (::kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), error);
     }
 }

@@ -29,7 +29,7 @@ struct PlanEntry {
 /// Work that was left out because the picture does not need it, described for the user.
 struct CulledWork {
     std::string what, why, saves;
-    double error = 0; ///< largest change of a displayed pixel, of 1; 0: none
+    double error = 0; ///< largest change of a displayed pixel: always 0, for readers of the JSON
 };
 
 /// Cube edges that face=auto chose.

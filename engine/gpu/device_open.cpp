@@ -35,6 +35,24 @@ VkDebugUtilsMessengerEXT make_debug_messenger(VkInstance instance,
     return messenger;
 }
 
+/// Returns whether a device's name has the wanted text. A number, such as 4090, must be a whole
+/// number of the name with at least three digits, so that an index that is out of range selects no
+/// device.
+bool matches_device_name(const std::string& name, const std::string& wanted, bool is_number) {
+    if (!is_number) return name.find(wanted) != std::string::npos;
+    constexpr std::size_t kLeastDigits = 3;
+    constexpr std::string_view kNumberCharacters = "0123456789.";
+    if (wanted.size() < kLeastDigits) return false;
+    for (std::size_t begin = 0;
+         (begin = name.find_first_of(kNumberCharacters, begin)) != name.npos;) {
+        const std::size_t end = std::min(name.find_first_not_of(kNumberCharacters, begin),
+                                         name.size());
+        if (name.substr(begin, end - begin) == wanted) return true;
+        begin = end;
+    }
+    return false;
+}
+
 std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
                                const std::string& wanted) {
     std::size_t index = 0;
@@ -43,7 +61,7 @@ std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
     if (is_number && index < devices.size()) return index;
     std::vector<std::string> names;
     for (const DeviceProperties& info : devices) {
-        if (info.name.find(wanted) != std::string::npos) return names.size();
+        if (matches_device_name(info.name, wanted, is_number)) return names.size();
         names.push_back(info.name);
     }
     fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),

@@ -190,7 +190,7 @@ private:
         }
         check(type->op == kTypeImage || type->op == kTypeSampledImage, Failure::internal,
               "shader '", name_, "': '", result.name,
-              "' is an array of something else than textures");
+              "' is neither an image nor an array of textures with a size");
         const bool has_sampler = type->op == kTypeSampledImage;
         if (has_sampler) type = &types_.at(type->words[0]);
         const std::uint32_t dim = type->words[1], arrayed = type->words[3],

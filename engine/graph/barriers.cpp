@@ -98,8 +98,8 @@ void for_each_subresource_rectangle(std::uint32_t first, std::uint32_t end, std:
     }
 }
 
-/// Returns the access history of an image at the beginning of a frame, whose contents are
-/// ready for every shader stage that accesses it by this use.
+/// Returns the access history, at the beginning of a frame, of an image whose contents are ready
+/// for every shader stage that accesses it by this use.
 SubresourceAccessHistory make_history_with_readers(ResourceUse use) {
     const AccessState compute{.nothing = false, .use = use, .write = false, .raster = false};
     AccessState raster = compute;

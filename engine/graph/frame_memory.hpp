@@ -10,7 +10,7 @@ namespace catoptric::graph {
 /// Device memory that all planned graphs of a runner use in turn. The memory is as large as the
 /// largest graph needs. Images and buffers that live within a frame share one block, because frames
 /// run one after another. Outputs have one block for each slot (frame in flight), and stay until
-/// the slot's next frame is submitted.
+/// the slot's next frame is recorded.
 class SharedGraphMemoryArena {
 public:
     explicit SharedGraphMemoryArena(const gpu::GpuDevice& device) : memory_device_(device) {}

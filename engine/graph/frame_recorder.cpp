@@ -27,6 +27,12 @@ gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filt
     return {device.device_handle(), sampler};
 }
 
+std::string describe_image_shape(const ImageDesc& desc) {
+    return std::string(texel_format_name(desc.format)) + " " + std::to_string(desc.width) + "x" +
+           std::to_string(desc.height) + " with " + std::to_string(desc.layers) + " layer(s) and " +
+           std::to_string(desc.mips) + " mip(s)";
+}
+
 VkExtent2D find_pass_framebuffer_extent(const Graph& graph, const Pass& pass) {
     const ImageHandle& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
                                    return use.use == ResourceUse::colour ||
@@ -195,9 +201,14 @@ PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
     if (graph_->image_lifetime(image.id) != ImageLifetime::imported)
         return shape_->physical_image_of_handle(image, slot_index_);
     PhysicalImage* const outside = graph_->find_imported_resource(image.id);
-    check(outside && outside->desc.width == graph_->list_images()[image.id].width,
-          Failure::internal, "image '", graph_->list_images()[image.id].name,
-          "' is imported from nowhere");
+    const ImageDesc& wanted = graph_->list_images()[image.id];
+    check(outside, Failure::internal, "image '", wanted.name, "' is imported from nowhere");
+    const ImageDesc& found = outside->desc;
+    const bool fits = found.format == wanted.format && found.width == wanted.width &&
+                      found.height == wanted.height && found.layers == wanted.layers &&
+                      found.mips == wanted.mips;
+    check(fits, Failure::internal, "image '", wanted.name, "' is imported as ",
+          describe_image_shape(wanted), ", found ", describe_image_shape(found));
     return *outside;
 }
 

@@ -24,8 +24,9 @@ public:
     std::uint32_t next_query = 0;
 
     // The frame that was submitted last from this slot.
-    std::uint64_t frame = 0; ///< number of the slot's last frame, from 1; 0: none yet
-    bool ended = true;       ///< whether the host has waited for the slot's last frame
+    std::uint64_t frame =
+        0; ///< number of the slot's last frame, from 1; 0: none yet, or a later one failed
+    bool ended = true; ///< whether the host has waited for the slot's last frame
     bool stays = false;
     PassTiming timing = PassTiming::isolated;
     std::shared_ptr<CompiledRenderGraph> shape;

@@ -109,7 +109,7 @@ const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) co
 }
 
 bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const {
-    const ImageDesc& desc = find_image_desc(part, "holds()");
+    const ImageDesc& desc = find_image_desc(part, "has_image_part_content_hash()");
     check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
           "has_image_part_content_hash() of image '", desc.name, "', which is not persistent");
     bool all = true;
@@ -123,7 +123,7 @@ bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_
 }
 
 void Graph::set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash) {
-    const ImageDesc& desc = find_image_desc(part, "made_from()");
+    const ImageDesc& desc = find_image_desc(part, "set_content_hash_of_image_part()");
     check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
           "set_content_hash_of_image_part() of image '", desc.name, "', which is not persistent");
     stamped_.push_back({part, content_hash});
@@ -160,7 +160,7 @@ ImageHandle Graph::previous_contents(ImageHandle image) {
     ImageLifetime& lifetime = lives_[image.id].lifetime;
     check(lifetime == ImageLifetime::frame || lifetime == ImageLifetime::previous,
           Failure::internal, "previous_contents() of image '", desc.name, "', which is ",
-          lifetime == ImageLifetime::persistent ? "kept" : "imported", " and has one copy");
+          lifetime == ImageLifetime::persistent ? "persistent" : "imported", " and has one copy");
     lifetime = ImageLifetime::previous;
     image.previous = true;
     return image;

@@ -41,7 +41,7 @@ enum class ResourceUse {
 };
 std::string_view resource_use_name(ResourceUse use);
 
-/// Purpose of a pass. `scene` passes are the scene passes that the report counts as R.
+/// Purpose of a pass. `scene` passes are the scene passes that the seed report counts as R.
 enum class PassPurpose { none, scene };
 
 struct ImageDesc {

@@ -148,6 +148,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     const std::size_t index = slot_index_of_frame(frame_ + 1);
     FrameInFlightResources& slot = slots_[index];
     finish_frame_in_flight(slot);
+    slot.frame = 0; // the outputs of the slot's last frame may be replaced now
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
     const auto wait = [this] { finish_all_frames_in_flight(); };
@@ -239,8 +240,9 @@ FrameInFlightResources& GraphRunner::resources_of_submitted_frame(SubmittedFrame
           " is asked for, but ", frame_, " were submitted");
     FrameInFlightResources& slot = slots_[slot_index_of_frame(ticket.frame)];
     check(slot.frame == ticket.frame, Failure::internal, "frame ", ticket.frame,
-          " is gone: its place was taken by frame ", slot.frame, ", with ", slots_.size(),
-          " in flight");
+          " is gone: its place was taken by ",
+          slot.frame ? "frame " + std::to_string(slot.frame) : "a frame that failed", ", with ",
+          slots_.size(), " in flight");
     return slot;
 }
 

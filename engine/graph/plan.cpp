@@ -35,6 +35,7 @@ bool does_image_outlive_frame(ImageLifetime lifetime) {
 std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan) {
     std::uint64_t largest = 0;
     std::vector<std::uint64_t> begin(plan.heap_bytes), end(plan.heap_bytes.size()); // of outputs
+    std::vector<std::uint64_t> alignment(plan.heap_bytes.size(), 1);
     const auto add = [&](const MemoryPlacement& placement) {
         if (!placement.used) return;
         if (!placement.alone)
@@ -42,6 +43,7 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
         else if (placement.bytes > 0) {
             begin[placement.heap] = std::min(begin[placement.heap], placement.offset);
             end[placement.heap] = std::max(end[placement.heap], placement.offset + placement.bytes);
+            alignment[placement.heap] = std::max(alignment[placement.heap], placement.alignment);
         }
     };
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
@@ -51,7 +53,9 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
             add(plan.images[i]);
     for (const MemoryPlacement& buffer : plan.buffers) add(buffer);
     for (std::size_t heap = 0; heap < begin.size(); ++heap)
-        if (end[heap] > 0) largest = std::max(largest, end[heap] - begin[heap]);
+        if (end[heap] > 0)
+            largest = std::max(largest,
+                               end[heap] - begin[heap] / alignment[heap] * alignment[heap]);
     return largest;
 }
 

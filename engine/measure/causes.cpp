@@ -10,8 +10,6 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrorMaskName = "mirrors";
-
 template <double Causes::*Figure>
 MetricValue error_cause_metric_value(const Row& row) {
     return row.causes ? (*row.causes).*Figure : NAN;

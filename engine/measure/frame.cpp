@@ -105,7 +105,7 @@ const RegisteredMetric kGraphMemoryMetric{
 const RegisteredMetric kTracedFractionMetric{
     {.name = "traced_fraction",
      .help = "share of the mirror pixels that were traced because the search answered unknown",
-     .mask = "mirrors",
+     .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 220,
      .columns = {{"Traced, %", MetricValueFormat::percent, 2, MetricTableKind::lookup, 999}},

@@ -126,7 +126,8 @@ struct ReferenceNoise {
     /// rmse between the halves that the variance of each half's frames predicts, over the mirrors
     /// and not clamped; NaN for fewer than two frames a half.
     double predicted_rmse = Difference::kNone;
-    std::vector<double> view_floors; ///< error between the halves in each drawn view; NaN: unknown
+    std::vector<double>
+        view_floors; ///< noise floor of each drawn view, by the target's quantity; NaN: unknown
 
     bool is_noise_target_reached() const { return flip_floor <= wanted_floor; }
 };

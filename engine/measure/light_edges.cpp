@@ -10,7 +10,6 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrorMaskName = "mirrors";
 constexpr int kColumnOrderNextToRmse = 104; // order of columns that stand beside rmse
 
 template <double LightEdgeErrors::*Figure>

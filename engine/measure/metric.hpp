@@ -50,7 +50,7 @@ enum class BetterDirection : std::uint8_t { neither, less, more };
 /// Format of a value in a table cell.
 enum class MetricValueFormat : std::uint8_t {
     fixed,         ///< a fixed number of decimals
-    error,         ///< error: four decimals, or a power of ten if all four are 0
+    error,         ///< error: four decimals, or one digit and an exponent below .00005
     times,         ///< the median, with the decimals of the whole table
     own_times,     ///< the median with three significant digits
     time_interval, ///< the interval of the median, with 95 % confidence
@@ -74,6 +74,9 @@ struct PicturePair {
     const Mask& mask;
     std::span<const float> flip_map;
 };
+
+/// The mask of pixels that show mirrors (Metric::mask).
+inline constexpr std::string_view kMirrorMaskName = "mirrors";
 
 struct Metric {
     /// Name such as "rmse". "lookup/miss" is the field `miss` of the object `lookup` in JSON, and

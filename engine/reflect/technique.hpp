@@ -133,7 +133,8 @@ struct Technique {
     std::span<const TechniqueKnob> knobs;
     /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
-    /// Returns the scene passes R per frame as the report counts them. A cube counts once.
+    /// Returns the scene passes R per frame as the seed report counts them. A cube counts once.
+    /// Tests compare R with the planned frame.
     int (*scene_passes)(int mirrors, int lights, const TechniqueKnobSettings& settings) = nullptr;
     /// Returns the options of the captures, one per mirror and frame. Null: the technique uses no
     /// such captures. In these captures, mirrors show last frame's captures by the shader

@@ -37,7 +37,7 @@ extern const char* const kChartScript;
 inline constexpr std::string_view kChartOpening = "<div class=\"chart\">";
 
 /// Returns the anchor in the page at which the pictures of a row stand. The ids of its pictures are
-/// the anchor with "-picture" and "-causes".
+/// the anchor with "-picture", "-error" and "-causes".
 std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t row);
 
 /// Returns HTML of the comparer of the reference and the rows. The page's script fills it. Returns

@@ -32,9 +32,9 @@ void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t 
         return;
     if (is_new_layout) mirrors_.assign(world.list_mirror_objects().size(), {});
     ++changes_;
-    layout_ = world.layout_count(), epoch_ = world.static_content_hash(),
+    layout_ = world.layout_count(), static_hash_ = world.static_content_hash(),
     shadow_edge_ = shadow_edge, has_soft_shadows_ = has_soft_shadows;
-    ContentHash all(epoch_);
+    ContentHash all(static_hash_);
     for (const std::size_t mover : world.list_moving_objects())
         all.add_value(world.list_objects()[mover].content_hash);
     all_ = all.current_hash();
@@ -108,7 +108,7 @@ void ContentHashes::combine_capture_face_hashes(const VisibilityScene& world,
             });
     }
     for (std::size_t face = 0; face < 6; ++face) {
-        faces.settings[face] = ContentHash(epoch_)
+        faces.settings[face] = ContentHash(static_hash_)
                                    .add_value(own.content_hash)
                                    .add_value(mirror)
                                    .add_value(face)

@@ -19,7 +19,7 @@ inline constexpr double kSmallObjectSizeToDistanceRatio = 0x1p-12;
 inline constexpr std::size_t kMaxShadowReceiverTests = 1 << 17;
 
 /// Content hashes of the faces of captures. The hash of a face stands for:
-/// - the epoch: all objects that never moved, materials, environment and lights;
+/// - the static content hash: all objects that never moved, materials, environment and lights;
 /// - the mirror itself, because it places the capture's centre;
 /// - each mover, including mirrors, whose box and ball may meet the face;
 /// - each mover whose shadow may fall on an object in the face. If only the receiver moves, the
@@ -59,7 +59,7 @@ private:
     std::vector<ShadowReceiver> landings_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
     std::uint64_t all_ = 0;     ///< content hash of the whole scene
-    std::uint64_t epoch_ = 0, layout_ = 0;
+    std::uint64_t static_hash_ = 0, layout_ = 0;
     std::uint32_t shadow_edge_ = 0;
     bool has_soft_shadows_ = false;
     bool is_much_ = false;

@@ -11,8 +11,8 @@
 #include <vector>
 
 /// The work that a picture of a scene requires: the captures, faces and shadow maps of each mirror
-/// and light that must be rendered. For culled work the model gives the reason, the saving and the
-/// largest error. The code only computes numbers about a scene and needs no device.
+/// and light that must be rendered. For culled work the model gives the reason and the saving. The
+/// code only computes numbers about a scene and needs no device.
 namespace catoptric::require {
 
 /// Input of a model: the scene at one instant, the camera, the picture's size and the settings that

@@ -216,7 +216,7 @@ void VisibilityScene::update_static_content_hash() {
     for (const VisibilityObject& thing : things_)
         content_hash.add_value(thing.is_mover ? 0 : thing.content_hash);
     for (const scene::PointLight& light : lights_) content_hash.add_value(hash_point_light(light));
-    epoch_ = content_hash.current_hash();
+    static_hash_ = content_hash.current_hash();
 }
 
 } // namespace catoptric::require

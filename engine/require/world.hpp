@@ -50,8 +50,8 @@ struct VisibilityObject {
 };
 
 /// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
-/// from movers. Objects that never moved cannot change a capture, so one number (the epoch) covers
-/// all of them in content hashes.
+/// from movers. Objects that never moved cannot change a capture, so one hash
+/// (`static_content_hash`) covers all of them in content hashes.
 class VisibilityScene {
 public:
     /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
@@ -82,7 +82,7 @@ public:
     /// Returns the largest rounding error of a position, in world units.
     double max_position_rounding_error() const { return rounding_; }
     std::uint64_t static_content_hash() const {
-        return epoch_;
+        return static_hash_;
     } ///< content hash of all that is no mover, and of the lights
     std::uint64_t layout_count() const { return layouts_; } ///< number of calls of set_layout
     bool has_world_changed() const {
@@ -100,7 +100,7 @@ private:
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
-    std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, epoch_ = 0, layouts_ = 0;
+    std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, static_hash_ = 0, layouts_ = 0;
     std::vector<VisibilityObject> things_;
     std::vector<std::size_t> mirrors_, movers_;
     std::vector<OccluderWall> walls_;

@@ -127,7 +127,8 @@ private:
     void set_motion_track_once(std::shared_ptr<const Kept>& kept,
                                std::shared_ptr<const Kept> track) {
         if (kept)
-            context_.notes.add_note("channels of nodes that move so already, left out", place_);
+            context_.notes.add_note(
+                "animation channels for what an earlier channel moves, left out", place_);
         else
             kept = std::move(track);
     }
@@ -151,12 +152,11 @@ std::optional<std::size_t> choose_animation(const GltfReadContext& context) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].name == name) return i;
         names.push_back(all[i].name);
-        list += ", " + quote_text_with_escapes(all[i].name);
+        list += (list.empty() ? " or one of " : ", ") + quote_text_with_escapes(all[i].name);
     }
     const SettingOrigin& by = context.options.animation_by;
     fail(by.failure, by.where, ": ", context.document.file, " has no animation ",
-         quote_text_with_escapes(name), ": wanted one of none", list,
-         suggest_nearest_name(name, names));
+         quote_text_with_escapes(name), ": wanted none", list, suggest_nearest_name(name, names));
 }
 
 } // namespace

@@ -80,7 +80,7 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
                                                 place + ": targets: " + name,
                                                 GltfReadContext::AllowedAccessorIntegers::quantised)
                                         .count,
-                                    count, "morphed ones", place + ": targets");
+                                    count, "morph target values", place + ": targets");
 }
 
 } // namespace

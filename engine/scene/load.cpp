@@ -32,7 +32,7 @@ Scene classify_scene_mirrors(Scene scene) {
 void check_no_animation_chosen(const std::string& scene, const SceneFileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ",
-          quote_text_with_escapes(options.animation), ": wanted one of none");
+          quote_text_with_escapes(options.animation), ": wanted none");
 }
 
 [[noreturn]] void fail_unknown_scene(const std::string& word) {

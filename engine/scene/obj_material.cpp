@@ -163,7 +163,7 @@ void add_mtl_statement(MtlLibrary& library, const ObjLine& line, UnreadStatement
         context.notes.add_note("statements before the first newmtl, left out",
                                line.describe_line_place());
     } else if (!add_statement_to_mtl_material(line, library.drafts.back())) {
-        // Maps that are not used are listed with the material (add_map_to_mtl_material).
+        // A map_d that is not used is listed with its material (set_mtl_transparency).
         constexpr std::string_view kKnownStatements[] = {"Ka", "map_Kd", "map_d", "norm"};
         if (std::ranges::find(kKnownStatements, line.keyword) == std::end(kKnownStatements))
             unread.count_statement(line);
@@ -265,6 +265,7 @@ private:
                               (alpha < 1 && mtl_material_.ior.value_or(1) > 1.01);
         if (is_glass) {
             is_glass_ = true;
+            if (mtl_material_.cut) report_unsupported_feature("material-extension");
             return report_unsupported_feature("glass-approximated"),
                    report_unsupported_feature("glass-shadow");
         }

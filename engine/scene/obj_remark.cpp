@@ -18,7 +18,7 @@ dvec3 parse_vector_at(const std::vector<double>& list, std::size_t first) {
 }
 
 Camera parse_camera_comment(const ObjLine& line, const CommentWordList& words) {
-    const bool is_orthographic = words.size() > 11;
+    const bool is_orthographic = words.size() > 11; // a further word is the picture's height
     const std::vector<double> n = parse_word_numbers(line, words, 1, is_orthographic ? 11 : 10);
     const Camera camera{.name = std::string(words[0]),
                         .eye = parse_vector_at(n, 0),

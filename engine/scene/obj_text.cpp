@@ -131,8 +131,8 @@ std::uint32_t parse_obj_index(const ObjLine& line, std::string_view digits, std:
         fail(Failure::bad_data, line.describe_line_place(),
              ": face wants an index other than 0, found ", quote_text_with_escapes(digits));
     if (value < 0 && std::uint64_t(0) - std::uint64_t(value) > so_far)
-        fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", so_far,
-             " vertices so far, found ", value);
+        fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", so_far, " ",
+             what, " so far, found ", value);
     if (value > 0 && std::uint64_t(value) > count)
         fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", count, " ",
              what, ", found ", value);
@@ -143,7 +143,7 @@ std::uint32_t parse_obj_index(const ObjLine& line, std::string_view digits, std:
 ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     ObjCorner corner{parse_obj_index(line, word.substr(0, slash), positions_,
-                                     text_.positions.size(), "positions"),
+                                     text_.positions.size(), "vertices"),
                      kMissingObjIndex, kMissingObjIndex};
     if (last != slash && last + 1 != word.size())
         corner.normal = parse_obj_index(line, word.substr(last + 1), normals_, text_.normals.size(),

@@ -230,7 +230,7 @@ void check_override_patterns(const Scene& scene, const SceneOverrides& overrides
         find_emitters_by_pattern(scene, {file + ": lights", Failure::bad_data}, pattern);
 }
 
-void apply_edit(Scene& scene, const SceneOverrides& overrides) {
+void apply_overrides(Scene& scene, const SceneOverrides& overrides) {
     if (overrides.up == UpAxis::z) turn_z_up_to_y_up(scene);
     for (const MirrorOverride& wish : overrides.mirrors) apply_mirror_override(scene, wish);
     for (const std::string& pattern : overrides.lights) make_objects_light_scene(scene, pattern);

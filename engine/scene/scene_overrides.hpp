@@ -78,7 +78,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
 std::string make_mirror_pattern(const std::string& name);
 
 /// Checks the patterns of mirrors and lights that come from a file. Throws `bad_data`, naming file
-/// and key, for a pattern that `apply_edit` would not accept.
+/// and key, for a pattern that `apply_overrides` would not accept.
 void check_override_patterns(const Scene& scene, const SceneOverrides& overrides,
                              const std::string& file);
 
@@ -86,7 +86,7 @@ void check_override_patterns(const Scene& scene, const SceneOverrides& overrides
 /// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to
 /// session/resolved_scene.hpp. Throws `usage`, with the nearest names, for a pattern without a
 /// match, or a mirror rougher than the scene's mirrors may be.
-void apply_edit(Scene& scene, const SceneOverrides& overrides);
+void apply_overrides(Scene& scene, const SceneOverrides& overrides);
 
 /// Turns a scene from +z up to +y up: (x, y, z) becomes (x, z, -y), exactly.
 void turn_z_up_to_y_up(Scene& scene);

@@ -185,7 +185,7 @@ void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& s
     scene::Scene& scene = wanted.scene;
     const std::string file = filed ? filed->path.string() : "";
     if (filed) scene::check_override_patterns(scene, filed->overrides, file);
-    scene::apply_edit(scene, wanted.overrides);
+    scene::apply_overrides(scene, wanted.overrides);
     // Finds the camera before `copy_camera_and_exposure` changes the order of cameras, because an
     // index counts in the scene's own order.
     std::optional<scene::Camera> camera;

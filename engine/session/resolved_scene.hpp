@@ -35,8 +35,8 @@ struct SceneResolveOptions {
 /// Loads a scene, reads SCENE.catoptric.json beside it, applies all overrides and completes the
 /// scene. Keeps at most 16 lights of a scene file. A scene without a light gets the environment
 /// `studio` (gap "added-studio"), unless the user says something about it. Throws as scene::load,
-/// scene::read_scene_file, scene::apply_edit and scene::find_camera_by_name do, and `bad_data` for
-/// a picture that cannot be an environment.
+/// scene::read_scene_file, scene::apply_overrides and scene::find_camera_by_name do, and `bad_data`
+/// for a picture that cannot be an environment.
 ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOptions& options);
 
 /// Returns the ambient light: the user's value, else 0 with an environment and .05 without.

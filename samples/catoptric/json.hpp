@@ -17,8 +17,7 @@ struct PictureDiffFacts {
     std::string a, b, mask;
     uvec2 size{0, 0};
     double exposure = 0;
-    std::string flip_source; ///< values that FLIP compares: "float" or "8-bit" (measure/flip.hpp),
-                             ///< see measure/flip.hpp
+    std::string flip_source; ///< values that FLIP compares: "float" or "8-bit" (measure/flip.hpp)
     measure::Difference difference;
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words

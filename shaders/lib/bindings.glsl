@@ -37,8 +37,8 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define GLASS_DEPTHS_BINDING 37  // optical depths of glass (lib/shadow.glsl)
 #define SHADOW_DEPTHS_BINDING 38 // the shadow map without comparison (lib/soft_shadow.glsl, glass_shadow.frag)
 #define GLASS_BACKS_BINDING 39   // back faces of glass in the camera's view (lib/refraction.glsl)
-// Bindings 20 to 27 belong to techniques and single passes. lib/environment.glsl uses the bindings 28 and 29, and
-// lib/material.glsl these:
+// Bindings 20 to 27 belong to techniques and single passes, and 28 and 29 to lib/environment.glsl. lib/material.glsl uses
+// the bindings 40 to 42:
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41
 #define TEXELS_BINDING 42

@@ -11,8 +11,10 @@ using namespace catoptric;
 
 TEST(Device, UnknownIndexIsRefusedWithTheNumberOfDevices) {
     const std::size_t count = gpu::list_devices().size();
-    test::expect_error([] { gpu::GpuDevice device({.wanted = "99"}); }, Failure::usage,
-                       {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
+    for (const std::string wanted : {"99", std::to_string(count).c_str()})
+        test::expect_error(
+            [&] { gpu::GpuDevice device({.wanted = wanted}); }, Failure::usage,
+            {"no device '" + wanted + "'", "there are " + std::to_string(count), "counted from 0"});
 }
 
 TEST(Device, UnknownNameIsRefusedWithTheNearestName) {

@@ -189,6 +189,24 @@ TEST(Imported, ImageWithoutASourceIsRefused) {
                  {"image 'cubes' is imported from nowhere"});
 }
 
+TEST(Imported, ImageOfAnotherSizeIsRefused) {
+    auto& [device, pipelines] = test::get_test_device();
+    graph::GraphRunner runner(device, pipelines);
+    graph::Graph graph;
+    graph::ImageDesc desc = kDesc;
+    desc.height *= 2;
+    const graph::ImageWithMemory owned = graph::make_importable_image(device, desc);
+    graph::PhysicalImage outside = graph::wrap_external_image(desc, owned.image.image);
+    const graph::ImageHandle image = graph.import_external_resource(kDesc, &outside, std::nullopt,
+                                                                    ResourceUse::sampled);
+    add_start_pass(graph, image, 1);
+    const auto size = [](const graph::ImageDesc& of) {
+        return std::to_string(of.width) + "x" + std::to_string(of.height);
+    };
+    expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
+                 {"image 'cubes' is imported as ", size(kDesc), ", found ", size(desc)});
+}
+
 TEST(Mips, EachMipIsComputedFromTheOneBefore) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     for (int frame = 0; frame < 2; ++frame) {

@@ -41,26 +41,43 @@ TEST(Previous, HistoryBelongsToItsRunner) {
     }
 }
 
-/// A frame that fails may have replaced images of the frame before.
-TEST(Previous, ReplacedImageIsNotReadBack) {
-    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
-    graph::Graph graph(runner.make_history());
-    const graph::ImageHandle image = add_step_image(graph, "kept");
-    add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
-    graph.mark_as_graph_output(image);
-    test::run_graph(runner, graph);
+/// A frame that fails may have replaced images of the frame before. Outputs of the frame before
+/// stay if they lie in another slot.
+TEST(Previous, ImagesThatAFailedFrameReplacedAreNotReadBack) {
+    for (const std::uint32_t in_flight : {1, 2}) {
+        graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines,
+                                  in_flight);
+        graph::Graph graph(runner.make_history());
+        const graph::ImageHandle image = add_step_image(graph, "kept"),
+                                 plain = add_step_image(graph, "plain");
+        add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
+        add_start_pass(graph, plain, 3);
+        graph.mark_as_graph_output(image), graph.mark_as_graph_output(plain);
+        test::run_graph(runner, graph);
 
-    graph::Graph other(runner.make_history());
-    const graph::ImageHandle larger = other.add_image(
-        {"kept", TexelFormat::r32f, 2 * kStepImageWidth, kHeight});
-    other.add_pass("step")
-        .reads(other.previous_contents(larger), graph::ResourceUse::sampled)
-        .writes(larger, graph::ResourceUse::storage_write)
-        .record([](graph::PassCommands&) { throw std::runtime_error("no commands"); });
-    other.mark_as_graph_output(larger);
-    EXPECT_THROW(test::run_graph(runner, other), std::runtime_error);
-    test::expect_error([&] { runner.read_back_resource(image); }, Failure::internal,
-                       {"image 'kept' is read after"});
+        graph::Graph other(runner.make_history());
+        const graph::ImageHandle larger = other.add_image(
+            {"kept", TexelFormat::r32f, 2 * kStepImageWidth, kHeight});
+        const graph::ImageHandle output = other.add_image(
+            {"output", TexelFormat::r32f, 8 * kStepImageWidth, kHeight});
+        other.add_pass("step")
+            .reads(other.previous_contents(larger), graph::ResourceUse::sampled)
+            .writes(larger, graph::ResourceUse::storage_write)
+            .writes(output, graph::ResourceUse::storage_write)
+            .record([](graph::PassCommands&) { throw std::runtime_error("no commands"); });
+        other.mark_as_graph_output(larger), other.mark_as_graph_output(output);
+        EXPECT_THROW(test::run_graph(runner, other), std::runtime_error);
+        test::expect_error([&] { runner.read_back_resource(image); }, Failure::internal,
+                           {in_flight == 1 ? "frame 1 is gone: its place was taken by a frame that "
+                                             "failed"
+                                           : "image 'kept' is read after it was released"});
+        if (in_flight == 2) {
+            EXPECT_EQ(test::read_resource_values<float>(runner, plain),
+                      test::expected_start_texels(3));
+        }
+        test::run_graph(runner, graph); // the runner goes on
+        EXPECT_EQ(test::read_resource_values<float>(runner, plain), test::expected_start_texels(3));
+    }
 }
 
 TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {

@@ -252,11 +252,11 @@ TEST(GlassShadow, OverrideSetsTheSceneAndItsGap) {
     scene.unsupported.push_back(
         {.id = "glass-shadow", .count = 1, .first = "pane", .materials = {}});
     scene::SceneOverrides overrides;
-    scene::apply_edit(scene, overrides);
+    scene::apply_overrides(scene, overrides);
     EXPECT_FALSE(scene.tints_glass_shadows);
     EXPECT_EQ(scene.unsupported.front().id, "glass-shadow");
     overrides.tints_glass_shadows = true;
-    scene::apply_edit(scene, overrides);
+    scene::apply_overrides(scene, overrides);
     EXPECT_TRUE(scene.tints_glass_shadows);
     EXPECT_EQ(scene.unsupported.front().id, "glass-shadow-straight");
 }

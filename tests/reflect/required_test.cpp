@@ -173,8 +173,6 @@ TEST(RequiredFrames, StillSceneNeedsOnlyViewAndCompose) {
     EXPECT_EQ(pair.render_next_frame(), kSettledPassNames) << "captures are not the camera's";
 }
 
-// The first mirror is out of sight and has no capture. The options of the captures must come from a
-// mirror that has one.
 /// The filtered levels of a rough mirror show light from all around, also from behind its plane.
 TEST(RequiredFrames, RoughFlatMirrorsKeepTheirPictures) {
     for (const char* technique : {"reuse:face=16", "secant:face=16"}) {
@@ -189,6 +187,8 @@ TEST(RequiredFrames, RoughFlatMirrorsKeepTheirPictures) {
     }
 }
 
+/// The first mirror is out of sight and has no capture. The options of the captures must come from
+/// a mirror that has one.
 TEST(RequiredFrames, FirstMirrorNeedsNoCapture) {
     scene::Scene scene = test::make_mirror_hall();
     test::add_ball(scene, "outside", scene.objects.back().material, {9, 0, 0}, .5, 2);

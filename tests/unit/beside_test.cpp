@@ -168,7 +168,7 @@ TEST_F(Beside, MissingSceneItemErrorsNameFileAndKey) {
                  {R"({"camera": "d"})", "camera: scene 'x' has no camera 'd'"},
                  {R"({"camera": ""})", "camera: scene 'x' has no camera ''"},
                  {R"({"camera": "1,2:0,0,0:30"})", "camera: wanted a point X,Y,Z, found '1,2'"},
-                 {R"({"animation": "walk"})", "x.obj has no animation 'walk': wanted one of none"},
+                 {R"({"animation": "walk"})", "x.obj has no animation 'walk': wanted none"},
                  {R"({"environment": "none", "environment_scale": 2})",
                   "environment_scale: wanted an environment, found none; say \"environment\""}};
     for (const auto& [text, wanted] : cases) {
@@ -192,7 +192,7 @@ TEST_F(Beside, AnimationNameIsRefusedForAFileWithoutAnimations) {
         EXPECT_THAT(
             test::catch_error_text(Failure::usage,
                                    [&] { app::load_resolved_scene(scene, {.overrides = walk}); }),
-            HasSubstr("--animation: " + scene + " has no animation 'walk': wanted one of none"));
+            HasSubstr("--animation: " + scene + " has no animation 'walk': wanted none"));
     walk.animation = "none";
     EXPECT_NO_THROW(app::load_resolved_scene(path, {.overrides = walk}));
 }

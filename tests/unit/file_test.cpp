@@ -82,14 +82,14 @@ TEST_F(File, PartialFilesOfEndedProcessesAreRemoved) {
     ::waitpid(dead, nullptr, 0);
     const std::string stale = "x.partial-" + std::to_string(dead); // of a process that ended
     for (const std::string& name :
-         {stale, stale + "-1", "x.partial-" + std::to_string(::getppid()) + "-1",
+         {stale, stale + "-1", stale + "-keep", "x.partial-" + std::to_string(::getppid()) + "-1",
           std::string("x.partial-1k"), std::string("y.partial-") + std::to_string(dead)})
         std::ofstream(folder / name) << "part";
     catoptric::write_file(folder / "x", "whole");
     EXPECT_FALSE(fs::exists(folder / stale));
     EXPECT_FALSE(fs::exists(folder / (stale + "-1")));
-    EXPECT_EQ(count_folder_entries(), 4)
-        << "x, a living process's, no process's, and another file's";
+    EXPECT_EQ(count_folder_entries(), 5)
+        << "x, a living process's, two that are no temporaries, and another file's";
 }
 
 /// Several engines of one process may write the same file, such as a cache, each in its thread.

@@ -67,8 +67,8 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
 
 TEST(MirrorOverride, RoughMirrorIsAMetal) {
     Scene scene = make_override_test_scene();
-    apply_edit(scene,
-               {.mirrors = {{"table top", vec3(.9f, .8f, .7f), .3f}}, .mirror_max_roughness = .6});
+    apply_overrides(
+        scene, {.mirrors = {{"table top", vec3(.9f, .8f, .7f), .3f}}, .mirror_max_roughness = .6});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
     const Material& material = scene.materials[scene.objects[0].material];
     EXPECT_FALSE(material.mirror);
@@ -78,8 +78,8 @@ TEST(MirrorOverride, RoughMirrorIsAMetal) {
     Scene other = make_override_test_scene();
     EXPECT_THAT(test::catch_error_text(Failure::usage,
                                        [&] {
-                                           apply_edit(other,
-                                                      {.mirrors = {{"table top", vec3(1), .7f}},
+                                           apply_overrides(
+                                               other, {.mirrors = {{"table top", vec3(1), .7f}},
                                                        .mirror_max_roughness = .6});
                                        }),
                 HasSubstr("--mirror 'table top': wanted a roughness of at most 0.6, above which no "
@@ -88,7 +88,7 @@ TEST(MirrorOverride, RoughMirrorIsAMetal) {
 
 TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {
     Scene scene = make_override_test_scene();
-    apply_edit(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
+    apply_overrides(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
     const Material mirror{.name = "wood", .mirror = true, .reflectance = {1, .5f, .25f}};
     EXPECT_EQ(material_of_object(scene, 0), mirror) << "the rest of the surface is dropped";
@@ -99,7 +99,7 @@ TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {
 TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
     const auto made = [](const std::string& pattern) {
         Scene scene = make_override_test_scene();
-        apply_edit(scene, {.mirrors = {{pattern, vec3(1)}}});
+        apply_overrides(scene, {.mirrors = {{pattern, vec3(1)}}});
         return mirrors(scene);
     };
     EXPECT_THAT(made("table*"), ElementsAre(0u, 1u));
@@ -120,8 +120,8 @@ TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
 
 TEST(MirrorOverride, LaterMirrorOverrideWins) {
     Scene scene = make_override_test_scene();
-    apply_edit(scene, combine_overrides({.mirrors = {{"wood", vec3(.5f)}}},
-                                        {.mirrors = {{"table*", vec3(.1f)}}}));
+    apply_overrides(scene, combine_overrides({.mirrors = {{"wood", vec3(.5f)}}},
+                                             {.mirrors = {{"table*", vec3(.1f)}}}));
     EXPECT_EQ(material_of_object(scene, 0).reflectance, vec3(.5f));
 }
 
@@ -147,7 +147,7 @@ TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
                             "--mirror 'it'\\''s a \\* \\[1]=2=1'"));
     const MirrorOverride wish = read_mirror_override("--mirror",
                                                      make_mirror_pattern(scene.objects[1].name));
-    apply_edit(scene, {.mirrors = {wish}});
+    apply_overrides(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
     // Names that hold the texts of options.
     for (const std::string name : {"a,roughness=.5", "a=.5,roughness=.5", "a=1,1,1"}) {
@@ -168,16 +168,16 @@ TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
     half.image = std::make_shared<Image>(Image{"i", {2, 1}, {0xff0000ffu, 0xff000000u}});
     scene.materials[0].emission_texture = half;
     EXPECT_EQ(list_lights(scene).size(), 1u);
-    apply_edit(scene, {.lights = {"table top"}});
+    apply_overrides(scene, {.lights = {"table top"}});
     EXPECT_EQ(material_of_object(scene, 0).light, vec3(.125f, 0, 0));
     EXPECT_EQ(material_of_object(scene, 1).light, std::nullopt);
     EXPECT_EQ(list_lights(scene).size(), 2u);
-    EXPECT_THAT(
-        test::catch_error_text(Failure::usage, [&] { apply_edit(scene, {.lights = {"frame"}}); }),
-        HasSubstr("--light 'frame': wanted something that emits light"));
-    EXPECT_THAT(
-        test::catch_error_text(Failure::usage, [&] { apply_edit(scene, {.lights = {"lmap"}}); }),
-        HasSubstr("did you mean 'lamp'"));
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [&] { apply_overrides(scene, {.lights = {"frame"}}); }),
+                HasSubstr("--light 'frame': wanted something that emits light"));
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [&] { apply_overrides(scene, {.lights = {"lmap"}}); }),
+                HasSubstr("did you mean 'lamp'"));
 }
 
 TEST(TurnZUp, TurnZUpMapsZToYExactly) {
@@ -187,7 +187,7 @@ TEST(TurnZUp, TurnZUpMapsZToYExactly) {
     scene.objects[3].motion = HarmonicMotion{.amplitude = {1, 2, 3}};
     const dvec3 centre = bounds(scene, scene.objects[1]).centre();
     const dvec3 before = scene_at_time(scene, .25).objects[3].sphere->centre;
-    apply_edit(scene, {.up = UpAxis::z});
+    apply_overrides(scene, {.up = UpAxis::z});
     EXPECT_EQ(scene.cameras[0].eye, dvec3(1, 3, -2));
     EXPECT_EQ(scene.cameras[0].up, dvec3(0, 1, 0));
     EXPECT_EQ(bounds(scene, scene.objects[1]).centre(), dvec3(centre.x, centre.z, -centre.y));
@@ -210,7 +210,7 @@ TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
     scene.cameras = {{.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}, .follows = follows}};
     const Scene turned = [&] {
         Scene copy = scene;
-        apply_edit(copy, {.up = UpAxis::z});
+        apply_overrides(copy, {.up = UpAxis::z});
         return copy;
     }();
     for (const double seconds : {0.0, .5, 1.0}) {

@@ -95,8 +95,8 @@ INLINE real studio_radiance(vec3 d) {
     return grey + real(6) * (real(1) - smoothstep(real(18), real(22), x)) * (real(1) - smoothstep(real(10.5), real(14.5), y));
 }
 
-// Returns the irradiance on a surface with unit normal `n`, from the nine coefficients of scene::compute_irradiance_coefficients
-// (Ramamoorthi and Hanrahan 2001). The coefficients include the constant factors of the spherical harmonics.
+// Returns the irradiance on a surface with unit normal `n`, from the nine coefficients of
+// scene::compute_irradiance_coefficients (Ramamoorthi and Hanrahan 2001). The coefficients include the constant factors of the spherical harmonics.
 INLINE vec3 irradiance_from_harmonics(vec3 of[9], vec3 n) {
     vec3 sum = of[0] + n.y * of[1] + n.z * of[2] + n.x * of[3] + n.x * n.y * of[4] + n.y * n.z * of[5] +
                (real(3) * n.z * n.z - real(1)) * of[6] + n.x * n.z * of[7] + (n.x * n.x - n.y * n.y) * of[8];
