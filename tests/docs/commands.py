@@ -47,7 +47,7 @@ CAMERA_KEYS = '{"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"time": 0.05,
 # What the commands of this test begin with.
 STARTS = r"(catoptric|cat|for|mkdir|export|xdg-open|oiiotool) "
 # Lines that programs print, in blocks that show a command's output.
-PRINTED = r"(worse|unknown|baseline): |captures: at most \d|mirror that it is seen by"
+PRINTED = r"(worse|unknown|baseline): |captures: at most \d|mirror on the light's path"
 
 
 def fail(*words):
