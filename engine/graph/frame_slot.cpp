@@ -47,6 +47,10 @@ FrameInFlightResources::FrameInFlightResources(const gpu::GpuDevice& device)
         "allocate a command buffer");
 }
 
+void FrameInFlightResources::reset_commands() {
+    gpu::throw_unless_vk_success(vkResetCommandBuffer(commands, 0), "reset a command buffer");
+}
+
 void FrameInFlightResources::reset(std::uint32_t stamps) {
     if (query_count_ < stamps) {
         VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};

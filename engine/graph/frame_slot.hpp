@@ -15,6 +15,9 @@ namespace catoptric::graph {
 class FrameInFlightResources {
 public:
     explicit FrameInFlightResources(const gpu::GpuDevice& device);
+    /// Empties the command buffer. A frame that failed has left it unfinished, with commands that
+    /// use resources which the next frame may destroy.
+    void reset_commands();
     /// Empties the descriptor pools and makes room for `stamps` timestamps.
     void reset(std::uint32_t stamps);
     VkDescriptorSet allocate_descriptor_set(VkDescriptorSetLayout layout);

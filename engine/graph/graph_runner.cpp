@@ -149,6 +149,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     FrameInFlightResources& slot = slots_[index];
     finish_frame_in_flight(slot);
     slot.frame = 0; // the outputs of the slot's last frame may be replaced now
+    slot.reset_commands();
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
     const auto wait = [this] { finish_all_frames_in_flight(); };

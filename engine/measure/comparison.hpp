@@ -146,8 +146,7 @@ struct Row : Errors {
     /// that was cut short has fewer entries.
     std::vector<Errors> views;
     std::shared_ptr<WorstView> worst; ///< see measure/views.hpp; null if no view was judged
-    std::shared_ptr<Studied>
-        studied; ///< results of studies without a member of their own; may be null
+    std::shared_ptr<Studied> studied; ///< other results of studies; may be null
     Mean mean, mean_clamped;
     int pictured = 0; ///< frame, from 1, whose picture and errors are given; later ones are equal
     Picture hdr;      ///< the row's picture, linear RGB
@@ -184,8 +183,7 @@ struct Comparison {
     Picture reference_hdr, reference_display;
     /// First mirror of each pixel in the low 16 bits, 0 for none (measure/masks.hpp).
     std::vector<std::uint32_t> mirror_hits;
-    double reference_area_flip = NAN;      ///< FLIP over the mirrors between the reference with one
-                                           ///< sample and with many samples a pixel; NaN: unknown
+    double reference_area_flip = NAN;      ///< FLIP of 1 sample a pixel from many, over mirrors
     std::shared_ptr<ReferenceNoise> noise; ///< see measure/halves.hpp; null: no noise
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<SampleSummary> clear_ms;

@@ -168,7 +168,7 @@ TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(),
-                     "previous_contents() of image 'cubes', which is kept and has one copy");
+                     "previous_contents() of image 'cubes', which is persistent and has one copy");
     }
     try {
         v.g.set_content_hash_of_image_part(v.out, 1);

@@ -445,7 +445,7 @@ TEST_F(LoadRefusalTest, ObjFacesOfInvalidIndicesOrSizesAreRefused) {
     EXPECT_THAT(load_error_text("e.obj", kTriangle + "vn 0 0 1\nf 1//1 2//1 3//4294967295\n"),
                 HasSubstr("one of 1 normals"));
     EXPECT_THAT(load_error_text("f.obj", kTriangle + "f 1 2 3\\\n \\\n 9\n"),
-                HasSubstr("f.obj:4: face wants one of 3 positions, found 9"));
+                HasSubstr("f.obj:4: face wants one of 3 vertices, found 9"));
     EXPECT_THAT(load_error_text("g.obj", "v 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 2 3\n"),
                 HasSubstr("up to 1e150, found an overflow"));
     EXPECT_THAT(load_error_text("h.obj", "v 1e-200 0 0\nv 0 1e-200 0\nv 0 0 1e-200\nf 1 2 3\n"),

@@ -325,7 +325,7 @@ TEST_F(Load, ObjMirrorsAreObjectsWithAMirrorMaterial) {
 
 TEST_F(Load, ObjErrorsNameLineExpectedAndFound) {
     EXPECT_THAT(load_error_text("a.obj", kTriangle + "f 1 2 4\n"),
-                AllOf(HasSubstr("a.obj:4"), HasSubstr("one of 3 positions"), HasSubstr("found 4")));
+                AllOf(HasSubstr("a.obj:4"), HasSubstr("one of 3 vertices"), HasSubstr("found 4")));
     EXPECT_THAT(load_error_text("b.obj", kTriangle + "f 1 2 -4\n"), HasSubstr("found -4"));
     EXPECT_THAT(load_error_text("c.obj", kTriangle + "f 0 1 2\n"), HasSubstr("found '0'"));
     EXPECT_THAT(load_error_text("d.obj", kTriangle + "f 1//1 2//1 3//1\n"), HasSubstr("0 normals"));
