@@ -207,8 +207,9 @@ PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
     const bool fits = found.format == wanted.format && found.width == wanted.width &&
                       found.height == wanted.height && found.layers == wanted.layers &&
                       found.mips == wanted.mips;
-    check(fits, Failure::internal, "image '", wanted.name, "' is imported as ",
-          describe_image_shape(wanted), ", found ", describe_image_shape(found));
+    if (!fits)
+        fail(Failure::internal, "image '", wanted.name, "' is imported as ",
+             describe_image_shape(wanted), ", found ", describe_image_shape(found));
     return *outside;
 }
 
