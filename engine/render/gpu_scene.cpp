@@ -224,7 +224,7 @@ void GpuScene::fill_lamp_table() const {
 /// has an object space.
 void GpuScene::fill_instance_placement_table() {
     std::vector<shared::Placement> placements(has_object_spaces_ ? geometry_.ranges.size() : 1);
-    for (std::size_t i = 0; i < placements.size(); ++i) {
+    for (std::size_t i = 0; has_object_spaces_ && i < placements.size(); ++i) {
         const std::optional<ObjectSpace>& own = geometry_.ranges[i].own;
         if (!own) continue;
         const dmat3& axes = own->scene_from_own;

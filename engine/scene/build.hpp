@@ -57,7 +57,12 @@ struct MaterialEdit {
     Material value;
 };
 
-using Edit = std::variant<PlacementEdit, ObjectMaterialEdit, MaterialEdit>;
+/// Edit that removes an object. Later objects and mirrors move up by one. History is discarded.
+struct RemovalEdit {
+    std::size_t object = 0;
+};
+
+using Edit = std::variant<PlacementEdit, ObjectMaterialEdit, MaterialEdit, RemovalEdit>;
 
 inline Edit move(std::size_t object, const dmat4& world_from_object) {
     return PlacementEdit{object, world_from_object};
@@ -68,9 +73,11 @@ inline Edit paint(std::size_t object, std::size_t material) {
 inline Edit set_material(std::size_t material, Material value) {
     return MaterialEdit{material, std::move(value)};
 }
+inline Edit remove(std::size_t object) { return RemovalEdit{object}; }
 
 /// Applies an edit. Throws `Failure::usage` for an index out of range, or for a transform that is
-/// not finite, affine and invertible. The scene is then unchanged.
+/// not finite, affine and invertible, and as check_scene does for a material. The scene is then
+/// unchanged.
 CATOPTRIC_API void apply_edit(Scene& scene, const Edit& edit);
 
 } // namespace catoptric::scene

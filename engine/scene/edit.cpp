@@ -1,6 +1,7 @@
 #include "scene/build.hpp"
 
 #include "core/error.hpp"
+#include "scene/check.hpp"
 #include "scene/moved_sphere.hpp"
 
 #include <cmath>
@@ -39,7 +40,13 @@ void apply_edit(Scene& scene, const ObjectMaterialEdit& edit) {
 
 void apply_edit(Scene& scene, const MaterialEdit& edit) {
     check_edit_index("material", edit.material, scene.materials.size());
+    check_material(scene, edit.material, edit.value);
     scene.materials[edit.material] = edit.value;
+}
+
+void apply_edit(Scene& scene, const RemovalEdit& edit) {
+    check_edit_index("object", edit.object, scene.objects.size());
+    scene.objects.erase(scene.objects.begin() + static_cast<std::ptrdiff_t>(edit.object));
 }
 
 } // namespace

@@ -248,6 +248,7 @@ void GltfWriter::use(const std::string& extension) {
 } // namespace gltf
 
 void save_glb(const Scene& scene, const std::filesystem::path& path) {
+    check_scene(scene);
     gltf::GltfWriter writer{.scene = scene};
     tinygltf::Model& model = writer.model;
     model.asset.version = "2.0", model.asset.generator = "catoptric";

@@ -140,6 +140,7 @@ std::string format_material_library(const std::vector<Material>& materials,
 } // namespace
 
 void save_obj(const Scene& scene, const std::filesystem::path& path) {
+    check_scene(scene);
     const std::vector<std::string> object_names = make_unique_words(scene.objects, "object");
     const std::vector<std::string> material_names = make_unique_words(scene.materials, "material");
     const std::vector<std::string> camera_names = make_unique_words(scene.cameras, "camera");

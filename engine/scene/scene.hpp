@@ -162,6 +162,14 @@ struct Scene {
     std::vector<std::filesystem::path> files;
 };
 
+/// Throws `Failure::bad_data`, with the place and what was found, unless every index names an
+/// entry, each mesh has a unit normal for each position, each texture has its image, each motion
+/// has its keys, and all numbers are finite and in the ranges given above. Scenes of files pass.
+/// Sessions, comparisons and savers check each scene that they get; the other functions of this
+/// folder trust it. A scene may be empty. Costs O(vertices + triangles + texels of the
+/// environment).
+CATOPTRIC_API void check_scene(const Scene& scene);
+
 /// Returns the scene `seconds` after its start. Every motion is applied to transforms, exact
 /// spheres, cameras and lights without a surface, and none is left. Pure. Throws `Failure::usage`
 /// for a time that is not finite.

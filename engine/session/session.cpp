@@ -5,12 +5,14 @@
 #include "core/stopwatch.hpp"
 #include "graph/dump.hpp"
 #include "require/model.hpp"
+#include "scene/check.hpp"
 #include "scene/pose.hpp"
 #include "session/access.hpp"
 #include "session/plan_file.hpp"
 #include "session/resolve_auto.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace catoptric::app {
@@ -35,6 +37,12 @@ void check_frame_spec(const FrameSpec& spec) {
     check_capture_limit(spec);
     check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
           spec.size.x, "x", spec.size.y);
+    // The comparison is written so that NaN fails.
+    check(spec.ambient >= 0 && std::isfinite(spec.ambient), Failure::usage,
+          "ambient: wanted a finite number of at least 0, found ", spec.ambient);
+    check(std::isfinite(spec.exposure), Failure::usage,
+          "exposure: wanted a finite number of stops, found ", spec.exposure);
+    scene::check_camera(spec.camera, "frame", Failure::usage);
 }
 
 } // namespace
@@ -221,8 +229,9 @@ void Session::change(const scene::Edit& edit) {
     Impl& self = *impl_;
     scene::Scene edited = self.scene;
     scene::apply_edit(edited, edit);
-    // If the units of the edited scene are unchanged, resident data and history stay.
-    if (render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
+    // If objects and units of the edited scene are unchanged, resident data and history stay.
+    const bool removes = edited.objects.size() != self.scene.objects.size();
+    if (removes || render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
         auto made = std::make_unique<render::GpuScene>(self.engine_impl.device, edited,
                                                        self.read_by.size());
         self.runner.discard_persistent_image_contents(); // waits for frames in flight; captured
@@ -231,6 +240,7 @@ void Session::change(const scene::Edit& edit) {
         self.resident = std::move(made);
         ++self.units;
     }
+    if (removes) self.requirements.reset();
     self.scene = std::move(edited);
     self.moved.reset();
     self.mirrors = list_mirror_names(self.scene);

@@ -156,7 +156,8 @@ private:
 class Session {
 public:
     /// `scene`: at rest. `in_flight`: number of frames, 1 to 3, that may be under way before the
-    /// oldest is waited for. Throws `exhausted` if the scene exceeds the device's limits.
+    /// oldest is waited for. Throws `exhausted` if the scene exceeds the device's limits, and as
+    /// scene::check_scene does. A session without objects shows the environment.
     CATOPTRIC_API Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight = 1);
     CATOPTRIC_API ~Session();
     Session(const Session&) = delete;

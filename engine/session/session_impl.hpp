@@ -31,7 +31,7 @@ struct DeviceSceneKey {
 
 struct Session::Impl {
     Impl(Access::EngineImpl& shared, scene::Scene at_rest, std::uint32_t in_flight)
-        : engine_impl(shared), scene(std::move(at_rest)),
+        : engine_impl(shared), scene((scene::check_scene(at_rest), std::move(at_rest))),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
           comparisons(shared.device,
                       [this](std::uint64_t frame) { return runner.has_ended({frame}); }),

@@ -152,6 +152,7 @@ Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan
 }
 
 ChosenPlan choose(Engine& engine, const ChooseRequest& request) {
+    scene::check_scene(request.base.scene);
     const PlanChoice choice = choose_plan(engine, request);
     return {
         .plan = choice.chosen ? choice.proofs[*choice.chosen].plan.text : "",
@@ -160,6 +161,7 @@ ChosenPlan choose(Engine& engine, const ChooseRequest& request) {
 }
 
 ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::string& plan) {
+    scene::check_scene(request.base.scene);
     const PlanProof proof = prove_plan(engine, request, plan);
     return {.plan = proof.holds() ? plan : "",
             .failure = proof.holds() ? "" : "does not hold: " + describe_proof(request, proof),

@@ -62,6 +62,7 @@ void check_row_techniques(const std::vector<std::string>& techniques) {
 }
 
 void check_compare_request(const CompareRequest& request) {
+    scene::check_scene(request.base.scene);
     check_row_techniques(request.base.techniques);
     for (const std::string& text : request.base.techniques)
         if (const reflect::TechniquePlan plan = read_technique_plan(text); !plan.is_auto)
