@@ -26,6 +26,7 @@ struct StressCase {
     double measured = 0;
     double limit = 0;
     bool is_quality = false; ///< whether a picture beyond the limit looks worse but is not wrong
+    std::string seen = {};   ///< what a user sees then
     bool is_case_within_limit() const { return measured <= limit; }
 };
 

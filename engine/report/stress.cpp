@@ -27,7 +27,8 @@ Json to_json(const StressRow& row) {
                     {"measured", make_number_json(one.measured)},
                     {"threshold", make_number_json(one.limit)},
                     {"holds", one.is_case_within_limit()},
-                    {"quality", one.is_quality}};
+                    {"quality", one.is_quality},
+                    {"seen", one.seen}};
     });
     json["pictures"] = make_list_json(row.pictures, [](const StressPicture& picture) {
         return "images/" + picture.name + ".png";
@@ -50,6 +51,7 @@ std::string describe_stress_test_result(const StressRow& row) {
     const auto add = [&](const std::string& more) {
         if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
     };
+    if (worst && !worst->is_case_within_limit()) add(worst->seen);
     add(row.remark);
     for (const SkippedStressTestPart& part : row.not_run)
         add("not run: " + part.what + ": " + part.why);

@@ -69,10 +69,10 @@ void StressTestBench::plan_stress_technique(const app::Request& request) {
 
 void StressTestBench::add_mean_flip_case(const std::string& what, const app::TechniqueResult& found,
                                          const app::TechniqueResult& wanted, double limit,
-                                         bool is_quality) {
+                                         const std::string& seen) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
-    row_.cases.push_back(
-        {what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
+    row_.cases.push_back({what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit,
+                          !seen.empty(), seen});
     if (row_.cases.back().is_case_within_limit()) return;
     const std::string name = row_.id + "-" + make_picture_file_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})

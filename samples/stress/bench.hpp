@@ -41,14 +41,15 @@ public:
         row_.cases.push_back({std::move(what), measured, limit, false});
     }
     /// Adds a measured value with a limit. A value beyond the limit means that the picture looks
-    /// worse, but is not wrong.
-    void add_case_that_only_warns(std::string what, double measured, double limit) {
-        row_.cases.push_back({std::move(what), measured, limit, true});
+    /// worse, but is not wrong. `seen`: what a user then sees.
+    void add_warning_case(std::string what, double measured, double limit, std::string seen) {
+        row_.cases.push_back({std::move(what), measured, limit, true, std::move(seen)});
     }
-    /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.
+    /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit. With
+    /// `seen` the case only warns, as add_warning_case.
     void add_mean_flip_case(const std::string& what, const app::TechniqueResult& found,
                             const app::TechniqueResult& wanted, double limit,
-                            bool is_quality = false);
+                            const std::string& seen = {});
     /// Adds the number of pixels that are NaN or infinite, with limit 0.
     void add_nonfinite_pixel_case(const std::string& what, const app::TechniqueResult& part);
     /// Adds a part that the device does not allow. It is reported and has no measured value.

@@ -128,9 +128,10 @@ void judge_face_sizes(StressTestBench& bench) {
             // With captures of a few texels, it depends on chance whether a texel sees the lamp.
             const double mean = mean_of(part);
             bench.add_measured_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
-            bench.add_case_that_only_warns(
+            bench.add_warning_case(
                 text + ": factor between the mean of mirrors and that of ray tracing",
-                std::max(mean / wanted, wanted / mean), 4);
+                std::max(mean / wanted, wanted / mean), 4,
+                "mirrors are as bright or dark as the few texels that they read");
         }
     // A large capture must show the same picture as a small one. The plan of the frame states
     // whether the device has enough memory.

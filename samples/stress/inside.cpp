@@ -54,9 +54,11 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         // From outside, a look-up without parallax correction is wrong for every camera, and most
         // wrong if the ball fills the picture.
         else
-            bench.add_case_that_only_warns(
+            bench.add_warning_case(
                 fmt::format("{}, reuse", place.what),
-                measure::flip_mean(measure::flip(plain.display, traced.display)), .05);
+                measure::flip_mean(measure::flip(plain.display, traced.display)), .05,
+                "a ball close to the camera shows the room as from its own centre, so that "
+                "reflections stand in the wrong place; parallax and later searches correct it");
     }
 }
 

@@ -89,17 +89,28 @@ TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
 
 TEST(Stress, StressJsonHasEveryCaseAndHtmlEscapesTexts) {
     StressResults stress;
-    stress.rows = {make_stress_row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
+    stress.rows = {make_stress_row(
+        {{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true, "odd <mirrors>"}})};
     const nlohmann::json report = nlohmann::json::parse(to_json(stress));
     EXPECT_EQ(report["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"},
                                                              {"measured", .25},
                                                              {"threshold", .5},
                                                              {"holds", true},
-                                                             {"quality", false}}));
+                                                             {"quality", false},
+                                                             {"seen", ""}}));
     EXPECT_TRUE(report["rows"][0]["measured"].is_null());
     EXPECT_EQ(report["rows"][0]["cases"][1]["holds"], false);
     EXPECT_EQ(report["rows"][0]["cases"][2]["quality"], true);
+    EXPECT_EQ(report["rows"][0]["cases"][2]["seen"], "odd <mirrors>");
     EXPECT_THAT(to_html(stress), testing::HasSubstr("a &lt;stimulus&gt;"));
+}
+
+TEST(Stress, ResultSaysWhatAUserSeesOfAWarning) {
+    StressResults stress;
+    stress.rows = {make_stress_row({{"c", 1, .5, true, "odd <mirrors>"}, {"d", .1, .5}})};
+    EXPECT_THAT(to_markdown(stress), testing::HasSubstr("c; odd"));
+    stress.rows = {make_stress_row({{"c", .1, .5, true, "odd <mirrors>"}})};
+    EXPECT_THAT(to_markdown(stress), testing::Not(testing::HasSubstr("odd")));
 }
 
 } // namespace
