@@ -28,7 +28,7 @@ ELSEWHERE = [
     (r"\./dev bench peers\b", "tests/drivers/whitted_test.cpp", "peers/"),
     (r"samples/renderers/report\.sh\b", "tests/renderers/run.py", "docs/renderers.md"),
     (r"python3 samples/renderers/torus_room\.py\b", "tests/renderers/mitsuba_test.py", "torus_room.py"),
-    (r"apt install\b", "dev", "install blender python3-numpy xvfb xauth"),
+    (r"apt install\b", "tests/runner/table.py", '"blender", "python3-numpy", "xvfb", "xauth"'),
     (r"snakemake .*--cluster-sync\b", "tests/sweep/slurm.sh", "--cluster-sync"),
     (r"snakemake\b", "tests/sweep/run.sh", "snakemake -s"),
     (r"openjd run\b", "tests/sweep/run.sh", "openjd run"),

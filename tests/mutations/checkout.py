@@ -71,6 +71,8 @@ class Checkout:
             try:
                 return_text, _ = process.communicate(timeout=timeout)
                 return process.returncode, return_text
-            except subprocess.TimeoutExpired:
+            except BaseException as error:  # also an interrupt, so that the code is restored at once
                 os.killpg(process.pid, 9)
+                if not isinstance(error, subprocess.TimeoutExpired):
+                    raise
                 return 124, process.communicate()[0]

@@ -4,6 +4,7 @@ import contextlib
 import io
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -149,6 +150,34 @@ class Reached(unittest.TestCase):
                 found = reach.source_lines(program, offsets)
                 self.assertIn(("engine/x/a.cpp", 2), found)
                 self.assertEqual(("engine/x/a.cpp", 3) in found, bool(arguments))
+
+
+class Interrupted(unittest.TestCase):
+    def test_an_interrupt_restores_the_code_and_ends_the_test_that_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder, "x.cpp")
+            source.write_text("right")
+            program = ("import checkout, sys; here = checkout.Checkout(sys.argv[1], 'build')\n"
+                       "with here.replaced({'x.cpp': 'wrong'}): here.run(['sh', '-c', 'echo $$ >part; mv part started; sleep 60; :'], 60)")
+            process = subprocess.Popen([sys.executable, "-B", "-c", program, folder], stderr=subprocess.DEVNULL,
+                                       cwd=pathlib.Path(__file__).parent, preexec_fn=default_interrupt)
+            while not pathlib.Path(folder, "started").exists():
+                time.sleep(.02)
+            self.assertEqual(source.read_text(), "wrong")
+            process.send_signal(signal.SIGINT)
+            process.wait(timeout=30)
+            self.assertEqual(source.read_text(), "right")
+            test = pathlib.Path("/proc", pathlib.Path(folder, "started").read_text().strip(), "cwd")
+            for _ in range(250):  # The kernel ends a process soon after the signal; the test itself takes 60 s.
+                if not test.exists():
+                    break
+                time.sleep(.02)
+            self.assertFalse(test.exists())
+
+
+def default_interrupt():
+    """Lets a process be interrupted, even if this one runs in the background."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class Compared(unittest.TestCase):
