@@ -71,6 +71,9 @@ public:
 
     app::Engine& bench_engine() { return bench_engine_; }
     uvec2 picture_size() const { return size_; }
+    /// Returns the picture size with both edges raised to `edge`, for figures that are shares or
+    /// means of few pixels: in smaller pictures they would measure chance.
+    uvec2 picture_size_of_at_least(std::uint32_t edge) const { return max(size_, uvec2(edge)); }
     /// Returns a random number in [low, high).
     double draw_random_number(double low, double high) {
         return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;

@@ -30,6 +30,7 @@ FurnaceMeasurement measure_picture_in_furnace(StressTestBench& bench, const scen
                                               const std::string& technique, int frames) {
     app::Request request = bench.make_stress_request(scene, technique, frames);
     request.ambient = 0;
+    request.size = bench.picture_size_of_at_least(128); // .0001 of the pixels is one
     const app::TechniqueResult part = bench.render_technique(request);
     FurnaceMeasurement seen;
     for (const vec3& pixel : part.hdr.pixels) {
@@ -114,7 +115,12 @@ void judge_many_mirrors(StressTestBench& bench) {
 
 void judge_face_sizes(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 1);
-    const app::TechniqueResult truth = bench.render_technique(scene, "raytrace");
+    const auto render = [&](const std::string& technique, int frames = 4) {
+        app::Request request = bench.make_stress_request(scene, technique, frames);
+        request.size = bench.picture_size_of_at_least(64);
+        return bench.render_technique(request);
+    };
+    const app::TechniqueResult truth = render("raytrace");
     const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
     const auto mean_of = [&](const app::TechniqueResult& part) {
         return measure::mean_of(part.hdr, measure::ValueRange::clamped, mirrors).all;
@@ -123,7 +129,7 @@ void judge_face_sizes(StressTestBench& bench) {
     for (const char* face : {"1", "2", "3"})
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
             const std::string text = technique + ":face=" + face;
-            const app::TechniqueResult part = bench.render_technique(scene, text);
+            const app::TechniqueResult part = render(text);
             bench.add_nonfinite_pixel_case(text, part);
             // With captures of a few texels, it depends on chance whether a texel sees the lamp.
             const double mean = mean_of(part);
@@ -135,8 +141,7 @@ void judge_face_sizes(StressTestBench& bench) {
         }
     // A large capture must show the same picture as a small one. The plan of the frame states
     // whether the device has enough memory.
-    const app::TechniqueResult usual = bench.render_technique(scene, "naive:bounces=1,face=1024",
-                                                              1);
+    const app::TechniqueResult usual = render("naive:bounces=1,face=1024", 1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
             const app::Request request = bench.make_stress_request(scene, technique + face, 1);
@@ -144,7 +149,7 @@ void judge_face_sizes(StressTestBench& bench) {
                     technique + face + " planned", [&] { bench.plan_stress_technique(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
-            const app::TechniqueResult large = bench.render_technique(request);
+            const app::TechniqueResult large = render(technique + face, 1);
             if (technique.starts_with("naive"))
                 bench.add_mean_flip_case(technique + face, large, usual, .01);
             else
@@ -160,6 +165,7 @@ void judge_moving_ball(StressTestBench& bench) {
     constexpr double kMotionPathSeconds = 4;
     app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(),
                                                      "parallax:face=128", 1);
+    request.size = bench.picture_size_of_at_least(128);
     app::Session session(bench.bench_engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;

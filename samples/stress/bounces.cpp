@@ -19,6 +19,8 @@ namespace {
 
 constexpr int kMaxBounces = 6;              // largest number of bounces
 constexpr double kMaxBounceStepRatio = 0.4; // a step is at most this share of the step before
+/// Least edge of pictures of late bounces, which cover few pixels.
+constexpr std::uint32_t kMinBouncePictureEdge = 256;
 
 struct TracedBouncePictures {
     std::vector<measure::Picture> pictures; ///< entry k: picture with k bounces
@@ -78,9 +80,10 @@ void judge_cornell_bounces(StressTestBench& bench) {
 /// chance decides whether their texels see the lamp. The fall from step to step is therefore
 /// random, so only the fall up to bounce 4 is judged.
 void judge_small_ball_bounces(StressTestBench& bench) {
-    const std::vector<double> steps = compute_bounce_differences(
-        bench, "a room",
-        render_bounces(bench, bench.make_stress_request(make_stress_room(bench, 4), "naive", 1)));
+    app::Request request = bench.make_stress_request(make_stress_room(bench, 4), "naive", 1);
+    request.size = bench.picture_size_of_at_least(kMinBouncePictureEdge);
+    const std::vector<double> steps = compute_bounce_differences(bench, "a room",
+                                                                 render_bounces(bench, request));
     bench.add_measured_case("a room, bounce 4: share of the first step", steps[3] / steps[0],
                             std::pow(kMaxBounceStepRatio, 3.0));
 }
@@ -129,6 +132,7 @@ void judge_mirror_wedge(StressTestBench& bench) {
                                 bench.draw_random_number(-.9, -.7)}),
         "naive", 1);
     request.ambient = 0;
+    request.size = bench.picture_size_of_at_least(kMinBouncePictureEdge);
     const TracedBouncePictures bounces = render_bounces(bench, request, 256);
     const std::string where = fmt::format("mirrors of {:.3f} at {:.3f}", wedge.reflectance,
                                           wedge.angle);

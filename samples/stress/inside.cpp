@@ -38,6 +38,7 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
     for (const TestedEyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
             app::Request request = bench.make_stress_request(scene, technique);
+            request.size = bench.picture_size_of_at_least(64);
             request.camera = place.camera;
             return bench.render_technique(request);
         };
@@ -67,7 +68,8 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
 void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     constexpr int kSettlingFrames = 16;
     scene::Object& object = scene.objects.back();
-    const double reach = 3 * object.sphere->radius;
+    // The ball and the camera on its way stay in the room, whose middle is 0.
+    const double reach = (object.sphere->centre.x > 0 ? -3 : 3) * object.sphere->radius;
     object.motion = scene::HarmonicMotion{dvec3(reach, 0, 0) / 2.0, 1};
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);

@@ -155,6 +155,13 @@ void judge_triangle_counts(StressTestBench& bench) {
         "1,048,576 triangles, raytrace: seconds from mesh to picture",
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
     bench.add_nonfinite_pixel_case("1,048,576 triangles, raytrace", part);
+    constexpr std::uint32_t kLeastEdgeForTenMillion = 128;
+    if (glm::min(bench.picture_size().x, bench.picture_size().y) < kLeastEdgeForTenMillion)
+        return bench.add_skipped_part(
+            "10,008,338 triangles, raytrace",
+            Error(Failure::usage, fmt::format("takes 20 s of processor time, so only pictures of "
+                                              "{0}x{0} and more draw it",
+                                              kLeastEdgeForTenMillion)));
     scene::Scene ten = empty;
     add_mesh(ten, make_rippled_grid(2237),
              add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
