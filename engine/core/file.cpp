@@ -158,7 +158,9 @@ void write_file(const fs::path& path, std::span<const std::byte> content) {
 }
 
 std::string read_file(const fs::path& path) {
+    constexpr std::size_t kMaxStreamBytes = std::size_t{512} << 20;
     std::error_code ignored;
+    const bool is_stream = !fs::is_regular_file(path, ignored);
     check(!fs::is_directory(path, ignored), Failure::missing_input, path.string(),
           ": wanted a file, found a folder");
     const FileHandle file(std::fopen(path.c_str(), "rb"));
@@ -167,8 +169,11 @@ std::string read_file(const fs::path& path) {
           ": cannot be opened: ", describe_system_error(error));
     std::string content;
     char block[1 << 16];
-    while (const std::size_t count = std::fread(block, 1, sizeof block, file.get()))
+    while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) {
         content.append(block, count);
+        check(!is_stream || content.size() <= kMaxStreamBytes, Failure::bad_data, path.string(),
+              ": wanted at most ", kMaxStreamBytes, " bytes of a pipe or a device, found more");
+    }
     check(std::ferror(file.get()) == 0, Failure::io, path.string(), ": reading failed after ",
           content.size(), " bytes");
     return content;

@@ -44,7 +44,7 @@ private:
 };
 
 /// Returns the bytes of a file. Throws `missing_input` if it does not exist or cannot be opened,
-/// and `io` if reading fails.
+/// `io` if reading fails, and `bad_data` for a pipe or a device with more than 512 MiB.
 std::string read_file(const std::filesystem::path& path);
 
 } // namespace catoptric

@@ -169,9 +169,13 @@ std::uint32_t exr_lines_per_chunk(std::uint32_t compression) {
 
 /// Returns the most bytes of values that one byte of the file can stand for. RLE stores runs of 128
 /// in 2 bytes. Deflate stores at most 1032 bytes in 1. PXR24 drops a quarter of a float before
-/// deflate. B44A stores 32 bytes in 3. The limits of other compressions are not known.
+/// deflate. B44A stores 32 bytes in 3. PIZ's Huffman code stores 256 halves in 10 bits. DWA stores
+/// a block of 64 floats in two halves at least, one in such a code and one deflated. The limits of
+/// other compressions are not known.
 double exr_max_expansion_factor(std::uint32_t compression) {
-    constexpr double kExrMaxExpansionFactors[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
+    constexpr double kPiz = 512 * 8 / 10.0, kDwa = 256 / (2 / kPiz + 2 / 1032.0);
+    constexpr double kExrMaxExpansionFactors[] = {1,  64, 1032, 1032, kPiz, 1032 * 4 / 3.0,
+                                                  11, 11, kDwa, kDwa};
     const double most = compression < std::size(kExrMaxExpansionFactors)
                             ? kExrMaxExpansionFactors[compression]
                             : 0;

@@ -106,10 +106,19 @@ struct PngReader::PngReadState {
         }
         png_set_read_fn(png, &origin, read_png_bytes);
         png_set_user_limits(png, ImageReader::kMaxImageSide, ImageReader::kMaxImageSide);
+        limit_chunk_memory();
     }
     ~PngReadState() { png_destroy_read_struct(&png, &info, nullptr); }
     PngReadState(const PngReadState&) = delete;
     PngReadState& operator=(const PngReadState&) = delete;
+
+    /// libpng allocates as many bytes as a chunk claims, before it reads them. So only chunks that
+    /// change pixels are read, and none that is longer than the file.
+    void limit_chunk_memory() const {
+        constexpr std::uint64_t kMinChunkBytes = 4096;
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+        png_set_chunk_malloc_max(png, std::max(origin.bytes.size(), kMinChunkBytes));
+    }
 
     void throw_unless_valid(bool works) const {
         if (works) return;

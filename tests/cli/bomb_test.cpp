@@ -2,6 +2,7 @@
 // numbers. Each file must be refused, or render within 1 GiB. The tests print the table "bombs" of
 // docs/extremes.md.
 #include "cli/triangle.hpp"
+#include "core/image_codec.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,46 @@ protected:
     }
     void SetUp() override { write_input_file("a.bin", encode_triangle_corners()); }
 };
+
+/// Returns a PNG of one pixel that ends in the middle of a chunk with the given name, which claims
+/// 2 GB.
+std::string make_png_with_huge_chunk(const std::string& name) {
+    const std::string whole = catoptric::encode_png({{1, 1}, 1, {}}, std::vector<std::uint8_t>{0});
+    constexpr std::size_t kSignatureAndHeader = 33;
+    return whole.substr(0, kSignatureAndHeader) + "\x7f\xff\xff\xff" + name + "abc";
+}
+
+/// libpng allocates what a chunk claims before it reads the chunk.
+TEST_F(DecompressionBombCliTest, PngChunkThatClaimsGigabytesTakesNoMemory) {
+    constexpr std::uint64_t kMaxBytes = 100 << 20;
+    const auto expect_refused = [&](const Words& words, const std::string& part) {
+        const test::ProcessResult ended = run_cli(words);
+        expect_exit_code(ended, 65, {part});
+        EXPECT_LE(ended.peak_bytes, kMaxBytes) << words.back();
+    };
+    for (const std::string chunk : {"tEXt", "zTXt", "iTXt", "iCCP", "sPLT", "eXIf", "hIST", "pCAL",
+                                    "PLTE", "tRNS", "abCd", "IDAT", "IEND"}) {
+        write_input_file("p.png", make_png_with_huge_chunk(chunk));
+        expect_refused({"diff", "p.png", "p.png"}, "p.png: cannot be decoded: ");
+    }
+    write_input_file("p.png", make_png_with_huge_chunk("tEXt"));
+    expect_refused({"info", "cornell-mirrors", "--environment", "p.png"}, "p.png: cannot be dec");
+    write_input_file("m.mtl", "newmtl a\nmap_Kd p.png\n");
+    write_input_file("t.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n");
+    expect_refused({"info", "t.obj"}, "'p.png': cannot be decoded: ");
+}
+
+TEST_F(DecompressionBombCliTest, EndlessDeviceIsNoInput) {
+    write_input_file("p.png", catoptric::encode_png({{1, 1}, 1, {}}, std::vector<std::uint8_t>{0}));
+    for (const Words& words : {Words{"diff", "/dev/zero", "p.png"},
+                               {"choose", "--certify", "/dev/zero"},
+                               {"choose", "--costs", "/dev/zero"},
+                               {"info", "cornell-mirrors", "--environment", "/dev/zero"}}) {
+        const test::ProcessResult ended = run_cli(words);
+        expect_exit_code(ended, 65, {"/dev/zero: wanted "});
+        EXPECT_LE(ended.peak_bytes, 1ull << 30) << words[1];
+    }
+}
 
 TEST_F(DecompressionBombCliTest, ManyEmptyObjectsExceedTheMaterialBudget) {
     std::string text = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";

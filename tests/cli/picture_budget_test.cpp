@@ -50,8 +50,9 @@ std::string make_exr_attribute(const std::string& name, const std::string& type,
 
 /// Returns an OpenEXR file with ZIP compression, three float channels and an empty table of chunks.
 /// `last_x`, `last_y`: the largest pixel coordinates. `more`: further header attributes.
-std::string make_exr_bytes(std::uint32_t last_x, std::uint32_t last_y,
-                           const std::string& more = {}) {
+/// `compression`: 3 for ZIP, 4 for PIZ, 8 for DWAA.
+std::string make_exr_bytes(std::uint32_t last_x, std::uint32_t last_y, const std::string& more = {},
+                           char compression = 3) {
     std::string channels;
     for (const char* name : {"B", "G", "R"})
         channels += std::string(name) + '\0' + encode_little_endian(2) + encode_little_endian(0) +
@@ -61,7 +62,7 @@ std::string make_exr_bytes(std::uint32_t last_x, std::uint32_t last_y,
     const std::string one = encode_little_endian(std::bit_cast<std::uint32_t>(1.0F));
     return std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) +
            make_exr_attribute("channels", "chlist", channels + '\0') +
-           make_exr_attribute("compression", "compression", std::string(1, '\3')) +
+           make_exr_attribute("compression", "compression", std::string(1, compression)) +
            make_exr_attribute("dataWindow", "box2i", window) +
            make_exr_attribute("displayWindow", "box2i", window) +
            make_exr_attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
@@ -115,6 +116,21 @@ TEST_F(PictureMemoryBudgetCliTest, ExrHeaderWithHugeNumbersIsRefused) {
     for (const auto& [more, says] : wrong) {
         write_input_file("a.exr", make_exr_bytes(23, 15, more));
         expect_small_memory_use({"diff", "a.exr", "a.exr"}, says);
+    }
+}
+
+/// A picture may be one tile, which OpenEXR decodes as a whole. A small file of such a tile took
+/// gigabytes.
+TEST_F(PictureMemoryBudgetCliTest, LargeTileInASmallExrFileIsRefused) {
+    const std::string side = encode_little_endian(16384);
+    for (const char compression : {'\3', '\4', '\x8', '\x9'}) {
+        std::string file = make_exr_bytes(
+            16383, 16383, make_exr_attribute("tiles", "tiledesc", side + side + '\0'), compression);
+        file[5] = '\2'; // the file has tiles
+        write_input_file("tile.exr", file);
+        for (const Words& words : {Words{"diff", "tile.exr", "tile.exr"},
+                                   {"info", "cornell-mirrors", "--environment", "tile.exr"}})
+            expect_small_memory_use(words, "bytes behind its header for 16384x16384 pixels");
     }
 }
 
