@@ -49,7 +49,9 @@ Swapchain::Swapchain(GpuDevice& device)
 bool Swapchain::check_swapchain_result(VkResult result, const std::string& doing) {
     if (result == VK_SUCCESS) return true;
     lost_ |= result == VK_ERROR_SURFACE_LOST_KHR;
-    if (lost_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
+    if (lost_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
+        result == VK_TIMEOUT || result == VK_NOT_READY)
+        return false; // the next frame tries again
     presenting_device_.check_result_and_abandon_if_lost(result, doing);
     return false;
 }

@@ -40,6 +40,8 @@ void throw_unless_vk_success(VkResult result, const std::string& doing) {
     case VK_ERROR_FRAGMENTATION:
     case VK_ERROR_MEMORY_MAP_FAILED:
     case VK_ERROR_TOO_MANY_OBJECTS: failure = Failure::exhausted; break;
+    case VK_TIMEOUT:
+    case VK_NOT_READY:
     case VK_ERROR_DEVICE_LOST: failure = Failure::device_lost; break;
     case VK_ERROR_LAYER_NOT_PRESENT:
     case VK_ERROR_EXTENSION_NOT_PRESENT:
@@ -47,8 +49,12 @@ void throw_unless_vk_success(VkResult result, const std::string& doing) {
     case VK_ERROR_FORMAT_NOT_SUPPORTED: failure = Failure::no_device; break;
     default: break;
     }
+    const bool is_late = result == VK_TIMEOUT || result == VK_NOT_READY;
     fail(failure, "Vulkan: cannot ", doing, ": ", vk_result_name(result), " (",
-         static_cast<int>(result), ")");
+         static_cast<int>(result), ")",
+         is_late ? ": the device gave no answer although the wait for it has no limit; try again, "
+                   "or another device (--device)"
+                 : "");
 }
 
 VkFormat to_vk_format(TexelFormat format) {

@@ -12,8 +12,9 @@
 
 namespace catoptric::gpu {
 
-/// Throws unless `result` is VK_SUCCESS: `exhausted` without memory, `device_lost` for a lost
-/// device, else `internal`. `doing` completes "Vulkan: cannot ".
+/// Throws unless `result` is VK_SUCCESS: `exhausted` without memory, `device_lost` for a device
+/// that is lost or gives no answer, `no_device` for a missing feature, else `internal`. `doing`
+/// completes "Vulkan: cannot ".
 void throw_unless_vk_success(VkResult result, const std::string& doing);
 const char* vk_result_name(VkResult result);
 

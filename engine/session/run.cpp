@@ -12,6 +12,26 @@
 
 namespace catoptric::app {
 
+namespace {
+
+/// Throws if the device's clock stands still or jumps, because times would then mean nothing.
+void check_device_clock(const FrameTimes& times) {
+    constexpr double kMaxTimesWall = 10, kMaxMoreMs = 1000; // more than any inaccuracy
+    check(
+        times.passes.empty() || times.gpu_ms > 0, Failure::no_device,
+        "the device's clock stands still: wanted timestamps that advance from pass to pass, found "
+        "the same before and after ",
+        times.passes.size(),
+        " passes; times need another driver or device (--device), pictures do not ('render' "
+        "without --frames)");
+    check(times.gpu_ms <= kMaxTimesWall * times.wall_ms + kMaxMoreMs, Failure::no_device,
+          "the device's clock jumps: wanted a time of at most the ", times.wall_ms,
+          " ms between submit and end of the frame, found ", times.gpu_ms,
+          " ms between its timestamps; times need another driver or device (--device)");
+}
+
+} // namespace
+
 FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks,
                      FrameHistoryState history)
     : loop_session_(session), request_(request), hooks_(hooks) {
@@ -37,6 +57,7 @@ bool FrameLoop::render_next(const scene::Camera& camera, double time) {
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
         times_.push_back(frame_->times());
+        if (!request_.until_settled) check_device_clock(times_.back());
         times_.back().cpu_ms = 1e3 * (read_process_seconds() - used_before);
         if (times_.size() > kMaxDetailedFrames)
             times_[times_.size() - kMaxDetailedFrames - 1].passes = std::vector<PassTime>();

@@ -195,4 +195,33 @@ TEST_F(ReadBackDeviceLostTest, UnknownVulkanResultExitsWith70) {
     EXPECT_EQ(read_output_file("x.exr"), "old");
 }
 
+/// A wait without a limit that ends early, or timestamps that never come, count as a lost device.
+TEST_F(DeviceLost, DeviceThatGivesNoAnswerExitsWith76) {
+    for (const auto& [call, result, name] :
+         {std::tuple{"vkWaitSemaphores", VK_TIMEOUT, "VK_TIMEOUT (2)"},
+          std::tuple{"vkQueueWaitIdle", VK_TIMEOUT, "VK_TIMEOUT (2)"},
+          std::tuple{"vkGetQueryPoolResults", VK_NOT_READY, "VK_NOT_READY (1)"}}) {
+        const WatchedRun watched = run_with_fault_layer(words, VulkanCallFault{call, 1, result});
+        expect_exit_code(watched.ended, 76, {name, "the device gave no answer", "--device"});
+        EXPECT_EQ(read_output_file("x.exr"), "old");
+        if (result != VK_TIMEOUT) continue;
+        EXPECT_EQ(watched.describe_objects_destroyed_after_loss(), "");
+    }
+}
+
+/// Times cannot be measured with a clock that stands still. A picture without times is drawn.
+TEST_F(DeviceLost, StoppedClockEndsMeasurementsWith69) {
+    const VulkanCallFault stopped{"vkGetQueryPoolResults", 1, VK_SUCCESS};
+    const WatchedRun timed = run_with_fault_layer(words, stopped);
+    expect_exit_code(timed.ended, 69, {"the device's clock stands still", "--device"});
+    EXPECT_EQ(timed.describe_undestroyed_objects(), "");
+    const Words compare{"compare",  "-o", "out",          "--size",      "32x32",
+                        "--frames", "6",  "--techniques", "reuse:face=8"};
+    expect_exit_code(run_with_fault_layer(compare, stopped).ended, 69,
+                     {"the device's clock stands still"});
+    const WatchedRun untimed = run_with_fault_layer(
+        {"render", "--technique", "reuse:face=8", "--size", "16x16", "-o", "still.png"}, stopped);
+    EXPECT_EQ(untimed.ended.exit_code, 0) << untimed.ended.err;
+}
+
 } // namespace

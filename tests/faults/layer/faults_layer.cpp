@@ -14,6 +14,8 @@
 // submitted, and a lost device stays lost. For vkEnumeratePhysicalDevices, result 0 finds no
 // device, and 5 (VK_INCOMPLETE) counts one device too many or lists one too few. For
 // vkGetPhysicalDeviceSurfaceSupportKHR, result 0 says that the device cannot present on a surface.
+// For vkGetQueryPoolResults, result 0 stops the clock: from this call on, all timestamps of a frame
+// are equal.
 //
 // The layer supports one instance, one device and one thread at a time, as the engine uses them.
 // Devices that the engine abandoned may go on running beside the current device.
@@ -99,8 +101,9 @@ using Key = std::pair<std::string_view, std::uint64_t>;
 struct FaultLayerState {
     std::string fault_name;
     int fault_at = 0, fault_result = 0;
-    bool failed = false; ///< the Vulkan call that the test chose to fail has been made
-    bool lost = false;   ///< the device has been reported lost, and stays so
+    bool failed = false;           ///< the Vulkan call that the test chose to fail has been made
+    bool lost = false;             ///< the device has been reported lost, and stays so
+    bool is_clock_stopped = false; ///< the timestamps of a frame are equal
     int strays = 0, untimely = 0;
     /// Whether the layer drops the kind of recorded command that the test chose as its fault,
     /// instead of passing the command to the driver.
@@ -205,6 +208,7 @@ VkResult find_forced_result(std::string_view name) {
     if (!fault && !(state.lost && may_report_device_loss(name))) return VK_SUCCESS;
     const VkResult result = fault ? static_cast<VkResult>(state.fault_result)
                                   : VK_ERROR_DEVICE_LOST;
+    state.is_clock_stopped |= result == VK_SUCCESS && name == "vkGetQueryPoolResults";
     if (result == VK_ERROR_DEVICE_LOST && may_report_device_loss(name)) state.lost = true;
     if (state.lost || is_waiting_call(name))
         for (const auto& [key, object] : state.alive) state.in_use.insert(key);
@@ -227,6 +231,14 @@ std::uint64_t allocated_bytes_of_call(const std::tuple<Args...>& args) {
     return 0;
 }
 
+/// Makes all timestamps that a call has read equal to the first one.
+template <typename... Args>
+void stop_clock(const std::tuple<Args...>& args) {
+    auto* const stamps = static_cast<std::uint64_t*>(std::get<5>(args));
+    if (std::get<6>(args) != sizeof *stamps) return; // other results, such as counts of work
+    std::fill_n(stamps, std::get<4>(args) / sizeof *stamps, *stamps);
+}
+
 template <const auto& kName, typename Pfn>
 struct Call;
 template <const auto& kName, typename... Args>
@@ -236,7 +248,12 @@ struct Call<kName, VkResult(VKAPI_PTR*)(Args...)> {
             find_call_counter(kName).next);
         const bool was_lost = state.lost;
         const VkResult result = find_forced_result(kName);
-        if (result == VK_SUCCESS) return next(args...);
+        if (result == VK_SUCCESS) {
+            const VkResult passed_on = next(args...);
+            if constexpr (kName == std::string_view("vkGetQueryPoolResults"))
+                if (state.is_clock_stopped) stop_clock(std::tuple<Args...>(args...));
+            return passed_on;
+        }
         if (kName == std::string_view("vkQueueSubmit2") && state.lost && !was_lost) next(args...);
         return result;
     }
