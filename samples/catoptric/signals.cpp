@@ -17,10 +17,12 @@ constexpr std::int64_t kSignalRepeatNanoseconds = 1'000'000'000; // nanoseconds
 std::atomic<const char*> program{"catoptric"};
 std::atomic<bool> is_looked_at{false}; ///< whether the program polls `number_of_signal`
 std::atomic<int> number_of_signal{0};
+std::atomic<unsigned> most_seconds{0}; ///< seconds from the first signal to the end; 0: no limit
 std::atomic<std::int64_t> first_at{0}; ///< nanoseconds of the steady clock; 0: none yet
 
 static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<std::int64_t>::is_always_lock_free &&
+                  std::atomic<unsigned>::is_always_lock_free &&
                   std::atomic<const char*>::is_always_lock_free,
               "a signal handler may only store without a lock");
 
@@ -57,6 +59,8 @@ void handle_signal(int number) {
     std::int64_t never = 0;
     if (first_at.compare_exchange_strong(never, monotonic_nanoseconds())) {
         number_of_signal.store(number);
+        if (const unsigned seconds = most_seconds.load(); seconds > 0)
+            ::alarm(seconds); // allowed in a signal handler
     } else if (monotonic_nanoseconds() - first_at.load() > kSignalRepeatNanoseconds) {
         std::signal(number, SIG_DFL);
         std::raise(number); // delivered when this handler returns
@@ -83,6 +87,14 @@ void exit_on_signals(const char* name) {
 const std::atomic<int>& stop_on_signals() {
     if (!is_looked_at.exchange(true)) exit_on_signals(program);
     return number_of_signal;
+}
+
+void limit_time_after_signal(unsigned seconds) {
+    most_seconds = seconds;
+    struct sigaction action {};
+    action.sa_handler = [](int) { exit_from_signal(number_of_signal.load()); };
+    sigfillset(&action.sa_mask);
+    sigaction(SIGALRM, &action, nullptr);
 }
 
 } // namespace catoptric::cli

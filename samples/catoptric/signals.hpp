@@ -16,4 +16,9 @@ void exit_on_signals(const char* program);
 /// once.
 const std::atomic<int>& stop_on_signals();
 
+/// Ends the program, as `exit_on_signals` does, this many seconds after a signal that
+/// `stop_on_signals` stored, whatever the program then waits for: a driver, a compiler or the
+/// display. For programs without results that must be kept.
+void limit_time_after_signal(unsigned seconds);
+
 } // namespace catoptric::cli

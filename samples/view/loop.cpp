@@ -218,6 +218,8 @@ int ViewLoop::finish_view_run() {
 }
 
 int ViewLoop::run() {
+    constexpr unsigned kMostSecondsAfterSignal = 2;
+    cli::limit_time_after_signal(kMostSecondsAfterSignal);
     while (run_one_frame()) {
     }
     const int code = finish_view_run();

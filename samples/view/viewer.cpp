@@ -1,5 +1,6 @@
 #include "viewer.hpp"
 
+#include "catoptric/signals.hpp"
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "measure/picture_file.hpp"
@@ -24,6 +25,9 @@ double current_milliseconds() {
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
+
+/// Returns whether a signal asks the program to end. Work beside the frames then begins no more.
+bool is_stopped() { return cli::stop_on_signals().load() != 0; }
 
 bool do_specs_show_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
@@ -119,21 +123,22 @@ void SceneViewer::update_frame_spec_from_view_state(const ViewState& state, uvec
 void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
     if (still_ >= kFramesUntilCameraRests && was_moved_ && !state.motion.plays) {
         discard_frame_history();
-        for (int k = 0; k < kUnshownFramesAfterCut; ++k) {
+        for (int k = 0; k < kUnshownFramesAfterCut && !is_stopped(); ++k) {
             last_ = session_->frame(spec_);
             if (!app::Access::does_frame_part_need_previous_frame(*last_)) break;
         }
     }
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
                           state.against == ComparisonPicture::reference;
-    if (still_ >= kFramesUntilCameraRests && (compares || state.judges)) {
+    if (still_ >= kFramesUntilCameraRests && (compares || state.judges) && !is_stopped()) {
         collect_finished_frames(0); // frames outside the sequence use the slots of earlier frames
         reference_.render_one_pass(*session_, spec_);
     }
     // A picture that paints search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
     if (still_ >= kFramesUntilErrorsAreMeasured && !waits && state.judges &&
-        state.mode != ViewMode::answers && !error_ && reference_.can_measure_errors()) {
+        state.mode != ViewMode::answers && !error_ && reference_.can_measure_errors() &&
+        !is_stopped()) {
         last_ = session_->frame(spec_);
         error_ = reference_.compare_with_reference(last_->hdr(), spec_.exposure);
     }
@@ -145,6 +150,7 @@ std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const Vie
     const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
                          made_gain_ == state.gain;
     if (is_made) return made_;
+    if (is_stopped()) return nullptr;
     if (state.mode == ViewMode::causes && still_ < kFramesUntilErrorsAreMeasured) return nullptr;
     made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
     collect_finished_frames(0);

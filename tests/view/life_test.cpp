@@ -89,6 +89,24 @@ TEST_F(ViewLifetimeTest, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     EXPECT_GE(answered, 10); // the others came before the first initialiser
 }
 
+/// A signal ends the window soon, even while one frame is drawn that takes half a minute.
+TEST_F(ViewLifetimeTest, SignalEndsTheWindowDuringALongFrame) {
+    constexpr double kMaxSecondsAfterSignal = 4; // the window itself allows 2
+    for (const int signal : {SIGTERM, SIGINT}) {
+        test::ProcessStartOptions process{.command = {CATOPTRIC_VIEW, "cornell-mirrors", "-v",
+                                                      "--technique", "raytrace:samples=1024",
+                                                      "--size", "256x256"},
+                                          .folder = folder};
+        process.signal = signal;
+        process.signal_at = "device: ";
+        process.signal_after = std::chrono::milliseconds(2000);
+        const test::ProcessResult ended = test::run_process(process);
+        EXPECT_EQ(ended.exit_code, 128 + signal);
+        EXPECT_THAT(ended.err, HasSubstr("catoptric-view: stopped by signal "));
+        EXPECT_LE(ended.seconds_after_signal, kMaxSecondsAfterSignal);
+    }
+}
+
 /// The window takes 20 sizes or more. During frames 30 to 33 the window is minimised, so its size
 /// is 0.
 TEST_F(ViewLifetimeTest, WindowIsResizedMinimisedAndClosed) {
