@@ -43,11 +43,6 @@ dvec3 read_vector_member(const JsonObject& item, std::string_view key, double ot
     return list.empty() ? dvec3(otherwise) : dvec3(list[0], list[1], list[2]);
 }
 
-float read_fraction_member(const JsonObject& item, std::string_view key, double otherwise,
-                           double largest = 1) {
-    return static_cast<float>(std::clamp(item.number(key, otherwise), 0.0, largest));
-}
-
 /// Reads one material.
 class MaterialReader {
 public:
@@ -67,6 +62,24 @@ private:
                                                bool srgb) {
         const std::optional<JsonObject> use = item.read_object_member(key);
         return use ? textures_.find_or_read_texture(*use, srgb) : std::nullopt;
+    }
+    /// Notes a member with a number that is clamped to 0 to `largest`.
+    void note_if_clamped(std::initializer_list<double> numbers, std::string_view key,
+                         double largest = 1) {
+        if (std::ranges::any_of(numbers, [=](double n) { return is_clamped_factor(n, largest); }))
+            source_.notes.add_note(kClampedFactorNote,
+                                   material_json_.describe_json_place() + ": " + std::string(key));
+    }
+    dvec3 read_colour_member(const JsonObject& item, std::string_view key, double otherwise) {
+        const dvec3 colour = read_vector_member(item, key, otherwise);
+        note_if_clamped({colour.x, colour.y, colour.z}, key);
+        return glm::clamp(colour, 0.0, 1.0);
+    }
+    float read_fraction_member(const JsonObject& item, std::string_view key, double otherwise,
+                               double largest = 1) {
+        const double number = item.number(key, otherwise);
+        note_if_clamped({number}, key, largest);
+        return static_cast<float>(std::clamp(number, 0.0, largest));
     }
     void report_unsupported_feature(std::string_view id) {
         add_unsupported_material(source_.unsupported, std::string(id),
@@ -101,6 +114,7 @@ void MaterialReader::base_colour(const JsonObject& item, std::string_view factor
     const auto at = [&](std::size_t i) {
         return base.empty() ? 1.0f : static_cast<float>(std::clamp(base[i], 0.0, 1.0));
     };
+    if (!base.empty()) note_if_clamped({base[0], base[1], base[2], base[3]}, factor);
     material_.albedo = {at(0), at(1), at(2)}, material_.alpha = at(3);
     material_.albedo_texture = read_texture_member(item, map, true);
 }
@@ -124,8 +138,7 @@ void MaterialReader::read_specular_glossiness(const JsonObject& glossiness) {
     base_colour(glossiness, "diffuseFactor", "diffuseTexture");
     material_.metallic = 0;
     material_.roughness = 1 - read_fraction_member(glossiness, "glossinessFactor", 1);
-    material_.dielectric_f0 = vec3(
-        glm::clamp(read_vector_member(glossiness, "specularFactor", 1), 0.0, 1.0));
+    material_.dielectric_f0 = vec3(read_colour_member(glossiness, "specularFactor", 1));
     material_.dielectric_f90 = vec3(1);
     if (glossiness.has_member("specularGlossinessTexture"))
         report_unsupported_feature("material-extension");
@@ -195,8 +208,8 @@ void MaterialReader::transmission() {
             "thicknessFactor: wanted at least 0, found a negative number");
         material_.solid = volume->number("thicknessFactor", 0) > 0;
         const double distance = volume->number("attenuationDistance", 0); // 0: as without
-        const dvec3 colour = glm::clamp(read_vector_member(*volume, "attenuationColor", 1),
-                                        dvec3(kMinAttenuation), dvec3(1));
+        const dvec3 colour = glm::max(read_colour_member(*volume, "attenuationColor", 1),
+                                      dvec3(kMinAttenuation));
         material_json_.require_condition(
             distance >= 0, "attenuationDistance: wanted at least 0, found ", distance);
         if (material_.solid && distance > 0)
@@ -275,7 +288,7 @@ void MaterialReader::turn_into_mirror(const vec3& reflectance, const vec3& diffu
 void MaterialReader::read_extras() {
     const std::optional<JsonObject> ours = find_catoptric_extras(material_json_);
     const auto colour = [&](std::string_view key, double otherwise) {
-        return vec3(glm::clamp(read_vector_member(*ours, key, otherwise), 0.0, 1.0));
+        return vec3(read_colour_member(*ours, key, otherwise));
     };
     if (ours && (ours->has_member("reflectance") || ours->has_member("diffuse")))
         turn_into_mirror(colour("reflectance", 1), colour("diffuse", 0));

@@ -8,6 +8,17 @@
 
 namespace catoptric::scene {
 
+/// Kind of note for a colour or factor that a file gives outside of 0 to 1.
+inline constexpr std::string_view kClampedFactorNote =
+    "colours and factors outside 0 to 1, clamped (a colour of 0 to 255 must be divided by 255)";
+
+/// Returns whether a loader that clamps this number to 0 to `largest` changes it by more than
+/// rounding does.
+constexpr bool is_clamped_factor(double number, double largest = 1) {
+    constexpr double kRounding = 1e-4;
+    return number < -kRounding || number > largest + kRounding;
+}
+
 /// Summary of what a loader left out, repaired or could not read. It keeps the count and the first
 /// place of each kind. A file with a hundred thousand oddities therefore has one line for each
 /// kind.

@@ -110,12 +110,23 @@ void add_map_to_mtl_material(const ObjLine& line, ObjReadContext& context, MtlLi
 struct MtlNumberStatement {
     std::string_view keyword;
     std::optional<double> MtlMaterial::*member;
+    bool is_factor = false; ///< whether it is clamped to 0 to 1
 };
 constexpr MtlNumberStatement kMtlNumberStatements[] = {
-    {"Ns", &MtlMaterial::shininess}, {"Ni", &MtlMaterial::ior},
-    {"Pr", &MtlMaterial::roughness}, {"Pm", &MtlMaterial::metallic},
-    {"illum", &MtlMaterial::kind},   {"d", &MtlMaterial::alpha},
-    {"Pc", &MtlMaterial::clearcoat}, {"Pcr", &MtlMaterial::clearcoat_roughness}};
+    {"Ns", &MtlMaterial::shininess},       {"Ni", &MtlMaterial::ior},
+    {"Pr", &MtlMaterial::roughness, true}, {"Pm", &MtlMaterial::metallic, true},
+    {"illum", &MtlMaterial::kind},         {"d", &MtlMaterial::alpha, true},
+    {"Pc", &MtlMaterial::clearcoat, true}, {"Pcr", &MtlMaterial::clearcoat_roughness, true}};
+
+/// Notes a statement whose numbers are clamped to 0 to 1.
+void note_if_clamped(const ObjLine& line, std::initializer_list<double> numbers,
+                     LoaderNotes& notes) {
+    if (std::ranges::any_of(numbers, [](double number) { return is_clamped_factor(number); }))
+        notes.add_note(
+            kClampedFactorNote,
+            line.describe_line_place() + ": " +
+                quote_text_with_escapes(std::string(line.keyword) + " " + std::string(line.rest)));
+}
 
 void add_radiance_to_mtl_material(const ObjLine& line, const dvec3& radiance, MtlMaterial& draft) {
     draft.emission = vec3(radiance);
@@ -125,7 +136,7 @@ void add_radiance_to_mtl_material(const ObjLine& line, const dvec3& radiance, Mt
 }
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
-bool add_statement_to_mtl_material(const ObjLine& line, MtlMaterial& draft) {
+bool add_statement_to_mtl_material(const ObjLine& line, MtlMaterial& draft, LoaderNotes& notes) {
     const auto* const number = std::ranges::find(kMtlNumberStatements, line.keyword,
                                                  &MtlNumberStatement::keyword);
     if (number != std::end(kMtlNumberStatements)) {
@@ -138,14 +149,20 @@ bool add_statement_to_mtl_material(const ObjLine& line, MtlMaterial& draft) {
               Failure::bad_data, line.describe_line_place(),
               ": 'illum' wants a whole number from 0 to 10, found ", value);
         draft.*(number->member) = value;
+        if (number->is_factor) note_if_clamped(line, {value}, notes);
         return true;
     }
-    if (line.keyword == "Tr") return draft.alpha = 1 - parse_line_number(line), true;
+    if (line.keyword == "Tr") {
+        draft.alpha = 1 - parse_line_number(line);
+        note_if_clamped(line, {*draft.alpha}, notes);
+        return true;
+    }
     if (line.keyword == "#two_sided") return draft.two_sided = true;
     if (line.keyword == "#fixed_normals") return draft.fixed_normals = true;
     if (line.keyword != "Kd" && line.keyword != "Ks" && line.keyword != "Ke") return false;
     const std::optional<dvec3> colour = parse_colour(line);
     if (!colour) return false;
+    if (line.keyword != "Ke") note_if_clamped(line, {colour->x, colour->y, colour->z}, notes);
     if (line.keyword == "Kd") draft.diffuse = colour;
     if (line.keyword == "Ks") draft.specular = colour;
     if (line.keyword == "Ke") add_radiance_to_mtl_material(line, *colour, draft);
@@ -162,7 +179,7 @@ void add_mtl_statement(MtlLibrary& library, const ObjLine& line, UnreadStatement
     } else if (!is_in_material) {
         context.notes.add_note("statements before the first newmtl, left out",
                                line.describe_line_place());
-    } else if (!add_statement_to_mtl_material(line, library.drafts.back())) {
+    } else if (!add_statement_to_mtl_material(line, library.drafts.back(), context.notes)) {
         // A map_d that is not used is listed with its material (set_mtl_transparency).
         constexpr std::string_view kKnownStatements[] = {"Ka", "map_Kd", "map_d", "norm"};
         if (std::ranges::find(kKnownStatements, line.keyword) == std::end(kKnownStatements))

@@ -193,6 +193,8 @@ void ObjReader::position(const ObjLine& line) {
     const std::vector<double> rgb = parse_word_numbers(line, split_words(line), count > 6 ? 4 : 3,
                                                        3);
     text_.colours.back() = vec3(glm::clamp(dvec3(rgb[0], rgb[1], rgb[2]), 0.0, 1.0));
+    if (std::ranges::any_of(rgb, [](double value) { return is_clamped_factor(value); }))
+        context_.notes.add_note(kClampedFactorNote, line.describe_line_place());
 }
 
 void ObjReader::texture_coordinates(const ObjLine& line) {

@@ -36,6 +36,30 @@ TEST_F(LoadUnreadFeaturesTest, FilesThatAreFullyReadGiveNoWarnings) {
     EXPECT_THAT(load_and_list_warnings("x.obj", lit + "f 1 2 3\n"), testing::IsEmpty());
 }
 
+/// Colours of 0 to 255 are a usual mistake. They are clamped, with a warning that says so.
+TEST_F(LoadUnreadFeaturesTest, ClampedColoursAndFactorsGiveAWarning) {
+    const std::string kind = "colours and factors outside 0 to 1, clamped (a colour of 0 to 255 "
+                             "must be divided by 255): ";
+    write_loaded_file("m.mtl", "newmtl a\nKd 51 102 153\nKs 1 1 1.00001\nKe 9 9 9\nNs 300\n"
+                               "newmtl b\nd 1.5\nPr -1\nPm 2\nTr 3\nKs 0 -1 0\nPc 7\nPcr 7\n");
+    EXPECT_THAT(
+        load_and_list_warnings("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"),
+        ElementsAre(testing::AllOf(HasSubstr(kind + "8 (first: "),
+                                   HasSubstr("m.mtl:2: 'Kd 51 102 153')"))));
+    EXPECT_THAT(
+        load_and_list_warnings("y.obj", "v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n"),
+        ElementsAre(testing::AllOf(HasSubstr(kind + "1 (first: "), EndsWith("y.obj:1)"))));
+    GltfFileBuilder gltf = make_small_gltf();
+    gltf.root["materials"] = {
+        {{"name", "red"},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {255, 0, 0, 1}}, {"roughnessFactor", 1.5}}}},
+        {{"extensions",
+          {{"KHR_materials_pbrSpecularGlossiness", {{"specularFactor", {51, 51, 51}}}}}}},
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
+    EXPECT_THAT(load_and_list_warnings("x.glb", gltf.glb_bytes()),
+                ElementsAre(kind + "3 (first: materials[0] 'red': baseColorFactor)"));
+}
+
 TEST_F(LoadUnreadFeaturesTest, GltfLightsGiveNoWarnings) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["extensionsUsed"] = {"KHR_lights_punctual"};
