@@ -176,6 +176,17 @@ measure::DeviceCosts read_device_costs(const std::string& text, const std::strin
 }
 
 measure::DeviceCosts read_costs_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+        std::vector<std::string> names;
+        for (const KnownCosts& known : list_known_costs()) {
+            if (known.name == file) return read_device_costs(std::string(known.text), known.name);
+            names.push_back(known.name);
+        }
+        fail(Failure::missing_input, file.string(),
+             ": there is no such file: wanted costs of a device, as a file or one of ",
+             fmt::format("{}", fmt::join(names, ", ")), suggest_nearest_name(file.string(), names));
+    }
     return read_costs_document(read_costs_json(file, "costs of a device"), file.string());
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Functions that read and write files of unit costs, schema "catoptric/costs/1", and of times
@@ -16,9 +17,17 @@ std::string to_json(const measure::DeviceCosts& costs);
 /// Reads costs. Members of a fit are ignored. Throws `bad_data` with `file`, the place, the
 /// expected and the found value.
 measure::DeviceCosts read_device_costs(const std::string& text, const std::string& file);
-/// Reads the file of costs, at most 16 MiB. Throws as `read_device_costs` does, and for a file that
-/// cannot be read.
+/// Reads the file of costs, at most 16 MiB, or the known costs of this name if there is no such
+/// file. Throws as `read_device_costs` does, and for a file that cannot be read.
 measure::DeviceCosts read_costs_file(const std::filesystem::path& file);
+
+/// The costs of a device that this library holds.
+struct KnownCosts {
+    std::string name; ///< as in docs/costs, without ".json"
+    std::string_view text;
+};
+/// Returns the costs in docs/costs, sorted by name.
+const std::vector<KnownCosts>& list_known_costs();
 
 /// Times of rows that were measured on another device, by techniques of this program.
 struct OtherDeviceTimes {

@@ -193,10 +193,10 @@ list_comparisons_on_other_devices(const report::Comparison& comparison) {
 
 const RegisteredStudy kCostsStudy{
     {.name = "costs",
-     .help = "also predict each row's time on another device from its counted work and the costs "
-             "of FILE (see docs/costs); may be repeated",
+     .help = "also predict each row's time on another device from its counted work and the "
+             "device's costs: a file, or a name of 'list costs'; may be repeated",
      .order = 50,
-     .words = "FILE",
+     .words = "COSTS",
      .check_words =
          [](const std::vector<std::string>& files) {
              for (const std::string& file : files) report::read_costs_file(file);

@@ -38,7 +38,7 @@ std::vector<std::string> list_technique_names() {
 
 /// Returns the words that complete the verb's arguments, beside names of files.
 std::vector<std::string> list_argument_words(const std::string& verb) {
-    if (verb == "list") return {"techniques", "scenes", "devices", "metrics"};
+    if (verb == "list") return {"techniques", "scenes", "devices", "metrics", "costs"};
     if (verb == "completion") return kShells;
     std::vector<std::string> names;
     if (!is_one_of(kVerbsWithoutFiles, verb) && verb != "diff")

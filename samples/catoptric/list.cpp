@@ -1,9 +1,10 @@
-// catoptric list: lists techniques, scenes, devices or metrics.
+// catoptric list: lists techniques, scenes, devices, metrics or costs of devices.
 #include "core/error.hpp"
 #include "json.hpp"
 #include "measure/metric.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "report/costs.hpp"
 #include "scene/built_in.hpp"
 #include "session/engine.hpp"
 #include "session/folders.hpp"
@@ -22,7 +23,8 @@ constexpr const char* kListExamples = R"(Examples:
   catoptric list techniques parallax      its knobs
   catoptric list devices --json)";
 
-const std::vector<std::string> kListableKinds{"techniques", "scenes", "devices", "metrics"};
+const std::vector<std::string> kListableKinds{"techniques", "scenes", "devices", "metrics",
+                                              "costs"};
 
 std::string describe_knob(const app::KnobInfo& knob) {
     const std::string range = knob.choices.empty()
@@ -91,6 +93,18 @@ std::string format_named_list(const std::vector<NamedListEntry>& rows) {
     return text;
 }
 
+/// Returns the known costs of devices, with the device and the origin of its costs.
+std::vector<NamedListEntry> list_device_costs() {
+    std::vector<NamedListEntry> rows;
+    for (const report::KnownCosts& known : report::list_known_costs()) {
+        const measure::DeviceCosts costs = report::read_device_costs(std::string(known.text),
+                                                                     known.name);
+        rows.push_back({known.name, fmt::format("{} ({})", costs.device,
+                                                measure::cost_origin_name(costs.origin))});
+    }
+    return rows;
+}
+
 std::vector<NamedListEntry> list_built_in_scenes() {
     std::vector<NamedListEntry> rows;
     for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
@@ -131,8 +145,9 @@ std::string make_list_output(const std::string& kind, const std::string& name, b
         return json ? make_devices_json(devices) : format_device_list(devices);
     }
     if (kind == "metrics") return json ? make_metrics_json() : format_metric_list();
-    return json ? make_named_list_json(kind, list_built_in_scenes())
-                : format_named_list(list_built_in_scenes());
+    const std::vector<NamedListEntry> rows = kind == "costs" ? list_device_costs()
+                                                             : list_built_in_scenes();
+    return json ? make_named_list_json(kind, rows) : format_named_list(rows);
 }
 
 } // namespace
@@ -143,9 +158,10 @@ void add_list_verb(CommandLine& program) {
         std::string kind, name;
     };
     const auto options = std::make_shared<ListOptions>();
-    CommandVerb& verb = program.add_command_verb("list", "techniques, scenes, devices or metrics");
+    CommandVerb& verb = program.add_command_verb(
+        "list", "techniques, scenes, devices, metrics or costs of devices");
     verb.examples(kListExamples);
-    verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
+    verb.argument("WHAT", "techniques, scenes, devices, metrics or costs", options->kind,
                   CommandVerb::VerbArgumentNeed::required);
     verb.argument("NAME", "name of a technique, to list its knobs", options->name,
                   CommandVerb::VerbArgumentNeed::optional);

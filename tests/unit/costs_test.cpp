@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace {
@@ -176,6 +177,19 @@ TEST(Costs, CostMayBeLessThanANanosecond) {
     ASSERT_EQ(costs.units.size(), 2u);
     EXPECT_EQ(costs.units[0].ns, 0);
     EXPECT_EQ(costs.units[1].ns, .25);
+}
+
+TEST(Costs, KnownCostsAreFoundByName) {
+    std::vector<std::string> names;
+    for (const report::KnownCosts& known : report::list_known_costs()) {
+        names.push_back(known.name);
+        EXPECT_FALSE(report::read_costs_file(known.name).units.empty()) << known.name;
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(names));
+    EXPECT_EQ(std::ranges::count(names, "gtx-770.times"), 0) << "times are no costs";
+    EXPECT_EQ(report::read_costs_file("gtx-1080-ti").device, "GeForce GTX 1080 Ti");
+    test::expect_error([] { report::read_costs_file("gtx-1080"); }, Failure::missing_input,
+                       {"gtx-1080: there is no such file", "gtx-680", "did you mean 'gtx-"});
 }
 
 TEST(Costs, FolderInPlaceOfAFileIsRefused) {
