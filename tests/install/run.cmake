@@ -50,6 +50,18 @@ if(blocks LESS 4)
 endif()
 
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+# What the Python package is built from: the library without programs.
+step(${CMAKE_COMMAND} --install ${BUILD} --component library --prefix ${WORK}/library)
+file(GLOB config ${WORK}/library/lib*/cmake/catoptric/*.cmake ${WORK}/library/lib/*/cmake/catoptric/*.cmake)
+if(EXISTS ${WORK}/library/bin OR NOT EXISTS ${WORK}/library/include/catoptric/session.hpp OR NOT config)
+    message(FATAL_ERROR "the component `library` wants headers and the CMake package, and no programs")
+endif()
+foreach(file IN LISTS config)
+    file(READ ${file} text)
+    if(text MATCHES "catoptric_cli")
+        message(FATAL_ERROR "${file} names a program, which the component `library` lacks")
+    endif()
+endforeach()
 # The headers are the interface: they must stay few and short.
 file(GLOB_RECURSE headers ${WORK}/prefix/include/catoptric/*.hpp)
 list(LENGTH headers count)
