@@ -11,9 +11,11 @@ namespace catoptric::cli {
 std::optional<PictureFileSequence>
 PictureFileSequence::parse_file_sequence(const std::string& name) {
     static const std::regex kNumberPlaceholder(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
+    const std::size_t begin = name.rfind('/') + 1; // 0 without a folder
+    const std::string folder = name.substr(0, begin), last = name.substr(begin);
     std::smatch place;
-    const bool found = std::regex_search(name, place, kNumberPlaceholder);
-    const std::string rest = found ? place.suffix().str() : name;
+    const bool found = std::regex_search(last, place, kNumberPlaceholder);
+    const std::string rest = found ? place.suffix().str() : last;
     check(!std::regex_search(rest, kNumberPlaceholder), Failure::usage,
           "-o: wanted one place for the frame's number, found two in '", name, "'");
     check(rest.find("{n") == std::string::npos &&
@@ -23,7 +25,7 @@ PictureFileSequence::parse_file_sequence(const std::string& name) {
     if (!found) return std::nullopt;
     const std::string digits = place[1].str() + place[2].str();
     PictureFileSequence sequence;
-    sequence.before_ = place.prefix().str();
+    sequence.before_ = folder + place.prefix().str();
     sequence.after_ = rest;
     sequence.digits_ = digits.empty() ? 0 : std::stoi(digits);
     return sequence;

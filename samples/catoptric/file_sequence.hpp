@@ -6,7 +6,8 @@
 namespace catoptric::cli {
 
 /// The file names of a sequence of pictures. A name has one place for the frame's number: {n},
-/// {n:W}, %d or %0Wd. W is the number of digits, padded with zeros.
+/// {n:W}, %d or %0Wd. W is the number of digits, padded with zeros. In the names of folders these
+/// forms have no meaning.
 class PictureFileSequence {
 public:
     /// Returns the sequence that `name` describes, or none if it names one picture. Throws `usage`

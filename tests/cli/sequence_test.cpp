@@ -24,6 +24,10 @@ TEST(SequenceName, FrameNumberReplacesThePlaceholder) {
     EXPECT_EQ(PictureFileSequence::parse_file_sequence("d/%d.png")->file(10), "d/10.png");
     EXPECT_EQ(PictureFileSequence::parse_file_sequence("%04d.png")->file(10), "0010.png");
     EXPECT_FALSE(PictureFileSequence::parse_file_sequence("100%.png"));
+    EXPECT_FALSE(PictureFileSequence::parse_file_sequence("50%done/x.exr"));
+    EXPECT_FALSE(PictureFileSequence::parse_file_sequence("{n}/{n:x}/x.exr"));
+    EXPECT_EQ(PictureFileSequence::parse_file_sequence("50%done/x%d.exr")->file(2),
+              "50%done/x2.exr");
     EXPECT_FALSE(PictureFileSequence::parse_file_sequence("{a}.png"));
 }
 
