@@ -81,8 +81,9 @@ void TechniqueKnobSettings::set_knob_from_text(std::string_view owner, std::stri
     std::vector<std::string> names;
     for (const TechniqueKnob& knob : knobs_) names.emplace_back(knob.name);
     const auto named = std::ranges::find(knobs_, name, &TechniqueKnob::name);
-    check(named != knobs_.end(), Failure::usage, "technique '", owner, "' has no knob '", name, "'",
-          suggest_nearest_name(name, names));
+    if (named == knobs_.end())
+        fail(Failure::usage, "technique '", owner, "' has no knob '", name, "'",
+             suggest_nearest_name_or_list(name, names));
     const TechniqueKnob& knob = *named;
     std::optional<double>& target = values_[static_cast<std::size_t>(named - knobs_.begin())];
     if (!knob.choices.empty()) {
@@ -135,6 +136,14 @@ std::string find_nearest_name(std::string_view word, std::span<const std::string
 std::string suggest_nearest_name(std::string_view word, std::span<const std::string> names) {
     const std::string nearest = find_nearest_name(word, names);
     return nearest.empty() ? "" : " (did you mean " + quote_text_with_escapes(nearest) + "?)";
+}
+
+std::string suggest_nearest_name_or_list(std::string_view word,
+                                         std::span<const std::string> names) {
+    std::string text = suggest_nearest_name(word, names);
+    if (!text.empty()) return text;
+    for (const std::string& name : names) text += (text.empty() ? "; there are " : ", ") + name;
+    return text.empty() ? "; there is none" : text;
 }
 
 } // namespace catoptric

@@ -70,5 +70,7 @@ std::string find_nearest_name(std::string_view word, std::span<const std::string
 
 /// Returns the end of a message about an unknown name: " (did you mean 'x'?)", or an empty string.
 std::string suggest_nearest_name(std::string_view word, std::span<const std::string> names);
+/// Returns the same, or "; there are a, b, c" with all names if no name is near.
+std::string suggest_nearest_name_or_list(std::string_view word, std::span<const std::string> names);
 
 } // namespace catoptric

@@ -5,6 +5,7 @@
 #include "gpu/instance.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 namespace catoptric::gpu {
@@ -35,11 +36,17 @@ VkDebugUtilsMessengerEXT make_debug_messenger(VkInstance instance,
     return messenger;
 }
 
-/// Returns whether a device's name has the wanted text. A number, such as 4090, must be a whole
-/// number of the name with at least three digits, so that an index that is out of range selects no
-/// device.
+std::string to_lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// Returns whether a device's name has the wanted text, in capitals or not. A number, such as 4090,
+/// must be a whole number of the name with at least three digits, so that an index that is out of
+/// range selects no device.
 bool matches_device_name(const std::string& name, const std::string& wanted, bool is_number) {
-    if (!is_number) return name.find(wanted) != std::string::npos;
+    if (!is_number) return to_lower_case(name).find(to_lower_case(wanted)) != std::string::npos;
     constexpr std::size_t kLeastDigits = 3;
     constexpr std::string_view kNumberCharacters = "0123456789.";
     if (wanted.size() < kLeastDigits) return false;
@@ -64,9 +71,14 @@ std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
         if (matches_device_name(info.name, wanted, is_number)) return names.size();
         names.push_back(info.name);
     }
-    fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),
-         ", counted from 0; `catoptric list devices` names them",
-         suggest_nearest_name(wanted, names));
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        list += (i ? ", " : "") + std::to_string(i) + " '" + names[i] + "'";
+    fail(
+        Failure::usage, "no device '", wanted, "': there are ", names.size(),
+        ", counted from 0: ", list, suggest_nearest_name(wanted, names),
+        "; --device takes an index or a part of a name; a card is listed once its Vulkan driver is "
+        "installed, see 'vulkaninfo --summary'");
 }
 
 std::vector<DeviceProperties> describe_all_devices(const std::vector<VkPhysicalDevice>& devices) {
@@ -112,8 +124,9 @@ void GpuDevice::choose_physical_device(const DeviceOptions& options) {
     else
         index = static_cast<std::size_t>(
             std::ranges::find(infos, std::string(), &DeviceProperties::missing) - infos.begin());
-    check(index < infos.size(), Failure::no_device, "no usable Vulkan device: '", infos[0].name,
-          "' lacks ", infos[0].missing);
+    if (index == infos.size()) // `list_physical_devices` returns at least one
+        fail(Failure::no_device, "no usable Vulkan device: '", infos[0].name, "' lacks ",
+             infos[0].missing);
     check(infos[index].missing.empty(), Failure::no_device, "device '", infos[index].name,
           "' lacks ", infos[index].missing);
     physical_ = devices[index];

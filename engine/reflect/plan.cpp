@@ -142,10 +142,10 @@ TechniquePlan parse_plan(std::string_view text) {
     if (text == kAutoPlanName)
         return {.label = std::string(text), .rules = {}, .is_auto = true, .reasons = {}};
     const std::string_view head = text.substr(0, text.find(':'));
-    check(head != kAutoPlanName, Failure::usage, "'", text,
-          "': wanted auto alone, which finds settings "
-          "itself, found '",
-          text.substr(kAutoPlanName.size()), "' after it");
+    if (head == kAutoPlanName)
+        fail(Failure::usage, "'", text,
+             "': wanted auto alone, which finds settings itself, found '",
+             text.substr(kAutoPlanName.size()), "' after it");
     if (head.find('=') == std::string_view::npos)
         return {.label = std::string(text),
                 .rules = {{"*", parse_technique_choice(text)}},

@@ -22,6 +22,10 @@ struct SceneFileOptions {
     SceneLoadBudget budget;
 };
 
+/// Throws as `load` does for a word that is no scene, or for a file that does not exist. Reads
+/// nothing.
+void check_scene_exists(const std::string& name_or_path);
+
 /// Loads as `load` does.
 Scene load_scene_file(const std::string& name_or_path, const SceneFileOptions& options);
 

@@ -42,8 +42,15 @@ void check_no_animation_chosen(const std::string& scene, const SceneFileOptions&
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
+    const std::string extension = lower_case_extension(word),
+                      nearest = suggest_nearest_name(word, names);
     fail(Failure::usage, "scene ", quote_text_with_escapes(word), ": wanted a built-in scene (",
-         list, ") or a .glb, .gltf or .obj file", suggest_nearest_name(word, names));
+         list, ") or a .glb, .gltf or .obj file", nearest,
+         nearest.empty() && !extension.empty()
+             ? ", found " + quote_text_with_escapes(extension) +
+                   "; export the scene as .glb (glTF 2.0) from the program that wrote it, or in "
+                   "Blender by File > Import and File > Export"
+             : "");
 }
 
 } // namespace
@@ -56,6 +63,18 @@ const std::vector<BuiltInScene>& list_built_in_scenes() {
     static const std::vector<BuiltInScene> kSortedBuiltInScenes =
         list_registered_entries_in_order<BuiltInScene>();
     return kSortedBuiltInScenes;
+}
+
+void check_scene_exists(const std::string& name_or_path) {
+    for (const BuiltInScene& scene : list_built_in_scenes())
+        if (scene.name == name_or_path) return;
+    const std::string extension = lower_case_extension(name_or_path);
+    if (extension != ".glb" && extension != ".gltf" && extension != ".obj")
+        fail_unknown_scene(name_or_path);
+    std::error_code error;
+    const bool exists = std::filesystem::exists(name_or_path, error);
+    check(exists || error, Failure::missing_input, name_or_path,
+          ": cannot be opened: No such file or directory");
 }
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/knob.hpp"
 #include "core/text.hpp"
 #include "measure/picture_file.hpp"
 #include "scene/built_in.hpp"
@@ -60,6 +61,11 @@ std::shared_ptr<scene::Environment> read_environment_picture(const std::string& 
 /// Returns the environment that `word` names; null for "none".
 std::shared_ptr<scene::Environment> load_environment_by_name(const std::string& word) {
     if (word == "none") return nullptr;
+    std::error_code ignored;
+    if (word != "studio" && !std::filesystem::exists(word, ignored))
+        fail(Failure::missing_input, "--environment: ", quote_text_with_escapes(word),
+             ": there is no such file; wanted a picture (.exr, .hdr or .png), studio or none",
+             suggest_nearest_name(word, std::vector<std::string>{"studio", "none"}));
     if (word != "studio") return read_environment_picture(word);
     auto studio = std::make_shared<scene::Environment>();
     studio->name = "studio", studio->studio = true;

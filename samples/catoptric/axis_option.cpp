@@ -1,7 +1,9 @@
 #include "axis_option.hpp"
 
 #include "core/error.hpp"
+#include "core/knob.hpp"
 #include "core/text.hpp"
+#include "parse.hpp"
 #include "session/engine.hpp"
 #include "session/technique_choice.hpp"
 
@@ -64,15 +66,24 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
         for (const std::string& value : axis.values) {
             std::string row = text + separator;
             row += axis.knob + "=" + value;
-            if (std::ranges::find(known, format_technique_with_all_knobs(row)) != known.end())
-                continue;
-            known.push_back(format_technique_with_all_knobs(row));
+            const std::string whole = parse_option(
+                "--axis", [&] { return format_technique_with_all_knobs(row); });
+            if (std::ranges::find(known, whole) != known.end()) continue;
+            known.push_back(whole);
             rows.push_back(std::move(row));
         }
     }
-    check(is_known, Failure::usage, "--axis ", axis.knob,
-          ": wanted a knob of one of the techniques, see 'list techniques'; found none that has "
-          "it");
+    if (!is_known) {
+        std::vector<std::string> names;
+        for (const std::string& text : techniques)
+            for (const Setting& setting : app::parse_technique(text).settings)
+                if (std::ranges::find(names, setting.name) == names.end())
+                    names.push_back(setting.name);
+        fail(Failure::usage, "--axis ", axis.knob,
+             ": wanted a knob of one of the techniques, see 'list techniques'; found none that has "
+             "it",
+             suggest_nearest_name_or_list(axis.knob, names));
+    }
     return rows;
 }
 

@@ -141,8 +141,7 @@ int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
     const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
     check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
-    check_techniques_hold_no_scene(options.techniques);
-    app::check_row_techniques(options.techniques);
+    check_technique_list(options.techniques);
     const std::vector<BenchSceneSelection> list = list_requested_scenes(options);
     std::vector<app::Request> requests;
     std::vector<std::filesystem::path> inputs;

@@ -10,6 +10,7 @@
 #include "output_checks.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
+#include "report/costs.hpp"
 #include "report/json.hpp"
 #include "study/compare_checks.hpp"
 #include "study/reference_cache.hpp"
@@ -26,7 +27,7 @@ namespace {
 
 constexpr const char* kChooseExamples = R"(Examples:
   catoptric choose room.glb --max-error flip=0.05 -o plan.json
-  catoptric choose room.glb --max-ms 4 --costs card.json -o plan.json
+  catoptric choose room.glb --max-ms 4 --costs gtx-1080-ti -o plan.json
   catoptric render room.glb --plan plan.json -o look.png
   catoptric choose room.glb --certify plan.json --proof-seed 7
 
@@ -181,6 +182,9 @@ void check_output_place(const ChooseOptions& options, const app::ChooseRequest& 
 }
 
 int run_choose(const ChooseOptions& options) {
+    scene::check_scene_exists(options.common.scene);
+    if (!options.certified.empty()) read_certificate_of_plan(options.certified);
+    if (!options.limits.costs.empty()) report::read_costs_file(options.limits.costs);
     check(options.certified.empty() || options.techniques.empty(), Failure::usage,
           "--certify: wanted no --techniques beside it");
     if (options.certified.empty()) {
@@ -188,8 +192,7 @@ int run_choose(const ChooseOptions& options) {
                                   "--max-error or --max-ms", "the limit to keep");
         throw_unless_option_given(!options.output.empty(), "choose", "-o PLAN.json",
                                   "the file for the plan");
-        check_techniques_hold_no_scene(options.techniques);
-        app::check_row_techniques(options.techniques);
+        check_technique_list(options.techniques);
     }
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
@@ -253,9 +256,11 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
         [&limits](const std::string& text) {
             limits.reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
         });
-    verb.option("--costs", "FILE",
-                "choose for another device, by times predicted from its costs (see docs/costs)",
-                options.limits.costs);
+    verb.option(
+        "--costs", "COSTS",
+        "choose for another device, by times predicted from its costs: a file, or a name of "
+        "'list costs'",
+        options.limits.costs);
 }
 
 void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {

@@ -95,7 +95,7 @@ std::string remove_repeated_empty_lines(std::string text) {
 
 /// Throws `usage` for unknown words, with the nearest known name. CLI11 is told to accept unknown
 /// words, because its own message suggests no name.
-void refuse_unknown_words(const CLI::App& verb) {
+void refuse_unknown_words(const CLI::App& verb, const std::string& program) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -103,8 +103,9 @@ void refuse_unknown_words(const CLI::App& verb) {
     for (const std::string& extra : extras) {
         if (!extra.starts_with('-') || extra == "--") continue;
         const std::string name = extra.substr(0, extra.find('='));
+        const std::string nearest = suggest_nearest_name(name, names);
         fail(Failure::usage, "'", verb.get_name(), "' has no option '", name, "'",
-             suggest_nearest_name(name, names));
+             nearest.empty() ? "; '" + program + " --help' lists all" : nearest);
     }
     check(extras.empty(), Failure::usage, "'", verb.get_name(),
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
@@ -289,7 +290,7 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     }
     const auto verb = std::ranges::find_if(
         verbs_, [](const std::unique_ptr<CommandVerb>& one) { return one->verb_parser_.parsed(); });
-    refuse_unknown_words((*verb)->verb_parser_);
+    refuse_unknown_words((*verb)->verb_parser_, program);
     return (*verb)->run_;
 }
 

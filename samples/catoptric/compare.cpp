@@ -132,8 +132,7 @@ std::vector<std::string> list_requested_rows(const app::CompareRequest& request)
 /// an error in the last scene is reported at once.
 std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_round_limit(options);
-    check_techniques_hold_no_scene(options.techniques);
-    app::check_row_techniques(options.techniques);
+    check_technique_list(options.techniques);
     const std::string& reference = options.common.reference;
     check(options.truth == app::ReferencePixelKind::centre || reference.empty(), Failure::usage,
           "--truth chooses the reference; wanted no --reference beside it, found ", reference);
@@ -288,6 +287,8 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
 
 int run_compare(const CompareOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
+    for (const std::string& scene : list_scenes_to_compare(options))
+        scene::check_scene_exists(scene);
     throw_unless_option_given(!options.folder.empty(), "compare", "-o DIR",
                               "the folder for the report");
     check_folder_can_be_made(options.folder);

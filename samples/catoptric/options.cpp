@@ -13,6 +13,7 @@
 #include "session/folders.hpp"
 #include "session/seeded_camera.hpp"
 #include "session/technique_choice.hpp"
+#include "study/compare_checks.hpp"
 
 #include <algorithm>
 
@@ -122,7 +123,8 @@ scene::SceneFileOptions make_scene_file_options(const CommonOptions& common) {
 }
 
 std::string parse_reference(const std::string& text) {
-    const app::TechniqueChoice choice = app::parse_technique(text);
+    const app::TechniqueChoice choice = parse_option("--reference",
+                                                     [&] { return app::parse_technique(text); });
     check(choice.technique != "plan", Failure::usage,
           "--reference: wanted one technique for all mirrors, found '", text, "'");
     return choice.label;
@@ -218,7 +220,7 @@ void throw_unless_option_given(bool given, const std::string& verb, const std::s
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
-void check_techniques_hold_no_scene(const std::vector<std::string>& techniques) {
+void check_technique_list(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
         for (const scene::BuiltInScene& built_in : scene::list_built_in_scenes())
@@ -226,6 +228,7 @@ void check_techniques_hold_no_scene(const std::vector<std::string>& techniques) 
         check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
               "'; SCENE comes before --techniques");
     }
+    parse_option("--techniques", [&] { app::check_row_techniques(techniques); });
 }
 
 ResolvedRequest make_resolved_request(const CommonOptions& common,

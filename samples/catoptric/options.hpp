@@ -91,9 +91,9 @@ void check_budget_option(const CommonOptions& common);
 void throw_unless_option_given(bool given, const std::string& verb, const std::string& option,
                                const std::string& what);
 
-/// Throws `usage` if the list of --techniques contains a scene. The option takes all words that
-/// follow it.
-void check_techniques_hold_no_scene(const std::vector<std::string>& techniques);
+/// Throws `usage` if the list of --techniques contains a scene, because the option takes all words
+/// that follow it. Also throws as app::check_row_techniques does.
+void check_technique_list(const std::vector<std::string>& techniques);
 
 /// Returns the request to the engine, without techniques: scene, camera and numbers. Prints
 /// messages of the loader, and parts that were added to the scene, to stderr. `check`, if given,

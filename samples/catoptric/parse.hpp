@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/error.hpp"
 #include "core/math.hpp"
 
 #include <cstdint>
@@ -26,6 +27,17 @@ double parse_real(const std::string& option, const std::string& text,
 /// Returns the index of `text` in `choices`. The error message suggests the nearest choice.
 std::size_t parse_choice_index(const std::string& option, const std::string& text,
                                const std::vector<std::string>& choices);
+
+/// Calls `work`, whose errors of usage then begin with the option's name.
+template <typename Work>
+auto parse_option(const std::string& option, Work&& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        if (error.failure != Failure::usage) throw;
+        throw_error(error.failure, option + ": " + error.what());
+    }
+}
 
 /// Returns the parts separated by commas: "a, b, c".
 std::string join_with_commas(const std::vector<std::string>& parts);

@@ -35,7 +35,9 @@ namespace catoptric::cli {
 
 namespace {
 
+constexpr const char* kDefaultTechnique = "auto";
 constexpr const char* kRenderExamples = R"(Examples:
+  catoptric render scene.glb -o picture.png
   catoptric render --technique parallax -o parallax.png
   catoptric render scene.glb --technique raytrace:samples=16 -o truth.exr
   catoptric render --technique reuse --frames 60 --trace frame.json -o last.png
@@ -378,7 +380,7 @@ void add_render_verb(CommandLine& program) {
     CommandVerb& verb = program.add_command_verb("render",
                                                  "render one picture by one technique or plan");
     verb.examples(kRenderExamples + describe_aovs() + kPictureFileNotes);
-    add_technique_options(verb, options->drawn);
+    add_technique_options(verb, options->drawn, kDefaultTechnique);
     verb.option(
         "-o,--output", "OUT",
         "picture file OUT.exr or OUT.png, frame-{n:4}.png for one per frame, a film OUT.mp4, or - "
@@ -404,7 +406,10 @@ void add_render_verb(CommandLine& program) {
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
     verb.set_verb_action([options] {
-        options->technique = check_technique_choice(options->drawn, "render");
+        scene::check_scene_exists(options->common.scene);
+        TechniqueOption drawn = options->drawn;
+        if (drawn.technique.empty() && drawn.plan.empty()) drawn.technique = kDefaultTechnique;
+        options->technique = check_technique_choice(drawn, "render");
         return run_render(*options);
     });
 }

@@ -39,6 +39,8 @@ struct SweepOptions {
 };
 
 void run_sweep_plan_action(const SweepOptions& options) {
+    check(fs::exists(options.path), Failure::missing_input, options.path,
+          ": cannot be opened: No such file or directory");
     throw_unless_option_given(!options.output.empty(), "sweep plan", "-o DIR",
                               "the folder for the plan and its results");
     const fs::path folder = options.output;
@@ -122,11 +124,12 @@ int run_sweep_check_action(const SweepOptions& options) {
 }
 
 void run_sweep_merge_action(const SweepOptions& options) {
+    const SweepPlan plan = read_sweep_plan(options.path);
     throw_unless_option_given(!options.output.empty(), "sweep merge", "-o DIR",
                               "the folder for the merged results");
     const fs::path out = options.output;
     check_folder_can_be_made(out);
-    const MergedSweep merged = merge_sweep(options.path, read_sweep_plan(options.path),
+    const MergedSweep merged = merge_sweep(options.path, plan,
                                            options.across_identities ? AcrossIdentities::allowed
                                                                      : AcrossIdentities::refused);
     report::create_folder(out);

@@ -2,21 +2,30 @@
 
 #include "core/error.hpp"
 #include "options.hpp"
+#include "parse.hpp"
 #include "session/engine.hpp"
 #include "session/technique_choice.hpp"
 
 namespace catoptric::cli {
 
-void add_technique_options(CommandVerb& verb, TechniqueOption& drawn) {
+void add_technique_options(CommandVerb& verb, TechniqueOption& drawn,
+                           const std::string& otherwise) {
+    const auto store = [](const char* option, std::string& value) {
+        return [option, &value](const std::string& text) {
+            check(!text.empty(), Failure::usage, option, ": wanted a name, found ''");
+            value = text;
+        };
+    };
     verb.option(
         "--technique", "T",
-        "technique of all mirrors, name[:knob=value,...], see 'list techniques'; excludes --plan",
-        drawn.technique);
+        "technique of all mirrors, name[:knob=value,...], see 'list techniques'; excludes --plan" +
+            (otherwise.empty() ? "" : " (" + otherwise + ")"),
+        store("--technique", drawn.technique));
     verb.option(
         "--plan", "P",
         "technique per mirror, as \"PATTERN=T ...\" or a file.json. PATTERN: number from 1, list "
         "2,3, name with * and ?, or * for the rest",
-        drawn.plan);
+        store("--plan", drawn.plan));
 }
 
 std::string check_technique_choice(const TechniqueOption& drawn, const std::string& verb) {
@@ -26,13 +35,15 @@ std::string check_technique_choice(const TechniqueOption& drawn, const std::stri
     if (plan.empty()) {
         throw_unless_option_given(!technique.empty(), verb, "--technique T",
                                   "see 'catoptric list techniques'; or --plan");
-        check(app::parse_technique(technique).technique != "plan", Failure::usage,
+        const auto parse = [&] { return app::parse_technique(technique); };
+        check(parse_option("--technique", parse).technique != "plan", Failure::usage,
               "--technique: wanted one technique for all mirrors, found '", technique,
               "'; --plan takes several");
         return technique;
     }
     std::string text = plan.ends_with(".json") ? "plan:" + plan : plan;
-    check(app::parse_technique(text).technique == "plan", Failure::usage,
+    const auto parse = [&] { return app::parse_technique(text); };
+    check(parse_option("--plan", parse).technique == "plan", Failure::usage,
           "--plan: wanted \"PATTERN=TECHNIQUE ...\" or a file that ends in .json, found '", plan,
           "'; --technique takes one technique for all mirrors");
     return text;

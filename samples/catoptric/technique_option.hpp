@@ -11,8 +11,10 @@ struct TechniqueOption {
     std::string technique, plan;
 };
 
-/// Adds --technique and --plan. `drawn` must outlive the parsing.
-void add_technique_options(CommandVerb& verb, TechniqueOption& drawn);
+/// Adds --technique and --plan. `drawn` must outlive the parsing. `otherwise` is the technique that
+/// the verb takes without both; empty: it takes none.
+void add_technique_options(CommandVerb& verb, TechniqueOption& drawn,
+                           const std::string& otherwise = "");
 
 /// Returns the technique or plan that was given, as app::FrameSpec::techniques takes it. Throws
 /// `usage` if none or both were given or the text is invalid, and as reading a plan's file does

@@ -128,6 +128,7 @@ std::string make_views_text(const std::vector<measure::View>& views) {
 }
 
 int run_views(const ViewsOptions& options) {
+    scene::check_scene_exists(options.common.scene);
     throw_unless_option_given(!options.folder.empty(), "views", "-o DIR",
                               "the folder for the views");
     const app::Request request = make_render_request_of_options(options.common);

@@ -34,7 +34,7 @@ const StressProperty& find_stress_property(std::string_view id) {
         if (row->id == id) return *row;
         ids.emplace_back(row->id);
     }
-    fail(Failure::usage, "wanted the id of a property (", ids.front(), " ... ", ids.back(),
+    fail(Failure::usage, "--only: wanted the id of a property (", ids.front(), " ... ", ids.back(),
          "), found '", id, "'", suggest_nearest_name(id, ids));
 }
 

@@ -140,6 +140,16 @@ def check_test_names(pages):
                     fail(f"{name}: wanted the name of a test, found '{wanted}', which no test has")
 
 
+def check_minutes(pages):
+    """Fails unless README.md and the tutorial name the same minutes of the first report and of the whole tutorial."""
+    readme, tutorial = (" ".join(pages[name].split()) for name in ("README.md", "docs/tutorial.md"))
+    first = re.search(r"that of `--quick` (\w[\w ]*) \(", readme)
+    whole = re.search(r"(\w+) minutes from a fresh machine", readme)
+    for found, wanted in ((first, "The first report takes {}"), (whole, "the steps take about {} minutes")):
+        if not found or wanted.format(found.group(1)) not in tutorial:
+            fail(f"docs/tutorial.md: wanted '{wanted.format(found.group(1) if found else '')}', as README.md says")
+
+
 def expect_refusal(words, text):
     """Expects that a page with this text is refused with these words."""
     with tempfile.TemporaryDirectory() as folder:
@@ -215,6 +225,7 @@ def run_page(name, blocks, folder, environment):
 def main():
     pages = list_pages()
     here = check_cover(pages)
+    check_minutes(pages)
     check_test_names(pages)
     if len(sys.argv) == 1:
         expect_refusal("docs/new.md: wanted a test of the command 'unknown --option'", "Text:\n\n    unknown --option\n")

@@ -5,6 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace {
 
 using namespace catoptric;
@@ -30,6 +33,9 @@ TEST(Device, DeviceIsChosenByIndexOrPartOfItsName) {
     EXPECT_EQ(gpu::GpuDevice({.wanted = "0"}).device_properties().name, first.name);
     EXPECT_EQ(gpu::GpuDevice({.wanted = first.name.substr(0, 4)}).device_properties().name,
               first.name);
+    std::string capitals = first.name;
+    std::ranges::transform(capitals, capitals.begin(), ::toupper);
+    EXPECT_EQ(gpu::GpuDevice({.wanted = capitals}).device_properties().name, first.name);
 }
 
 TEST(Device, ListNamesDriverVersionAndThreads) {

@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace {
 
 using namespace catoptric;
@@ -99,6 +101,67 @@ TEST(PlanText, InvalidPlansAreRefusedWithTheReason) {
     expect_plan_refused("=reuse *=march", {"found '=reuse'"});
     expect_plan_refused("1,,2=reuse *=march", {"pattern '1,,2' has an empty entry"});
     expect_plan_refused("1= *=march", {"no technique ''"});
+}
+
+/// Returns a word of one to five characters that often stand in plans.
+std::string draw_plan_word(std::mt19937& random) {
+    constexpr std::string_view kCharacters = "abuto*?=:,. \t019-_%{}\"'\\/~[]#\xc3\xa9\x01";
+    std::string word(1 + random() % 5, ' ');
+    for (char& c : word) c = kCharacters[random() % kCharacters.size()];
+    return word;
+}
+
+TEST(PlanText, DrawnWordsAreRefusedAsUsage) {
+    std::mt19937 random(1);
+    std::vector<std::string> words{"x", "=", "*=x", ",", ":", "auto:", "auto:x", "*", "*=", "=x"};
+    while (words.size() < 3000) words.push_back(draw_plan_word(random));
+    for (const std::string& word : words) {
+        try {
+            reflect::parse_plan(word);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.failure, Failure::usage) << word;
+            const std::string text = error.what();
+            EXPECT_TRUE(text.find("there are naive, ") != text.npos ||
+                        text.find("wanted ") != text.npos || text.find("empty") != text.npos)
+                << word << ": " << text;
+        } // any other exception fails the test
+    }
+}
+
+TEST(PlanText, DrawnKnobsAndValuesAreRefusedWithTheNearestOrAllNames) {
+    std::mt19937 random(2);
+    for (const reflect::Technique* technique : reflect::list_techniques()) {
+        const std::string name(technique->name);
+        const auto refusal = [&](const std::string& knob, const std::string& value) -> std::string {
+            TechniqueKnobSettings settings(technique->knobs);
+            try {
+                settings.set_knob_from_text(name, knob, value);
+                return "";
+            } catch (const Error& error) {
+                EXPECT_EQ(error.failure, Failure::usage) << knob << "=" << value;
+                return error.what();
+            }
+        };
+        for (int i = 0; i < 30; ++i) {
+            const std::string word = draw_plan_word(random);
+            const std::string text = refusal(word, "1");
+            EXPECT_NE(text.find("'" + name + "' has no knob '" + word + "'"), text.npos) << text;
+            EXPECT_TRUE(text.find("did you mean '") != text.npos ||
+                        text.find("there are " + std::string(technique->knobs[0].name)) !=
+                            text.npos)
+                << text;
+        }
+        for (const TechniqueKnob& knob : technique->knobs)
+            for (int i = 0; i < 5; ++i) {
+                const std::string word = draw_plan_word(random);
+                const std::string text = refusal(std::string(knob.name), word);
+                if (text.empty()) continue; // a number that fits
+                EXPECT_NE(text.find("knob '" + std::string(knob.name) + "'"), text.npos) << text;
+                const std::string value = knob.choices.empty() ? " to "
+                                                               : std::string(knob.choices[0]);
+                EXPECT_NE(text.find(value), text.npos) << text;
+            }
+    }
 }
 
 TEST(PlanText, PlanHasAShortUniqueFileName) {
