@@ -142,13 +142,14 @@ class Runner:
     def run(self, chosen):
         """Runs tests. A signal ends it within two seconds by Stop; the results so far stay."""
         queue, running, done, count = self.queue(chosen), [], 0, len(chosen)
-        def stop(number, _):
-            raise Stop(signal.Signals(number).name, 128 + number)
+        signals = []  # looked at between tests, so that none is lost while it starts or is stored
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, stop)
+            signal.signal(number, lambda number, _: signals.append(number))
         lacking = {label: table.missing_packages(label) for test in chosen for label in test.labels}
         try:
             while queue or running:
+                if signals:
+                    raise Stop(signal.Signals(signals[0]).name, 128 + signals[0])
                 while queue and len(running) < self.jobs and not any(run.test.alone for run in running) and \
                         not (queue[0].alone and running):
                     test = queue.pop(0)
@@ -172,28 +173,24 @@ class Runner:
                           f"{': ' + outcome.reason if outcome.reason else ''} ({minutes(left)} left)", flush=True)
                 time.sleep(.05)
         finally:
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-                signal.signal(number, signal.SIG_IGN)
             ctest.end(running)
 
 
-def say_summary(runner, chosen, rest=()):
-    """Prints a table of labels and each test that failed or did not run. Returns the counts of `chosen`."""
-    by_label = {}
-    for test in chosen:
-        by_label.setdefault(test.labels[0], []).append(test)
+def say_summary(runner, chosen, rest):
+    """Prints a table of labels, each test that failed or did not run, and the counts. Returns the counts."""
+    total = collections.Counter()
     print(f"{'label':12} {'tests':>6} {'passed':>7} {'failed':>7} {'not run':>8} {'seconds':>8}")
-    for label in sorted(by_label, key=list(table.LABELS).index):
-        tests = by_label[label]
+    for label in sorted({test.labels[0] for test in chosen}, key=list(table.LABELS).index):
+        tests = [test for test in chosen if test.labels[0] == label]
         rows = runner.results.on(runner.tree, tests)
-        if runner.records.is_green(label, runner.tree) and len(rows) < len(tests):
-            of = runner.records.of[label]
-            print(f"{label:12} {len(tests):6} {of['passed']:7} {0:7} {0:8} {of['seconds']:8}  on {of['date']}")
-            continue
-        of = records.summary(rows)
-        waiting = len(tests) - len(rows)
-        print(f"{label:12} {len(tests):6} {of['passed']:7} {of['failed']:7} {of['not_run']:8} {of['seconds']:8}"
-              f"{f'  {waiting} wait' if waiting else ''}")
+        counts, note = records.summary(rows), ""
+        if len(rows) < len(tests):
+            note = f"  {len(tests) - len(rows)} wait"
+            if not runner.again and runner.records.is_green(label, runner.tree):
+                counts, note = runner.records.of[label], f"  on {runner.records.of[label]['date']}"
+        total.update({key: counts[key] for key in ("passed", "failed", "not_run")})
+        print(f"{label:12} {len(tests):6} {counts['passed']:7} {counts['failed']:7} {counts['not_run']:8} "
+              f"{counts['seconds']:8}{note}")
     for test in chosen:
         for row in runner.results.on(runner.tree, [test]):
             for text in records.shortfalls(row):
@@ -202,6 +199,7 @@ def say_summary(runner, chosen, rest=()):
         labels = sorted({test.labels[0] for test in rest}, key=list(table.LABELS).index)
         print(f"not run: {len(rest)} tests of {', '.join(labels)}: beyond the time, "
               f"{minutes(runner.estimate(rest))} more: ./dev test --all")
+    print(f"test: {total['passed']} passed, {total['failed']} failed, {total['not_run'] + len(rest)} not run")
     return records.summary(runner.results.on(runner.tree, chosen))
 
 
@@ -235,8 +233,7 @@ def run_tests(options):
     counts = say_summary(runner, chosen, rest)
     if options.verb == "touched" and not code:
         runner.records.set("touched", runner.tree, {**counts, "left_out": len(rest)})
-    print(f"test: {counts['passed']} passed, {counts['failed']} failed, {counts['not_run'] + len(rest)} not run, in "
-          f"{minutes(time.monotonic() - start)}")
+    print(f"test: took {minutes(time.monotonic() - start)}")
     return code or (1 if counts["failed"] else 0)
 
 

@@ -166,6 +166,7 @@ class Runs(unittest.TestCase):
         code, output = project.run("all")
         self.assertEqual((code, project.ran()), (0, ["a"]), output)
         self.assertIn("unit              1       1       0", output)
+        self.assertIn("1 passed, 0 failed, 0 not run", output)
 
     def test_a_tree_that_changes_under_a_test_ends_the_run(self):
         project = self.project({"a": ("echo int z >../engine.cpp", "LABELS unit")})
