@@ -24,6 +24,8 @@ public:
     /// Returns whether the cache is stored in a file. `loaded_cache_bytes` is the size of the data
     /// loaded from it.
     bool is_stored_in_file() const { return !file_.empty(); }
+    /// Returns the folder of the file; empty: nothing is stored.
+    std::filesystem::path folder() const { return file_.parent_path(); }
     std::size_t loaded_cache_bytes() const { return known_.size(); }
     /// Returns a sentence for the user; empty if there was no problem.
     const std::string& cache_warning() const { return warning_; }

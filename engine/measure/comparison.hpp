@@ -23,6 +23,7 @@ struct Causes; // internal: report.json has their data
 struct LagResults;
 struct LightEdgeErrors;
 struct LookupErrorSummary;
+struct PathDistance;
 struct ReferenceNoise;
 struct SceneContents;
 struct SetupFacts;
@@ -130,8 +131,7 @@ struct Row : Errors {
     /// host then works in each frame, and gpu_ms otherwise.
     const SampleSummary& time_ms() const { return moves ? frame_ms : gpu_ms; }
     std::vector<PassFacts> passes; ///< passes in order of execution
-    /// Sum of all pass times of a frame divided by wall_ms, frame by frame. It is near 1 if the
-    /// timestamps are right.
+    /// Sum of a frame's pass times divided by wall_ms, frame by frame; near 1 if they are right.
     SampleSummary closure;
     std::uint64_t memory_bytes = 0; ///< memory of the frame's images
     std::optional<RayCounts> rays;  ///< rays of one frame; empty if the row traces none
@@ -153,9 +153,8 @@ struct Row : Errors {
     Picture display;  ///< the same picture as displayed
     std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
     std::string image; ///< file name of the pictures without folder and ending: "naive-bounces1"
-    bool is_reference = false; ///< whether technique and settings are those of the reference
-    bool mirrors_black =
-        false; ///< whether mirrors show nothing: see measure::is_row_eligible_for_ranking
+    bool is_reference = false;  ///< whether technique and settings are those of the reference
+    bool mirrors_black = false; ///< see measure::is_row_eligible_for_ranking
 };
 
 struct Comparison {
@@ -185,6 +184,7 @@ struct Comparison {
     std::vector<std::uint32_t> mirror_hits;
     double reference_area_flip = NAN;      ///< FLIP of 1 sample a pixel from many, over mirrors
     std::shared_ptr<ReferenceNoise> noise; ///< see measure/halves.hpp; null: no noise
+    std::shared_ptr<PathDistance> path_distance; ///< of the reference; null: not asked for
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<SampleSummary> clear_ms;
     /// Drawn views in which errors were measured, in addition to the comparison's own camera.

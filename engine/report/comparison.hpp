@@ -3,6 +3,7 @@
 #include "measure/causes.hpp"
 #include "measure/comparison.hpp"
 #include "measure/lag.hpp"
+#include "measure/path_distance.hpp"
 #include "measure/scene_contents.hpp"
 #include "measure/setup.hpp"
 

@@ -124,6 +124,8 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
             "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "
             "FLIP of a row. More --reference-seconds than {:g} reduce it.",
             format_picture_error(comparison.noise->flip_floor), comparison.noise->most_seconds));
+    if (comparison.path_distance)
+        list.push_back(describe_path_distance(*comparison.path_distance, comparison.rows));
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)

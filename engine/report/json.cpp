@@ -264,6 +264,8 @@ Json make_report_json(const Comparison& comparison) {
                          {"gpu_ms", to_json(comparison.reference_gpu_ms)}};
     json["reference"]["area_flip"] = make_number_json(comparison.reference_area_flip);
     if (comparison.noise) json["reference"]["noise"] = to_json(*comparison.noise);
+    if (comparison.path_distance)
+        json["reference"]["path_distance"] = make_path_distance_json(*comparison.path_distance);
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;
     json["views"] = make_views_json(comparison);

@@ -42,6 +42,8 @@ Json make_row_times_json(const Row& row);
 void add_error_fields_json(Json& json, const measure::Errors& errors);
 /// Returns the value of a metric as JSON, or null if the metric has no value.
 Json make_metric_value_json(const measure::MetricValue& value);
+/// Returns how far a reference is from path tracing.
+Json make_path_distance_json(const measure::PathDistance& distance);
 /// Returns the field "lag" of a comparison whose lag was measured.
 Json make_lag_json(const Comparison& comparison);
 

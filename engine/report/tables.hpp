@@ -109,6 +109,11 @@ std::string describe_setup_times(const SetupFacts& setup);
 /// warnings.
 std::vector<std::string> list_report_cautions(const Comparison& comparison);
 
+/// Returns a sentence on how far a reference is from path tracing, or on how to find out. `rows`:
+/// rows that are judged by the reference, of which the sentence counts those with less FLIP.
+std::string describe_path_distance(const measure::PathDistance& distance,
+                                   const std::vector<Row>& rows);
+
 /// Returns the findings of a run. For the seed report's scene they include its statements about its
 /// Table 1 and figures 5 and 7.
 std::vector<std::string> list_findings(const Comparison& comparison);

@@ -118,6 +118,8 @@ struct Access {
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
     static CompiledPipelines compiled_pipelines(const Engine& engine);
     static PipelineCacheState pipeline_cache_state_of_engine(const Engine& engine);
+    /// Returns the folder in which the engine keeps files between runs; empty if it keeps none.
+    static std::filesystem::path cache_folder(const Engine& engine);
     static EngineImpl& engine_impl_of(const Engine& engine) { return *engine.impl_; }
 
     /// Returns whether a technique's picture depends on the previous frame.

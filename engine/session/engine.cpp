@@ -95,6 +95,10 @@ PipelineCacheState Access::pipeline_cache_state_of_engine(const Engine& engine) 
     return cache.loaded_cache_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
 }
 
+std::filesystem::path Access::cache_folder(const Engine& engine) {
+    return engine.impl_->pipelines.pipeline_cache().folder();
+}
+
 bool has_abandoned_device() { return gpu::has_abandoned_device(); }
 
 std::filesystem::path find_cache_folder() { return find_user_folder("XDG_CACHE_HOME", ".cache"); }

@@ -12,8 +12,12 @@
 #include "progress.hpp"
 #include "report/costs.hpp"
 #include "report/json.hpp"
+#include "report/tables.hpp"
+#include "session/exposure.hpp"
 #include "study/compare_checks.hpp"
+#include "study/path_distance.hpp"
 #include "study/reference_cache.hpp"
+#include "study/study.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 
@@ -42,6 +46,7 @@ struct ChooseOptions {
     std::string output, certified;
     std::vector<std::string> techniques;
     bool is_share_given = false, is_confidence_given = false, is_proof_seed_given = false;
+    std::optional<int> path_distance_seconds; ///< limit of time; none: by the picture's size
     std::vector<std::string> command;
 };
 
@@ -153,12 +158,43 @@ app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options
     return request;
 }
 
+/// Measures how far the reference is from path tracing, in a session of its own. Called before the
+/// choice, so that a signal meanwhile loses no chosen plan.
+std::optional<measure::PathDistance>
+measure_distance_of_reference(const ChooseOptions& options, const app::ChooseRequest& request,
+                              app::Engine& engine, ProgressPrinter& progress) {
+    app::Request base = request.base;
+    app::Session session(engine, base.scene);
+    app::resolve_auto_exposure(session, base);
+    auto distance = app::measure_path_distance(
+        engine, session, base, request.reference,
+        options.path_distance_seconds.value_or(app::choose_path_distance_seconds(base.size)),
+        request.watcher, [&](const std::string& warning) {
+            progress.clear();
+            print_warning(warning);
+        });
+    progress.clear();
+    return distance;
+}
+
+/// Adds the distance of the reference to path tracing to the file of a plan.
+void add_path_distance(report::Json& document,
+                       const std::optional<measure::PathDistance>& distance) {
+    if (distance) document["path_distance"] = report::make_path_distance_json(*distance);
+}
+
+std::string make_path_distance_line(const std::optional<measure::PathDistance>& distance) {
+    return distance ? report::describe_path_distance(*distance, {}) + "\n" : "";
+}
+
 int certify_plan_and_print_result(const ChooseOptions& options, const app::ChooseRequest& request,
                                   app::Engine& engine, ProgressPrinter& progress) {
     const std::string plan = "plan:" + options.certified;
+    const auto distance = measure_distance_of_reference(options, request, engine, progress);
     const app::PlanProof proof = app::prove_plan(engine, request, plan);
     progress.clear();
     report::Json document = app::make_proved_plan_json(request, plan, proof, options.common.scene);
+    add_path_distance(document, distance);
     document["command"] = options.command;
     if (!options.output.empty() && proof.holds())
         write_file(options.output, report::serialise_json(document));
@@ -166,7 +202,8 @@ int certify_plan_and_print_result(const ChooseOptions& options, const app::Choos
     print_result(options.common.output_options.json
                      ? report::serialise_json(document)
                      : std::string(proof.holds() ? "holds: " : "does not hold: ") +
-                           app::describe_proof(request, proof) + "\n");
+                           app::describe_proof(request, proof) + "\n" +
+                           make_path_distance_line(distance));
     return proof.holds() ? 0 : 1;
 }
 
@@ -207,15 +244,18 @@ int run_choose(const ChooseOptions& options) {
     print_device_and_warnings(engine, options.common.output_options);
     if (!options.certified.empty())
         return certify_plan_and_print_result(options, request, engine, progress);
+    const auto distance = measure_distance_of_reference(options, request, engine, progress);
     const app::PlanChoice choice = app::choose_plan(engine, request);
     progress.clear();
     report::Json document = app::make_choice_json(request, choice, options.common.scene);
+    add_path_distance(document, distance);
     document["command"] = options.command;
     if (choice.chosen) write_file(options.output, report::serialise_json(document));
     if (options.common.output_options.json) {
         print_result(report::serialise_json(document));
     } else {
-        std::string text = make_candidate_table(request, choice);
+        std::string text = make_candidate_table(request, choice) +
+                           make_path_distance_line(distance);
         for (const app::PlanProof& proof : choice.proofs)
             text += std::string(proof.holds() ? "holds: " : "does not hold: ") +
                     app::describe_proof(request, proof) + "\n";
@@ -256,6 +296,12 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
         [&limits](const std::string& text) {
             limits.reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
         });
+    verb.option("--path-distance", "S",
+                std::string(app::find_study(app::kPathDistanceStudyName).help),
+                [&options](const std::string& text) {
+                    options.path_distance_seconds = static_cast<int>(
+                        parse_integer("--path-distance", text, 0, 86'400));
+                });
     verb.option(
         "--costs", "COSTS",
         "choose for another device, by times predicted from its costs: a file, or a name of "

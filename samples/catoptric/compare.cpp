@@ -21,6 +21,7 @@
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"
+#include "study/path_distance.hpp"
 #include "study/picture_rows.hpp"
 #include "study/reference_cache.hpp"
 #include "study/study.hpp"
@@ -241,11 +242,16 @@ public:
                                                         std::to_string(views) +
                                                         " drawn views; the table shows one view");
         if (!output_options.json)
-            print_result((is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
-                         make_compare_table(comparison) +
-                         (measure::has_time_or_flip_budget(comparison)
-                              ? report::describe_budget_answer(comparison) + "\n"
-                              : ""));
+            print_result(
+                (is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
+                make_compare_table(comparison) +
+                (measure::has_time_or_flip_budget(comparison)
+                     ? report::describe_budget_answer(comparison) + "\n"
+                     : "") +
+                (comparison.path_distance
+                     ? report::describe_path_distance(*comparison.path_distance, comparison.rows) +
+                           "\n"
+                     : ""));
         else if (is_one_)
             print_result(report::to_json(comparison));
     }
@@ -262,12 +268,23 @@ private:
     bool is_one_;
 };
 
+/// Asks for the distance of the reference to path tracing, unless an option did. In small pictures
+/// it would take longer than the rows.
+void ask_for_path_distance(app::CompareRequest& request) {
+    if (std::ranges::find(request.studies, app::kPathDistanceStudyName, &app::StudyChoice::name) !=
+        request.studies.end())
+        return;
+    request.studies.push_back(
+        {app::kPathDistanceStudyName, app::choose_path_distance_seconds(request.base.size)});
+}
+
 /// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
                                  std::size_t index, const CompareOptions& options,
                                  ProgressPrinter& progress, CompareReportOutput& output,
                                  const BaselineGate& gate) {
     const std::size_t row_count = list_requested_rows(request).size();
+    ask_for_path_distance(request);
     request.watcher = make_progress_watcher(progress);
     report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
