@@ -39,6 +39,12 @@ double read_used_seconds(const Engine& engine) {
         .count();
 }
 
+/// Returns whether a picture is not larger than that of the measurement, so that the paths would
+/// take longer than the rows.
+bool is_small_picture(const uvec2& size) {
+    return std::uint64_t{size.x} * size.y <= kPathDistancePixels;
+}
+
 /// Returns the size of the small picture: the shape of the comparison's picture, at most 64x64
 /// pixels in all.
 uvec2 choose_size_of_path_picture(const uvec2& size) {
@@ -216,7 +222,7 @@ void trace_path_distance(const Engine& engine, PathPictures& pictures, const Wat
 } // namespace
 
 int choose_path_distance_seconds(const uvec2& size) {
-    return size.x * size.y < kPathDistancePixels ? 0 : kDefaultSeconds;
+    return is_small_picture(size) ? 0 : kDefaultSeconds;
 }
 
 std::optional<measure::PathDistance>
@@ -245,8 +251,8 @@ measure_path_distance(Engine& engine, Session& session, const Request& base,
             return kept;
         }
     if (seconds <= 0) {
-        distance.unknown = base.size.x * base.size.y < kPathDistancePixels
-                               ? "pictures below 64x64 are left out"
+        distance.unknown = is_small_picture(base.size)
+                               ? "pictures of at most 64x64 pixels are left out"
                                : "--path-distance 0 leaves it out";
         return distance;
     }
@@ -286,7 +292,7 @@ const RegisteredStudy kPathDistanceStudy{
     {.name = kPathDistanceStudyName,
      .help = "most seconds of processor time to measure, at 64x64, how far the reference itself is "
              "from path tracing; kept by scene and view; 0: leave it out (10, or 0 for pictures "
-             "with fewer pixels than 64x64)",
+             "of at most 64x64 pixels)",
      .order = 5,
      .number = "S",
      .low = 0,

@@ -13,8 +13,8 @@ inline constexpr const char* kPathDistanceStudyName = "path-distance";
 /// Pixels of the picture in which the distance is measured, at most.
 inline constexpr unsigned kPathDistancePixels = 64 * 64;
 
-/// Returns the limit of time in seconds if the user gave none: 10, or 0 for a picture with fewer
-/// pixels than kPathDistancePixels, whose rows would take less time than the paths.
+/// Returns the limit of time in seconds if the user gave none: 10, or 0 for a picture of at most
+/// kPathDistancePixels, whose rows would take less time than the paths.
 int choose_path_distance_seconds(const uvec2& size);
 
 /// Returns how far the reference is from path tracing, in a picture of the shape of `base` with at

@@ -59,11 +59,11 @@ TEST_F(PathDistanceOfVerbs, SmallPicturesSayHowToFindOut) {
     const test::ProcessResult ended = compare_small_rows({});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const std::string sentence =
-        "How far the reference itself is from path tracing is not known: pictures below 64x64 are "
-        "left out. To find out: catoptric compare cornell-mirrors-closed -o DIR --truth paths "
+        "How far the reference itself is from path tracing is not known: pictures of at most "
+        "64x64 pixels are left out. To find out: catoptric compare cornell-mirrors-closed -o DIR --truth paths "
         "--techniques raytrace:depth=16, with the same options for scene and camera.";
     EXPECT_THAT(ended.out, HasSubstr("\n" + sentence + "\n"));
-    EXPECT_EQ(read_distance()["why"], "pictures below 64x64 are left out");
+    EXPECT_EQ(read_distance()["why"], "pictures of at most 64x64 pixels are left out");
 }
 
 TEST_F(PathDistanceOfVerbs, PathTracedReferenceNeedsNoSentence) {
