@@ -191,6 +191,22 @@ ImageSizeAndChannels read_tiff_header(const RandomAccessByteSource& bytes,
     return make_image_size_and_channels(width, height, channels);
 }
 
+/// Reads the header of a Photoshop file. Throws if a section before the pixels claims more bytes
+/// than the file has, because OpenImageIO allocates as many.
+ImageSizeAndChannels read_psd_header(const RandomAccessByteSource& bytes, const std::string& name) {
+    const ImageHeaderIntegerReader numbers(bytes);
+    std::uint64_t end = 26; // of the header
+    for (const char* section : {"colour mode data", "image resources"}) {
+        const std::uint64_t length = numbers.read_big_endian(end, 4);
+        end += 4 + length;
+        check(end <= bytes.size(), Failure::bad_data, name, ": wanted ", section, " within ",
+              bytes.size(), " bytes of file, found ", length, " bytes");
+    }
+    return make_image_size_and_channels(numbers.read_big_endian(18, 4),
+                                        numbers.read_big_endian(14, 4),
+                                        numbers.read_big_endian(12, 2));
+}
+
 } // namespace
 
 std::optional<ImageSizeAndChannels> read_image_header(const RandomAccessByteSource& bytes,
@@ -211,10 +227,7 @@ std::optional<ImageSizeAndChannels> read_image_header(const RandomAccessByteSour
     if (format == "targa")
         return make_image_size_and_channels(numbers.read_little_endian(12, 2),
                                             numbers.read_little_endian(14, 2), 4);
-    if (format == "psd")
-        return make_image_size_and_channels(numbers.read_big_endian(18, 4),
-                                            numbers.read_big_endian(14, 4),
-                                            numbers.read_big_endian(12, 2));
+    if (format == "psd") return read_psd_header(bytes, name);
     if (format == "bmp") {
         const bool is_old = numbers.read_little_endian(14, 4) ==
                             12; // the old header has sides of 16 bits

@@ -159,6 +159,21 @@ TEST_F(PictureMemoryBudgetCliTest, TooLargeTextureIsRefusedBeforeDecoding) {
     expect_small_memory_use({"info", "x.obj"}, "wanted at most 67108864 texels in pictures");
 }
 
+TEST_F(PictureMemoryBudgetCliTest, PhotoshopSectionThatClaimsGigabytesIsRefused) {
+    const auto make_psd = [](std::uint32_t colours, std::uint32_t resources) {
+        return "8BPS" + std::string("\0\1\0\0\0\0\0\0\0\3", 10) + encode_big_endian(4) +
+               encode_big_endian(4) + std::string("\0\10\0\3", 4) + encode_big_endian(colours) +
+               encode_big_endian(resources) + std::string(100, '\0');
+    };
+    write_input_file("m.mtl", "newmtl m\nmap_Kd wood.psd\n");
+    write_input_file("x.obj",
+                     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+    write_input_file("wood.psd", make_psd(0x7fffffff, 0));
+    expect_small_memory_use({"info", "x.obj"}, "found 2147483647 bytes");
+    write_input_file("wood.psd", make_psd(0, 0xffffffff));
+    expect_small_memory_use({"info", "x.obj"}, "wanted image resources within 134 bytes of file");
+}
+
 TEST_F(PictureMemoryBudgetCliTest, BrokenPngGivesASingleErrorLine) {
     write_input_file("broken.png", make_png_bytes(8, 8, 100));
     expect_small_memory_use({"diff", "broken.png", "broken.png"},
