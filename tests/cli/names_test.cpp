@@ -147,8 +147,8 @@ TEST_F(NameTest, KnownCostsAreListed) {
     EXPECT_EQ(listed.exit_code, 0) << listed.err;
     EXPECT_THAT(listed.out, HasSubstr("\ngtx-680 "));
     EXPECT_THAT(listed.out, HasSubstr("GeForce GTX 1080 Ti (literature)\n"));
-    const auto json = nlohmann::json::parse(run_cli({"list", "costs", "--json"}).out);
-    EXPECT_EQ(json["costs"][0]["name"], "gtx-1080-ti");
+    const auto listed_json = nlohmann::json::parse(run_cli({"list", "costs", "--json"}).out);
+    EXPECT_EQ(listed_json["costs"][0]["name"], "gtx-1080-ti");
     const Words compare{"compare", "-o", "out", "--costs"};
     Words words = compare;
     words.emplace_back("gtx-108");
