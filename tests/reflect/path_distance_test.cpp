@@ -42,20 +42,21 @@ DistanceRun measure_distance(app::Engine& engine, const scene::Scene& scene, dou
     return run;
 }
 
-scene::Scene make_room() {
+scene::Scene make_room_with_lamp() {
     scene::Scene room = test::make_lit_room(1, 1);
     scene::find_mirrors(room);
     return room;
 }
 
-scene::Scene make_furnace() {
+scene::Scene make_black_furnace() {
     scene::Scene furnace = test::make_furnace_scene(1);
     scene::find_mirrors(furnace);
     return furnace;
 }
 
 TEST(PathDistance, LampInAClosedRoomLeavesTheReferenceFarAway) {
-    const DistanceRun run = measure_distance(test::get_test_engine(), make_room(), kAmpleSeconds);
+    const DistanceRun run = measure_distance(test::get_test_engine(), make_room_with_lamp(),
+                                             kAmpleSeconds);
     ASSERT_TRUE(run.distance && run.distance->is_known()) << run.distance->unknown;
     EXPECT_GT(measure::find_path_distance_interval(*run.distance).low, .1);
     EXPECT_TRUE(measure::is_path_distance_precise(*run.distance));
@@ -66,7 +67,7 @@ TEST(PathDistance, LampInAClosedRoomLeavesTheReferenceFarAway) {
 
 /// The walls emit light and reflect none, so ray tracing shows all light.
 TEST(PathDistance, MirrorBallInABlackFurnaceHasNoDistance) {
-    const DistanceRun run = measure_distance(test::get_test_engine(), make_furnace(),
+    const DistanceRun run = measure_distance(test::get_test_engine(), make_black_furnace(),
                                              kAmpleSeconds);
     ASSERT_TRUE(run.distance && run.distance->is_known()) << run.distance->unknown;
     EXPECT_LT(run.distance->flip, 1e-4);
@@ -76,7 +77,7 @@ TEST(PathDistance, MirrorBallInABlackFurnaceHasNoDistance) {
 
 /// The reference of a rough scene has noise of its own, which must not count as a distance.
 TEST(PathDistance, NoiseOfARoughReferenceIsNoDistance) {
-    scene::Scene furnace = make_furnace();
+    scene::Scene furnace = make_black_furnace();
     test::make_mirrors_rough(furnace, .4f);
     const DistanceRun run = measure_distance(test::get_test_engine(), furnace, kAmpleSeconds,
                                              "raytrace:depth=16,rays=64");
@@ -86,7 +87,7 @@ TEST(PathDistance, NoiseOfARoughReferenceIsNoDistance) {
 }
 
 TEST(PathDistance, PathTracedReferenceHasNone) {
-    const DistanceRun run = measure_distance(test::get_test_engine(), make_furnace(), 0,
+    const DistanceRun run = measure_distance(test::get_test_engine(), make_black_furnace(), 0,
                                              "raytrace:indirect=paths,rays=2");
     EXPECT_FALSE(run.distance);
     EXPECT_EQ(run.frames, 0);
@@ -94,7 +95,8 @@ TEST(PathDistance, PathTracedReferenceHasNone) {
 
 TEST(PathDistance, ReachedLimitOfTimeIsNotKnown) {
     constexpr double kTinySeconds = 1e-9; // the first frame takes longer
-    const DistanceRun run = measure_distance(test::get_test_engine(), make_room(), kTinySeconds);
+    const DistanceRun run = measure_distance(test::get_test_engine(), make_room_with_lamp(),
+                                             kTinySeconds);
     ASSERT_TRUE(run.distance);
     EXPECT_FALSE(run.distance->is_known());
     EXPECT_THAT(run.distance->unknown,
@@ -106,8 +108,8 @@ TEST(PathDistance, ReachedLimitOfTimeIsNotKnown) {
 }
 
 TEST(PathDistance, RasterisedReferenceIsNotKnown) {
-    const DistanceRun run = measure_distance(test::get_test_engine(), make_room(), kAmpleSeconds,
-                                             "naive:face=16");
+    const DistanceRun run = measure_distance(test::get_test_engine(), make_room_with_lamp(),
+                                             kAmpleSeconds, "naive:face=16");
     ASSERT_TRUE(run.distance);
     EXPECT_EQ(run.distance->unknown, "the reference is not ray traced");
     EXPECT_EQ(run.frames, 0);
@@ -116,7 +118,7 @@ TEST(PathDistance, RasterisedReferenceIsNotKnown) {
 TEST(PathDistance, PictureHasAtMost64x64PixelsInTheShapeOfTheComparison) {
     for (const auto& [size, wanted] : std::vector<std::pair<uvec2, uvec2>>{
              {{512, 512}, {64, 64}}, {{1920, 1080}, {85, 47}}, {{20, 10}, {20, 10}}}) {
-        const DistanceRun run = measure_distance(test::get_test_engine(), make_furnace(), 0,
+        const DistanceRun run = measure_distance(test::get_test_engine(), make_black_furnace(), 0,
                                                  "raytrace", size);
         EXPECT_EQ(run.distance->width, static_cast<int>(wanted.x));
         EXPECT_EQ(run.distance->height, static_cast<int>(wanted.y));
@@ -125,7 +127,7 @@ TEST(PathDistance, PictureHasAtMost64x64PixelsInTheShapeOfTheComparison) {
 }
 
 TEST(PathDistance, SignalEndsIt) {
-    app::Request base = test::make_test_request(make_room(), {"naive:face=16"}, {16, 16});
+    app::Request base = test::make_test_request(make_room_with_lamp(), {"naive:face=16"}, {16, 16});
     app::Session session(test::get_test_engine(), base.scene);
     std::atomic<int> signal{0};
     int frames = 0;
@@ -136,7 +138,7 @@ TEST(PathDistance, SignalEndsIt) {
             app::measure_path_distance(test::get_test_engine(), session, base, "raytrace:depth=16",
                                        kAmpleSeconds, watcher, [](const std::string&) {});
         },
-        Failure::terminated, "stopped by signal 15");
+        Failure::terminated, {"stopped by signal 15"});
     EXPECT_EQ(frames, 2);
 }
 
@@ -152,8 +154,8 @@ private:
 };
 
 TEST_F(KeptPathDistance, SecondRunTracesNoPath) {
-    const DistanceRun first = measure_with_cache(make_furnace()),
-                      again = measure_with_cache(make_furnace());
+    const DistanceRun first = measure_with_cache(make_black_furnace()),
+                      again = measure_with_cache(make_black_furnace());
     EXPECT_GT(first.frames, 0);
     EXPECT_FALSE(first.distance->is_kept);
     EXPECT_EQ(again.frames, 0);
@@ -163,40 +165,42 @@ TEST_F(KeptPathDistance, SecondRunTracesNoPath) {
     EXPECT_EQ(again.distance->flip_all, first.distance->flip_all);
     EXPECT_EQ(again.distance->paths, first.distance->paths);
     EXPECT_EQ(again.distance->command, first.distance->command);
-    EXPECT_TRUE(measure_with_cache(make_furnace(), 0).distance->is_kept)
+    EXPECT_TRUE(measure_with_cache(make_black_furnace(), 0).distance->is_kept)
         << "a kept result needs no time";
     EXPECT_EQ(
-        measure_with_cache(make_furnace(), kAmpleSeconds, "raytrace:depth=16,samples=64").frames, 0)
+        measure_with_cache(make_black_furnace(), kAmpleSeconds, "raytrace:depth=16,samples=64")
+            .frames,
+        0)
         << "samples do not change the light";
 
-    scene::Scene brighter = make_furnace();
+    scene::Scene brighter = make_black_furnace();
     for (scene::Material& material : brighter.materials) material.emission *= 1.5f;
     EXPECT_GT(measure_with_cache(brighter).frames, 0) << "another scene";
-    EXPECT_GT(measure_with_cache(make_furnace(), kAmpleSeconds, "raytrace:depth=3").frames, 0)
+    EXPECT_GT(measure_with_cache(make_black_furnace(), kAmpleSeconds, "raytrace:depth=3").frames, 0)
         << "another reference";
 }
 
 TEST_F(KeptPathDistance, BrokenFileIsSaidAndReplaced) {
-    measure_with_cache(make_furnace());
+    measure_with_cache(make_black_furnace());
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "paths"))
         files.push_back(entry.path());
     ASSERT_EQ(files.size(), 1u);
     for (const std::string broken : {"", "{", "{}", R"({"schema":"catoptric/path-distance/1"})"}) {
         std::ofstream(files[0], std::ios::binary) << broken;
-        const DistanceRun said = measure_with_cache(make_furnace());
+        const DistanceRun said = measure_with_cache(make_black_furnace());
         EXPECT_THAT(said.warnings, testing::ElementsAre(
                                        testing::AllOf(testing::HasSubstr(files[0].string()),
                                                       testing::HasSubstr("it is measured again"))))
             << broken;
         EXPECT_GT(said.frames, 0);
-        EXPECT_EQ(measure_with_cache(make_furnace()).frames, 0) << "a new file was written";
+        EXPECT_EQ(measure_with_cache(make_black_furnace()).frames, 0) << "a new file was written";
     }
 }
 
 TEST_F(KeptPathDistance, FolderThatCannotBeWrittenToIsSaid) {
     std::ofstream(folder / "paths") << "not a folder";
-    const DistanceRun run = measure_with_cache(make_furnace());
+    const DistanceRun run = measure_with_cache(make_black_furnace());
     EXPECT_TRUE(run.distance->is_known());
     EXPECT_THAT(run.warnings, testing::ElementsAre(testing::HasSubstr(
                                   "each comparison of this scene measures the distance")));
