@@ -26,7 +26,7 @@ std::vector<report::Row> make_rows(const std::vector<double>& flips) {
     std::vector<report::Row> rows;
     for (const double flip : flips) {
         report::Row& row = rows.emplace_back();
-        row.error.flip = flip, row.error.pixels = 1;
+        row.error.flip = row.error.rmse = flip;
     }
     return rows;
 }
