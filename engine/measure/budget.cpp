@@ -26,10 +26,13 @@ bool has_time_or_flip_budget(const Comparison& comparison) {
     return !std::isnan(comparison.max_ms) || !std::isnan(comparison.max_flip);
 }
 
-bool is_within_time_budget(const Comparison& comparison, const Row& row) {
-    if (std::isnan(comparison.max_ms)) return true;
+Order compare_to_time_budget(const Comparison& comparison, const Row& row) {
+    if (std::isnan(comparison.max_ms)) return Order::less;
     const SampleSummary& time = row.time_ms();
-    return (time.ci95.is_known() ? time.ci95.high : time.median) <= comparison.max_ms;
+    // A predicted time without a range has no stated interval, but rounds that are all equal.
+    return compare_to_limit(time.ci95.is_known() ? time.ci95
+                                                 : median_confidence_interval(time.rounds),
+                            comparison.max_ms);
 }
 
 bool is_within_flip_budget(const Comparison& comparison, const Row& row) {
@@ -40,16 +43,14 @@ BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison) 
     std::vector<const Row*> judged, in_time, fitting;
     BestRowsWithinBudget answer;
     for (const Row& row : comparison.rows) {
-        if (!is_row_eligible_for_ranking(row) || std::isnan(row.error.flip) ||
-            !(median_frame_ms(row) > 0))
-            continue;
+        if (!is_judged_row(row)) continue;
         judged.push_back(&row);
-        const bool is_in_time = is_within_time_budget(comparison, row),
+        const Order time = compare_to_time_budget(comparison, row);
+        const bool is_in_time = time == Order::less || time == Order::equal,
                    is_close = is_within_flip_budget(comparison, row);
         if (is_in_time) in_time.push_back(&row);
         if (is_in_time && is_close) fitting.push_back(&row);
-        if (!is_in_time && is_close && median_frame_ms(row) <= comparison.max_ms)
-            answer.undecided.push_back(&row);
+        if (time == Order::unknown && is_close) answer.undecided.push_back(&row);
     }
     const bool by_flip = std::isnan(comparison.max_flip);
     answer.row = by_flip ? find_row_minimising_value(fitting, mean_flip_over_mirrors)
@@ -60,10 +61,13 @@ BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison) 
                              : find_row_minimising_value(in_time, mean_flip_over_mirrors);
         return answer;
     }
+    const RowJudge judge(comparison.rows);
     for (const Row* row : fitting) {
-        const bool ties = by_flip ? !has_less_flip(*answer.row, *row)
-                                  : is_time_tie(*answer.row, *row);
-        if (row != answer.row && ties) answer.ties.push_back(row);
+        if (row == answer.row) continue;
+        const Order order = by_flip ? judge.flip(*answer.row, *row)
+                                    : judge.times(*answer.row, *row);
+        if (order == Order::equal) answer.equal.push_back(row);
+        if (order == Order::unknown) answer.open.push_back(row);
     }
     return answer;
 }

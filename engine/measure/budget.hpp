@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure/comparison.hpp"
+#include "measure/interval.hpp"
 
 #include <vector>
 
@@ -10,25 +11,25 @@ namespace catoptric::measure {
 
 bool has_time_or_flip_budget(const Comparison& comparison);
 
-/// Returns whether the row's time is within Comparison::max_ms with 95 % confidence: the upper end
-/// of its interval, or its median if the interval is unknown. True without such a budget.
-bool is_within_time_budget(const Comparison& comparison, const Row& row);
+/// Returns whether the row's time is less than Comparison::max_ms, or more, by the whole 95 %
+/// interval of its median. `unknown` if the interval contains the limit or is not known. `less`
+/// without such a budget.
+Order compare_to_time_budget(const Comparison& comparison, const Row& row);
 /// Returns whether the row's FLIP over the mirrors is at most Comparison::max_flip.
 bool is_within_flip_budget(const Comparison& comparison, const Row& row);
 
-/// Answer to a budget of time or error. Rows that take no part in fastest, closest and front are
-/// left out.
+/// Answer to a budget of time or error. Only judged rows take part (is_judged_row).
 struct BestRowsWithinBudget {
     /// The row to choose. With a budget of time alone, it has the least FLIP of the rows within the
     /// budget, and otherwise the least median time. Null if no row keeps the budgets.
     const Row* row = nullptr;
-    /// Other rows within the budgets that tie with `row`.
-    std::vector<const Row*> ties;
-    /// Rows within the budget of FLIP whose median time is below the budget of time, but not with
-    /// 95 % confidence.
+    /// Other rows within the budgets whose time (or FLIP, with a budget of time alone) is equal to
+    /// that of `row`, and those of which it cannot be told whether theirs is less.
+    std::vector<const Row*> equal, open;
+    /// Rows within the budget of FLIP of which it cannot be told whether they keep that of time.
     std::vector<const Row*> undecided;
     /// If no row keeps the budgets: the row with the least FLIP within the budget of time, or else
-    /// the fastest row. Null if no row could be judged.
+    /// the row with the least median time. Null if no row could be judged.
     const Row* nearest = nullptr;
 };
 BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison);

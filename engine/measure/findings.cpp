@@ -31,18 +31,20 @@ std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Compa
     const Row* one = find_naive_row(comparison, 0);
     const Row* two = find_row_of_technique_with_knobs(comparison, "reuse");
     if (one == nullptr || two == nullptr) return {};
-    CaptureClearCostResult finding{one, two, is_confidently_faster(*two, *one)};
+    const SampleSummary &without = one->elapsed_ms(), &reused = two->elapsed_ms();
+    CaptureClearCostResult finding{one, two,
+                                   median_ratio_interval(without.rounds, reused.rounds).low > 1};
     if (!comparison.clear_ms) return finding;
     const double clear = comparison.clear_ms->median;
     finding.clear_ms = clear;
-    finding.gap = (one->time_ms().median + clear - two->time_ms().median) / two->time_ms().median;
-    std::vector<double> with_clear = one->time_ms().rounds;
+    finding.gap = (without.median + clear - reused.median) / reused.median;
+    std::vector<double> with_clear = without.rounds;
     const std::vector<double>& clears = comparison.clear_ms->rounds;
     with_clear.resize(std::min(with_clear.size(), clears.size()));
     for (std::size_t i = 0; i < with_clear.size(); ++i) with_clear[i] += clears[i];
     if (finding.one_is_slower)
         finding.verdict = CaptureClearCostResult::CaptureClearCostVerdict::slower_without;
-    else if (!(median_ratio_interval(with_clear, two->time_ms().rounds).low > 1))
+    else if (!(median_ratio_interval(with_clear, reused.rounds).low > 1))
         finding.verdict = CaptureClearCostResult::CaptureClearCostVerdict::too_little;
     return finding;
 }
@@ -85,7 +87,7 @@ find_parallax_correction_price(const Comparison& comparison) {
     const Row* two = find_row_of_technique_with_knobs(comparison, "reuse");
     const Row* three = find_parallax_row(comparison);
     if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
-    ParallaxCorrectionPriceResult finding{two, three, is_time_tie(*two, *three),
+    ParallaxCorrectionPriceResult finding{two, three, RowJudge(comparison.rows).times(*three, *two),
                                           time_ratio_interval(*three, *two)};
     finding.more = three->time_ms().median / two->time_ms().median - 1;
     if (three->memory_bytes > two->memory_bytes)
@@ -97,7 +99,7 @@ std::optional<RayTracingTimeResult> find_ray_tracing_time_result(const Compariso
     const Row* three = find_parallax_row(comparison);
     const Row* traced = find_ray_traced_row(comparison);
     if (three == nullptr || traced == nullptr || !(three->time_ms().median > 0)) return {};
-    return RayTracingTimeResult{three, traced, is_time_tie(*three, *traced),
+    return RayTracingTimeResult{three, traced, RowJudge(comparison.rows).times(*traced, *three),
                                 time_ratio_interval(*traced, *three),
                                 traced->time_ms().median / three->time_ms().median};
 }

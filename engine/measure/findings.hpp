@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure/comparison.hpp"
+#include "measure/interval.hpp"
 
 #include <optional>
 #include <vector>
@@ -23,8 +24,8 @@ struct UndrawnDielectricReflectionResult {
 std::optional<UndrawnDielectricReflectionResult>
 find_undrawn_dielectrics(const Comparison& comparison);
 
-/// Answer to whether clearing cubes explains why part one without inter-reflections, which renders
-/// and clears no cube, is slower than part two.
+/// Answer, by device times, to whether clearing cubes explains why part one without
+/// inter-reflections, which renders and clears no cube, is slower than part two.
 struct CaptureClearCostResult {
     enum class CaptureClearCostVerdict {
         slower_without, ///< part one is slower even without a clear
@@ -68,12 +69,14 @@ find_bounces_versus_error_result(const Comparison& comparison);
 /// frame's captures).
 struct ParallaxCorrectionPriceResult {
     const Row *two, *three;
-    bool tie = false;    ///< whether their times cannot be told apart
+    Order order;         ///< of part three's time and part two's
     Interval ratio_ci95; ///< ratio of part three's time to part two's, round by round
     /// Time of part three minus time of part two, divided by the time of part two. Negative if part
     /// three is faster.
     double more = 0;
     std::uint64_t more_bytes = 0; ///< additional bytes of images; 0 if part three needs no more
+
+    bool is_tie() const { return order == Order::equal || order == Order::unknown; }
 };
 std::optional<ParallaxCorrectionPriceResult>
 find_parallax_correction_price(const Comparison& comparison);
@@ -81,9 +84,11 @@ find_parallax_correction_price(const Comparison& comparison);
 /// Time of ray tracing, compared with the seed report's part three (parallax correction).
 struct RayTracingTimeResult {
     const Row *three, *traced;
-    bool tie = false;
+    Order order; ///< of ray tracing's time and part three's
     Interval ratio_ci95;
     double ratio = 1; ///< median time of ray tracing divided by that of part three
+
+    bool is_tie() const { return order == Order::equal || order == Order::unknown; }
 };
 std::optional<RayTracingTimeResult> find_ray_tracing_time_result(const Comparison& comparison);
 

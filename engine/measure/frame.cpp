@@ -66,7 +66,8 @@ const RegisteredMetric kProcessorTimeMetric{
      .help = "processor time of the whole process per frame, if the device is a processor",
      .better = BetterDirection::less,
      .order = 24,
-     .columns = {{.title = "cpu ms", .style = MetricValueFormat::times, .order = 22}},
+     .columns = {{.title = "cpu ms", .style = MetricValueFormat::times, .order = 22},
+                 {.title = "cpu 95 %", .style = MetricValueFormat::time_interval, .order = 22}},
      .get = [](const Row& row) -> MetricValue { return row.cpu_ms; }}};
 const RegisteredMetric kWaitedShareMetric{
     {.name = "waited",

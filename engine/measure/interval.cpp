@@ -42,6 +42,13 @@ Interval median_confidence_interval(std::span<const double> values) {
     return {sorted[rank - 1], sorted[sorted.size() - rank]};
 }
 
+Order compare_to_limit(const Interval& interval, double limit) {
+    if (!interval.is_known()) return Order::unknown;
+    if (interval.high < limit) return Order::less;
+    if (interval.low > limit) return Order::more;
+    return interval.low == interval.high ? Order::equal : Order::unknown;
+}
+
 Interval median_ratio_interval(std::span<const double> a, std::span<const double> b) {
     return median_interval_over_pairs(a, b, [](double x, double y) { return x / y; });
 }

@@ -3,6 +3,7 @@
 #include "measure/comparison.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 // Functions for confidence intervals of repeated measurements, valid for any distribution.
@@ -17,6 +18,14 @@ inline constexpr std::size_t kMinIntervalSamples = 6;
 /// Nagaraja, Order Statistics, 7.1). For 6 to 8 values it is their range (96.9 % for 6). It is
 /// unknown for fewer than `kMinIntervalSamples` values or if a value is NaN. Costs O(n log n).
 Interval median_confidence_interval(std::span<const double> values);
+
+/// How a measured value stands to another value or to a limit.
+enum class Order : std::uint8_t { less, equal, more, unknown };
+
+/// Returns where the whole interval lies: below the limit, above it, or on it. `unknown` if the
+/// interval contains the limit and other values, or if it is not known. All verdicts on times use
+/// this rule.
+Order compare_to_limit(const Interval& interval, double limit);
 
 /// Return the interval of the median of a[i]/b[i], and of a[i]-b[i]. If the lists differ in length,
 /// only as many pairs count as the shorter list has.

@@ -1,23 +1,74 @@
 #include "measure/judge.hpp"
 
 #include "measure/halves.hpp"
-#include "measure/interval.hpp"
 #include "measure/metric.hpp"
 #include "measure/rows.hpp"
 #include "measure/views.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace catoptric::measure {
 
 namespace {
 
 /// Returns the first row on the front that beats this row, or null if none does.
-const Row* find_row_dominating(const std::vector<const Row*>& front, const Row& loser) {
-    const auto found = std::ranges::find_if(front,
-                                            [&](const Row* row) { return beats_row(*row, loser); });
+const Row* find_row_dominating(const RowJudge& judge, const std::vector<const Row*>& front,
+                               const Row& loser) {
+    const auto found = std::ranges::find_if(
+        front, [&](const Row* row) { return judge.beats(*row, loser); });
     return found == front.end() ? nullptr : *found;
+}
+
+/// Returns the ranks of values, from 1. Equal values share the mean of their ranks.
+std::vector<double> rank_values(std::span<const double> values) {
+    std::vector<double> ranks;
+    for (const double value : values) {
+        const auto less = std::ranges::count_if(values,
+                                                [&](double other) { return other < value; }),
+                   equal = std::ranges::count(values, value);
+        ranks.push_back(static_cast<double>(less) + (static_cast<double>(equal) + 1) / 2);
+    }
+    return ranks;
+}
+
+/// Returns the value that a chi-square variable exceeds with a probability of 2.5 %, by the formula
+/// of Wilson and Hilferty (1931).
+double chi_square_limit(double degrees) {
+    constexpr double kNormalQuantile = 1.959964; // of 97.5 %
+    const double variance = 2 / (9 * degrees);
+    return degrees * std::pow(1 - variance + kNormalQuantile * std::sqrt(variance), 3);
+}
+
+/// Returns whether Friedman's test shows that some of the rows differ in time. False for fewer than
+/// kMinIntervalSamples common rounds. With few rounds its statistic is only about that of
+/// chi-square: a limit of 5 % gave 6 % of errors in drawn tables, so the limit is 2.5 %.
+bool do_times_differ(const std::vector<Row>& rows) {
+    std::vector<const std::vector<double>*> times;
+    for (const Row& row : rows)
+        if (has_known_time(row) && row.time_ms().rounds.size() >= kMinIntervalSamples)
+            times.push_back(&row.time_ms().rounds);
+    if (times.size() < 2) return false;
+    std::size_t rounds = times.front()->size();
+    for (const auto* row : times) rounds = std::min(rounds, row->size());
+    const auto count = static_cast<double>(times.size()), round_count = static_cast<double>(rounds);
+    // Variances of the ranks: of their sums over rounds, and within rounds. Shared ranks lower
+    // both.
+    std::vector<double> sums(times.size()), in_round(times.size());
+    double within = 0;
+    for (std::size_t round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < times.size(); ++i) in_round[i] = (*times[i])[round];
+        const std::vector<double> ranks = rank_values(in_round);
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            sums[i] += ranks[i];
+            within += std::pow(ranks[i] - (count + 1) / 2, 2);
+        }
+    }
+    if (!(within > 0)) return false;
+    double between = 0;
+    for (const double sum : sums) between += std::pow(sum - round_count * (count + 1) / 2, 2);
+    return (count - 1) * between / within > chi_square_limit(count - 1);
 }
 
 const RegisteredMetric kFailedRowMetric{
@@ -39,47 +90,73 @@ bool has_known_error(const Row* row) {
     return row != nullptr && !has_nonfinite_pixels(*row) && std::isfinite(row->error.rmse);
 }
 
-namespace {
-
-/// Returns whether the row has the values that a choice needs: known FLIP and a time above 0.
-bool has_time_and_flip(const Row& row) {
-    return is_row_eligible_for_ranking(row) && !std::isnan(row.error.flip) &&
-           row.time_ms().median > 0;
-}
-
-} // namespace
-
 bool is_row_eligible_for_ranking(const Row& row) {
     return has_known_error(&row) && !row.mirrors_black;
 }
 
 bool has_known_time(const Row& row) { return !std::isnan(row.time_ms().median); }
 
+bool is_judged_row(const Row& row) {
+    return is_row_eligible_for_ranking(row) && !std::isnan(row.error.flip) &&
+           row.time_ms().median > 0;
+}
+
+std::string_view find_judged_time(const Comparison& comparison) {
+    const auto timed = std::ranges::find_if(comparison.rows, has_known_time);
+    return timed == comparison.rows.end() ? Row().time_metric() : timed->time_metric();
+}
+
 Interval time_ratio_interval(const Row& a, const Row& b) {
     return median_ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
 }
 
-bool is_confidently_faster(const Row& a, const Row& b) {
-    return time_ratio_interval(a, b).high < 1;
+Order compare_times(const Row& a, const Row& b) {
+    const Interval ratio = time_ratio_interval(a, b);
+    if (ratio.low >= 1 / kEqualTimeRatio && ratio.high <= kEqualTimeRatio) return Order::equal;
+    return compare_to_limit(ratio, 1);
 }
 
-bool is_time_tie(const Row& a, const Row& b) {
-    return !is_confidently_faster(a, b) && !is_confidently_faster(b, a);
+Order compare_flip(const Row& a, const Row& b) {
+    if (!a.views.empty() || !b.views.empty()) {
+        const Interval difference = metric_difference_interval_over_views(a, b, "flip");
+        if (difference.low >= -kEqualFlip && difference.high <= kEqualFlip) return Order::equal;
+        return compare_to_limit(difference, 0);
+    }
+    const double difference = a.error.flip - b.error.flip;
+    if (std::isnan(difference)) return Order::unknown;
+    if (std::abs(difference) <= std::max(kEqualFlip, find_flip_noise_floor(a.error, b.error)))
+        return Order::equal;
+    return difference < 0 ? Order::less : Order::more;
 }
 
-bool has_less_flip(const Row& a, const Row& b) { return is_metric_less(a, b, "flip"); }
+RowJudge::RowJudge(const std::vector<Row>& rows) : times_differ_(do_times_differ(rows)) {}
 
-bool beats_row(const Row& a, const Row& b) {
-    if (!has_time_and_flip(a) || !has_time_and_flip(b)) return false;
-    return (is_confidently_faster(a, b) && !has_less_flip(b, a)) ||
-           (has_less_flip(a, b) && !is_confidently_faster(b, a));
+Order RowJudge::times(const Row& a, const Row& b) const {
+    const Order order = compare_times(a, b);
+    return times_differ_ || order == Order::equal ? order : Order::unknown;
+}
+
+bool RowJudge::beats(const Row& a, const Row& b) const {
+    if (!is_judged_row(a) || !is_judged_row(b)) return false;
+    const Order time = times(a, b), error = flip(a, b);
+    return (time == Order::less && (error == Order::less || error == Order::equal)) ||
+           (time == Order::equal && error == Order::less);
+}
+
+bool RowJudge::is_open(const Row& a, const Row& b) const {
+    if (&a == &b || !is_judged_row(a) || !is_judged_row(b)) return false;
+    const Order time = times(a, b), error = flip(a, b);
+    return (time == Order::unknown && error != Order::more) ||
+           (error == Order::unknown && time != Order::more);
 }
 
 std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows) {
+    const RowJudge judge(rows);
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (has_time_and_flip(rows[i]) &&
-            std::ranges::none_of(rows, [&](const Row& other) { return beats_row(other, rows[i]); }))
+        if (is_judged_row(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
+                return judge.beats(other, rows[i]);
+            }))
             front.push_back(i);
     std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
     return front;
@@ -87,12 +164,14 @@ std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows)
 
 TimeRankRange find_time_rank_range_of_row(const Comparison& comparison, const Row& row) {
     if (!has_known_time(row)) return {0, 0};
+    const RowJudge judge(comparison.rows);
     TimeRankRange places{1, 0};
     for (const Row& other : comparison.rows) {
         if (!has_known_time(other)) continue;
         ++places.last;
-        places.first += is_confidently_faster(other, row);
-        places.last -= is_confidently_faster(row, other);
+        const Order order = judge.times(other, row);
+        places.first += order == Order::less;
+        places.last -= order == Order::more;
     }
     return places;
 }
@@ -110,14 +189,21 @@ bool is_on_pareto_front(const Comparison& comparison, const Row& row) {
     });
 }
 
-std::vector<const Row*> find_fastest_rows(const Comparison& comparison) {
-    std::vector<const Row*> fastest;
+FastestRows find_fastest_rows(const Comparison& comparison) {
+    const RowJudge judge(comparison.rows);
+    std::vector<const Row*> timed;
     for (const Row& row : comparison.rows)
-        if (is_row_eligible_for_ranking(row) && has_known_time(row) &&
-            std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_row_eligible_for_ranking(other) && is_confidently_faster(other, row);
-            }))
-            fastest.push_back(&row);
+        if (is_row_eligible_for_ranking(row) && has_known_time(row)) timed.push_back(&row);
+    FastestRows fastest;
+    fastest.candidates = timed.size();
+    for (const Row* row : timed)
+        if (std::ranges::none_of(
+                timed, [&](const Row* other) { return judge.times(*other, *row) == Order::less; }))
+            fastest.rows.push_back(row);
+    for (const Row* a : fastest.rows)
+        for (const Row* b : fastest.rows)
+            fastest.are_equal = fastest.are_equal &&
+                                (a == b || judge.times(*a, *b) == Order::equal);
     return fastest;
 }
 
@@ -137,21 +223,24 @@ std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison)
         if (closest == nullptr || &row == closest || row.is_reference ||
             !is_row_eligible_for_ranking(row))
             continue;
-        if (row.error.flip - closest->error.flip < find_flip_noise_floor(row.error, closest->error))
-            ties.push_back(&row);
+        if (compare_flip(*closest, row) != Order::less) ties.push_back(&row);
     }
     return ties;
 }
 
 RowRanking rank_rows(const Comparison& comparison) {
+    const RowJudge judge(comparison.rows);
     RowRanking result;
     for (const std::size_t index : comparison.pareto)
         if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
     for (const Row* winner : result.front) {
+        if (std::ranges::any_of(comparison.rows,
+                                [&](const Row& row) { return judge.is_open(row, *winner); }))
+            result.open.push_back(winner);
         RowRanking::RowWins win{winner, {}};
         for (const Row& row : comparison.rows)
             if (!is_on_pareto_front(comparison, row) &&
-                find_row_dominating(result.front, row) == winner)
+                find_row_dominating(judge, result.front, row) == winner)
                 win.losers.push_back(&row);
         if (!win.losers.empty()) result.wins.push_back(std::move(win));
     }
@@ -163,23 +252,25 @@ RowRanking rank_rows(const Comparison& comparison) {
         else if (!has_known_time(row))
             result.untimed.push_back(&row);
         else if (!is_on_pareto_front(comparison, row) &&
-                 find_row_dominating(result.front, row) == nullptr)
+                 find_row_dominating(judge, result.front, row) == nullptr)
             result.beaten_by_beaten.push_back(&row);
     }
     return result;
 }
 
 RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison) {
+    const RowJudge judge(comparison.rows);
+    std::vector<const Row*> traced, others;
+    for (const Row& row : comparison.rows)
+        if (is_judged_row(row)) (is_ray_traced_row(row) ? traced : others).push_back(&row);
     RayTracingVerdict verdict;
     verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced_row);
-    for (const Row& row : comparison.rows) {
-        if (is_ray_traced_row(row) || !is_row_eligible_for_ranking(row) || !has_known_time(row))
-            continue;
-        ++verdict.others;
-        if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced_row(other) && beats_row(other, row);
-            }))
-            verdict.unbeaten.push_back(&row);
+    for (const Row* row : others) {
+        const bool is_beaten = std::ranges::any_of(
+                       traced, [&](const Row*other) { return judge.beats(*other, *row); }),
+                   is_open = std::ranges::any_of(
+                       traced, [&](const Row*other) { return judge.is_open(*other, *row); });
+        (is_beaten ? verdict.beaten : is_open ? verdict.open : verdict.unbeaten).push_back(row);
     }
     return verdict;
 }

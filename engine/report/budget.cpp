@@ -12,6 +12,8 @@ namespace catoptric::report {
 
 namespace {
 
+using measure::Order;
+
 std::string format_row_with_interval(const Row& row) {
     const measure::SampleSummary& time = row.time_ms();
     std::string interval;
@@ -41,27 +43,37 @@ std::string format_budget_limits(const Comparison& comparison) {
 std::string describe_budget_answer(const Comparison& comparison) {
     if (!measure::has_time_or_flip_budget(comparison)) return "";
     const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
-    const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name;
+    const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name +
+                              describe_judged_time(comparison);
+    const bool by_time = !std::isnan(comparison.max_flip);
+    const char* least = by_time ? "time" : "FLIP";
     std::string text;
-    if (answer.row != nullptr)
-        text = fmt::format("Within {}: {} has the least {}{}", where,
-                           format_row_with_interval(*answer.row),
-                           std::isnan(comparison.max_flip) ? "FLIP" : "time",
-                           answer.ties.empty() ? ""
-                                               : ". Rows that cannot be told apart from it: " +
-                                                     format_rows_with_intervals(answer.ties));
-    else if (answer.nearest == nullptr)
+    if (answer.row != nullptr && answer.open.empty()) {
+        text = fmt::format("Within {}: {} has the least {}", where,
+                           format_row_with_interval(*answer.row), least);
+        if (!answer.equal.empty())
+            text += fmt::format(". Equal {}: {}", least, format_rows_with_intervals(answer.equal));
+    } else if (answer.row != nullptr) {
+        std::vector<const Row*> rows{answer.row};
+        rows.insert(rows.end(), answer.equal.begin(), answer.equal.end());
+        rows.insert(rows.end(), answer.open.begin(), answer.open.end());
+        text = fmt::format("Within {}: cannot tell which of {} rows has the least {}: {}", where,
+                           rows.size(), least, format_rows_with_intervals(rows));
+    } else if (answer.nearest == nullptr) {
         return fmt::format("Within {}: no row could be judged.", where);
-    else
+    } else if (!answer.undecided.empty()) {
+        text = fmt::format("Cannot tell whether a row keeps {}", where);
+    } else {
+        const bool is_in_time = measure::compare_to_time_budget(comparison, *answer.nearest) ==
+                                Order::less;
         text = fmt::format("No row keeps {}. The {} is {}", where,
-                           measure::is_within_time_budget(comparison, *answer.nearest) &&
-                                   !std::isnan(comparison.max_flip)
-                               ? std::isnan(comparison.max_ms) ? "closest row"
-                                                               : "closest row within the time"
-                               : "fastest row",
+                           !is_in_time || !by_time         ? "row with the least median time"
+                           : std::isnan(comparison.max_ms) ? "closest row"
+                                                           : "closest row within the time",
                            format_row_with_interval(*answer.nearest));
+    }
     if (!answer.undecided.empty())
-        text += ". Within the time by its median, but not by its whole interval: " +
+        text += ". The interval of the time holds the limit, or is not known: " +
                 format_rows_with_intervals(answer.undecided);
     return text + ".";
 }

@@ -110,15 +110,20 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
     std::vector<std::string> list;
     if (!comparison.complete)
         list.push_back("Incomplete, " + describe_incomplete_run(comparison) + ".");
+    const bool by_processor_time = measure::find_judged_time(comparison) == "cpu_ms";
     if (comparison.device.type == "cpu")
-        list.push_back(
-            "This device is a processor: \"GPU time\" here is processor time of its software "
-            "driver, and what it says of speed holds for such a device, not for a graphics card.");
+        list.push_back(std::string("This device is a processor: ") +
+                       (by_processor_time
+                            ? "rows are judged by processor time of its software driver and of "
+                              "this program (cpu ms), which other programs lengthen little"
+                            : "\"GPU time\" here is time of its software driver") +
+                       ". What it says of speed holds for such a device, not for a graphics card.");
     if (const std::vector<const Row*> noisy = measure::find_noisy_rows(comparison); !noisy.empty())
         list.push_back(
             fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
-                        "beside, and these times are not to be trusted: {}.",
-                        noisy.size(), comparison.rows.size(), join_labels_of_rows(noisy)));
+                        "beside, and {} times are not to be trusted: {}.",
+                        noisy.size(), comparison.rows.size(),
+                        by_processor_time ? "their device" : "these", join_labels_of_rows(noisy)));
     if (comparison.noise && !comparison.noise->is_noise_target_reached())
         list.push_back(fmt::format(
             "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "

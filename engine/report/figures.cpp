@@ -252,7 +252,7 @@ void write_figures(const Comparison& comparison, const fs::path& folder,
     tex += write_drawing_figure(
         make_comparison_plot(comparison), folder, "plot",
         "Median time of a frame against FLIP over the mirrors; " + shown +
-            ". Dashed: the Pareto front. Horizontal lines: 95\\,\\% intervals.",
+            ". Filled: no row beats it. Dashed: the least FLIP of a mark up to each time. Horizontal lines: 95\\,\\% intervals.",
         make_pdf);
     tex += write_drawing_figure(draw_stacked_bars(make_pass_time_bars(comparison)), folder,
                                 "passes", "Median time of the passes of a frame; " + shown + ".",

@@ -27,9 +27,12 @@ std::string format_rmse(const Row& row) { return format_picture_error(row.error.
 std::string format_times_of_two_rows(const Row& a, const Row& b) {
     return format_ms(a.time_ms().median) + " against " + format_ms(b.time_ms().median) + " ms";
 }
-/// Text for rows whose times cannot be told apart.
-constexpr const char* kTimeTieText =
-    ": round by round neither is the faster, they are not told apart";
+/// Says that two times are equal, or that it cannot be told which of them is less.
+const char* describe_time_tie(measure::Order order) {
+    return order == measure::Order::equal
+               ? ": equal within 5 %"
+               : ": round by round neither is the faster, they are not told apart";
+}
 
 /// Returns " (95 %: 1.10 to 1.25)", for example, or an empty text if the interval is not known.
 std::string format_ratio_interval(const measure::Interval& ratio) {
@@ -76,7 +79,8 @@ OptionalReportSentence describe_clear_cost(const Comparison& comparison) {
                                    "{}, is {} part two ({})",
                                    measure::kSeedReportClearMs, kSeedReportNaiveRow.ms,
                                    kSeedReportReuseRow.ms, finding->one->label, order,
-                                   format_times_of_two_rows(*finding->one, *finding->two));
+                                   format_ms(finding->one->elapsed_ms().median) + " against " +
+                                       format_ms(finding->two->elapsed_ms().median) + " ms");
     if (!finding->clear_ms) return text + "; what a clear costs was not measured.";
     return text + ". Clearing the cubes of all mirrors costs " + format_ms(*finding->clear_ms) +
            " ms: " + describe_clear_verdict(*finding) + ".";
@@ -132,8 +136,8 @@ OptionalReportSentence describe_parallax_correction_price(const Comparison& comp
         "and the complexity of its code is the only drawback that is named. Here part three takes ",
         measure::kSeedReportParallaxRow.ms, measure::kSeedReportReuseRow.ms);
     const std::string times = format_times_of_two_rows(*finding->three, *finding->two);
-    if (finding->tie)
-        text += "as long as part two (" + times + kTimeTieText + ")";
+    if (finding->is_tie())
+        text += "as long as part two (" + times + describe_time_tie(finding->order) + ")";
     else
         text += format_percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
                 " time than part two (" + times + "), " + format_ms(1 + finding->more) +
@@ -154,8 +158,9 @@ OptionalReportSentence describe_ray_tracing_time(const Comparison& comparison) {
                                    measure::kSeedReportRayTracingRatio, kSeedReportRayTracingRow.ms,
                                    kSeedReportParallaxRow.ms, traced.label);
     const std::string times = format_times_of_two_rows(traced, three);
-    if (finding->tie)
-        text += "as long as " + three.label + " (" + times + kTimeTieText + ")";
+    if (finding->is_tie())
+        text += "as long as " + three.label + " (" + times + describe_time_tie(finding->order) +
+                ")";
     else
         text += format_ms(finding->ratio) + " times as long" +
                 format_ratio_interval(finding->ratio_ci95) + " as " + three.label + " (" + times +
@@ -176,30 +181,48 @@ std::string format_metrics_of_rows(const std::vector<const Row*>& rows) {
     return join_texts(texts, "; ");
 }
 
-/// Returns a sentence that says whether ray tracing beats the other rows. Empty if all rows are of
-/// the same kind.
-std::string describe_ray_tracing_verdict(const measure::RayTracingVerdict& verdict) {
-    if (verdict.others == 0 || !verdict.any_traced) return "";
-    if (verdict.unbeaten.size() == verdict.others) return "no ray-traced row beats any other row";
-    if (!verdict.unbeaten.empty())
-        return fmt::format("ray tracing beats {} of the {} other rows: all but {}",
-                           verdict.others - verdict.unbeaten.size(), verdict.others,
-                           join_labels_of_rows(verdict.unbeaten, ", "));
-    return fmt::format("ray tracing beats every other row, {} of {}", verdict.others,
-                       verdict.others);
+/// Returns the fastest rows in words, or how many rows may be the fastest.
+std::string describe_fastest(const measure::FastestRows& fastest) {
+    if (fastest.rows.size() == 1) return "fastest is " + fastest.rows.front()->label;
+    if (fastest.are_equal)
+        return "fastest are " + join_labels_of_rows(fastest.rows) + ", whose times are equal";
+    return fmt::format("{} of {} rows may be fastest", fastest.rows.size(), fastest.candidates);
 }
 
 /// Returns the fastest and the closest rows in words.
 std::string describe_fastest_and_closest(const Comparison& comparison) {
-    const std::vector<const Row*> fastest = measure::find_fastest_rows(comparison);
-    if (fastest.empty()) return "no row could be judged";
-    std::string text = "fastest is " + join_labels_of_rows(fastest, " or ");
+    const measure::FastestRows fastest = measure::find_fastest_rows(comparison);
+    if (fastest.rows.empty()) return "no row could be judged";
+    std::string text = (fastest.are_equal ? "" : "cannot tell: ") + describe_fastest(fastest);
     if (const Row* closest = measure::find_closest_row(comparison))
         text += ", closest is " + format_row_metrics(*closest);
     if (const std::vector<const Row*> ties = measure::find_ties_with_closest_row(comparison);
         !ties.empty())
-        text += ", with which tie within the noise of the reference: " + join_labels_of_rows(ties);
+        text += ", with which tie in FLIP: " + join_labels_of_rows(ties);
     return text;
+}
+
+/// Returns a sentence that says which rows ray tracing beats. Empty if all rows are of the same
+/// kind.
+std::string describe_ray_tracing_verdict(const Comparison& comparison) {
+    const measure::RayTracingVerdict verdict = measure::find_ray_tracing_verdict(comparison);
+    const std::size_t others = verdict.others();
+    if (others == 0 || !verdict.any_traced) return "";
+    if (verdict.beaten.size() == others)
+        return fmt::format("ray tracing beats every other row, {} of {}", others, others);
+    if (verdict.unbeaten.size() == others) return "no ray-traced row beats any other row";
+    if (verdict.open.size() == others)
+        return "cannot tell whether ray tracing beats another row: " +
+               describe_fastest(measure::find_fastest_rows(comparison));
+    const std::string beaten = fmt::format("beats {} of the {} other rows", verdict.beaten.size(),
+                                           others),
+                      unbeaten = join_labels_of_rows(verdict.unbeaten),
+                      open = "cannot tell for " + join_labels_of_rows(verdict.open);
+    if (verdict.beaten.empty())
+        return fmt::format("ray tracing does not beat {}; {}", unbeaten, open);
+    if (verdict.unbeaten.empty()) return fmt::format("ray tracing {}; {}", beaten, open);
+    if (verdict.open.empty()) return fmt::format("ray tracing {}: all but {}", beaten, unbeaten);
+    return fmt::format("ray tracing {}, and not {}; {}", beaten, unbeaten, open);
 }
 
 } // namespace
@@ -229,10 +252,9 @@ std::vector<std::string> list_findings(const Comparison& comparison) {
 }
 
 std::string summarise_ray_tracing_verdict(const Comparison& comparison, const std::string& where) {
-    const std::string tracing = describe_ray_tracing_verdict(
-        measure::find_ray_tracing_verdict(comparison));
-    return where + ", " + (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) +
-           ".";
+    const std::string tracing = describe_ray_tracing_verdict(comparison);
+    return where + describe_judged_time(comparison) + ", " +
+           (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) + ".";
 }
 
 std::string summarise_ray_tracing_verdict(const Comparison& comparison) {
@@ -243,14 +265,20 @@ std::vector<std::string> describe_pareto_front(const Comparison& comparison) {
     const measure::RowRanking standing = measure::rank_rows(comparison);
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
-        "On the front, by median time: " + format_metrics_of_rows(standing.front) +
-        ". A row beats another where it is faster (the ratio of their times, round by round, is "
-        "below 1 with 95 % confidence) and no farther off, or closer and not slower. Where that "
-        "interval holds 1, or is not known, times are a tie."};
+        std::string("On the front, by median ") +
+        (measure::find_judged_time(comparison) == "cpu_ms" ? "processor " : "") +
+        "time: " + format_metrics_of_rows(standing.front) +
+        ". A row beats another if it is better in time or in FLIP, and in the other better as well "
+        "or equal. Times are equal if the 95 % interval of their ratio, round by round, lies within "
+        "5 %, and one is better if that interval excludes 1. FLIP is equal within .002. Where an "
+        "interval is too wide for either, there is no verdict."};
     if (comparison.noise)
-        words.push_back("The reference has noise. A difference in FLIP below " +
+        words.push_back("The reference has noise. FLIP is also equal within " +
                         format_picture_error(comparison.noise->flip_floor) +
-                        ", the FLIP between its halves, is a tie as well.");
+                        ", the FLIP between its halves.");
+    if (!standing.open.empty())
+        words.push_back("On the front, but whether another row beats them cannot be told: " +
+                        join_labels_of_rows(standing.open) + ".");
     for (const auto& [winner, losers] : standing.wins)
         words.push_back(winner->label + " beats " + format_metrics_of_rows(losers) + ".");
     if (!standing.beaten_by_beaten.empty())

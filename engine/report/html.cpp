@@ -69,16 +69,22 @@ std::string make_html_headline(const std::string& name, const std::string& figur
 /// the reference.
 std::string make_html_headlines(const Comparison& comparison) {
     std::string html = "<dl class=\"headline\">";
-    if (const std::vector<const Row*> fastest = measure::find_fastest_rows(comparison);
-        fastest.size() == 1)
-        html += make_html_headline("Fastest", format_ms(fastest.front()->time_ms().median) + " ms",
-                                   fastest.front()->label);
-    else if (!fastest.empty())
-        html += make_html_headline("Fastest", std::to_string(fastest.size()) + " rows",
-                                   "not told apart");
-    if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr)
+    const measure::FastestRows fastest = measure::find_fastest_rows(comparison);
+    if (fastest.rows.size() == 1)
+        html += make_html_headline("Fastest",
+                                   format_ms(fastest.rows.front()->time_ms().median) + " ms",
+                                   fastest.rows.front()->label);
+    else if (!fastest.rows.empty())
+        html += make_html_headline(fastest.are_equal ? "Fastest" : "May be fastest",
+                                   std::to_string(fastest.rows.size()) + " rows",
+                                   fastest.are_equal ? "equal"
+                                                     : fmt::format("of {}", fastest.candidates));
+    if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr) {
+        const std::size_t ties = measure::find_ties_with_closest_row(comparison).size();
         html += make_html_headline("Closest", "FLIP " + format_flip(closest->error),
-                                   closest->label);
+                                   closest->label +
+                                       (ties == 0 ? "" : fmt::format(", {} more tie", ties)));
+    }
     html += make_html_headline("On the front", std::to_string(comparison.pareto.size()),
                                fmt::format("of {} rows", comparison.rows.size()));
     if (!std::isnan(comparison.reference_gpu_ms.median))
@@ -132,10 +138,11 @@ std::string make_html_first_sentences(const Comparison& comparison, const std::s
 }
 
 std::string make_html_row_numbers(const Row& row) {
-    const double ms = row.time_ms().median;
     std::string html = "<dl class=\"numbers\">";
     for (const auto& [name, value] :
-         {std::pair("ms", format_ms(ms)), std::pair("FPS", format_fps(ms)),
+         {std::pair(row.on_processor ? "ms of processor time" : "ms",
+                    format_ms(row.time_ms().median)),
+          std::pair("FPS", format_fps(row.elapsed_ms().median)),
           std::pair("FLIP", format_flip(row.error)),
           std::pair("off, %", format_fixed(100 * row.error.off, 2)),
           std::pair("MAE", format_picture_error(row.error.mae)),
@@ -256,9 +263,9 @@ std::string make_html_comparison_plot(const Comparison& comparison) {
     const std::string chart = make_html_rows_chart(comparison);
     if (chart.empty()) return "";
     return "<figure class=\"plot\">" + chart +
-           "<figcaption>Lower left is better. Filled: on the Pareto front of time and FLIP "
-           "(dashed). Squares: ray traced. Bars: 95 % intervals; rows with the same place tie. "
-           "The lane below is error 0. A click on a mark, or arrow keys and Enter, show the row in "
+           "<figcaption>Lower left is better. Filled: no row beats it. Dashed: the least FLIP of a "
+           "mark up to each time. Squares: ray traced. Bars: 95 % intervals; rows with the same "
+           "place tie. Rows that are not judged have no mark. The lane below is error 0. A click on a mark, or arrow keys and Enter, show the row in "
            "the comparer.</figcaption></figure>";
 }
 

@@ -6,6 +6,7 @@
 #include "measure/budget.hpp"
 #include "measure/flip.hpp"
 #include "measure/halves.hpp"
+#include "measure/judge.hpp"
 #include "measure/lag.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -101,20 +102,35 @@ Json add_difference_metrics_json(Json json, const measure::Difference& error) {
     return json;
 }
 
+Json make_labels_json(const std::vector<const Row*>& rows) {
+    return make_list_json(rows, [](const Row* row) { return Json(row->label); });
+}
+
+/// Returns the answers of the first sentence as lists of rows.
+Json make_verdict_json(const Comparison& comparison) {
+    const measure::RayTracingVerdict tracing = measure::find_ray_tracing_verdict(comparison);
+    const measure::FastestRows fastest = measure::find_fastest_rows(comparison);
+    return {{"text", summarise_ray_tracing_verdict(comparison)},
+            {"fastest", make_labels_json(fastest.rows)},
+            {"fastest_are_equal", fastest.are_equal},
+            {"ray_tracing",
+             {{"beats", make_labels_json(tracing.beaten)},
+              {"does_not_beat", make_labels_json(tracing.unbeaten)},
+              {"cannot_tell", make_labels_json(tracing.open)}}}};
+}
+
 /// Returns the budgets, and the labels of the rows that answer them.
 Json make_budget_json(const Comparison& comparison) {
     const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
     const auto label = [](const Row* row) { return row == nullptr ? Json() : Json(row->label); };
-    const auto labels = [](const std::vector<const Row*>& rows) {
-        Json list = Json::array();
-        for (const Row* row : rows) list.push_back(row->label);
-        return list;
-    };
+    std::vector<const Row*> ties = answer.equal;
+    ties.insert(ties.end(), answer.open.begin(), answer.open.end());
     return {{"max_ms", make_number_json(comparison.max_ms)},
             {"max_flip", make_number_json(comparison.max_flip)},
             {"row", label(answer.row)},
-            {"ties", labels(answer.ties)},
-            {"undecided", labels(answer.undecided)},
+            {"ties", make_labels_json(ties)},
+            {"cannot_tell", make_labels_json(answer.open)},
+            {"undecided", make_labels_json(answer.undecided)},
             {"nearest", label(answer.nearest)},
             {"text", describe_budget_answer(comparison)}};
 }
@@ -272,6 +288,8 @@ Json make_report_json(const Comparison& comparison) {
     json["rows"] = make_list_json(comparison.rows,
                                   [&](const Row& row) { return to_json(comparison, row); });
     json["pareto"] = comparison.pareto;
+    json["judged_time"] = measure::find_judged_time(comparison);
+    json["verdict"] = make_verdict_json(comparison);
     if (measure::has_time_or_flip_budget(comparison)) json["budget"] = make_budget_json(comparison);
     if (comparison.lag) json["lag"] = make_lag_json(comparison);
     return json;

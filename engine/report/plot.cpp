@@ -125,16 +125,18 @@ bool has_time_and_flip_to_plot(const Row& row) {
     return has_time_to_plot(row) && std::isfinite(row.error.flip);
 }
 
-/// Returns the front as a staircase: the least error for each time.
+/// Returns the least error of all marks for each time, as a staircase. It includes the marks of
+/// rows that are beaten by a row with equal error, so no mark lies left of it and below.
 std::string make_svg_front_staircase(std::vector<RowPlotPoint> points) {
-    std::erase_if(points, [](const RowPlotPoint& point) { return !point.front; });
-    std::ranges::sort(points, [](const RowPlotPoint& a, const RowPlotPoint& b) {
-        return a.x != b.x ? a.x < b.x : a.y > b.y;
-    });
+    std::ranges::stable_sort(points, {}, &RowPlotPoint::x);
     if (points.empty()) return "";
-    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kComparisonPlotFrame.top);
-    for (const RowPlotPoint& point : points)
+    double lowest = kComparisonPlotFrame.top;
+    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, lowest);
+    for (const RowPlotPoint& point : points) {
+        if (point.y <= lowest) continue;
+        lowest = point.y;
         path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
+    }
     return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kComparisonPlotFrame.right) +
            "\"/>";
 }
@@ -231,12 +233,15 @@ std::string make_svg_labels(const std::vector<RowPlotPoint>& points) {
 
 } // namespace
 
-bool has_time_to_plot(const Row& row) { return row.time_ms().median > 0; }
+bool has_time_to_plot(const Row& row) {
+    return measure::is_row_eligible_for_ranking(row) && row.time_ms().median > 0;
+}
 
 std::string make_time_axis_name(const Comparison& comparison) {
-    return !comparison.rows.empty() && comparison.rows.front().moves
-               ? "Time of a frame, host and GPU, median, ms"
-               : "GPU time of a frame, median, ms";
+    const std::string_view time = measure::find_judged_time(comparison);
+    return time == "cpu_ms"     ? "Processor time of a frame, median, ms"
+           : time == "frame_ms" ? "Time of a frame, host and GPU, median, ms"
+                                : "GPU time of a frame, median, ms";
 }
 
 std::vector<std::vector<std::size_t>> list_knob_curves(const Comparison& comparison,

@@ -51,7 +51,7 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             format_fixed(row.time_ms().median, decimals),
             format_median_interval(row.time_ms(), decimals),
             format_time_places(measure::find_time_rank_range_of_row(comparison, row)),
-            format_fps(row.time_ms().median),
+            format_fps(row.elapsed_ms().median),
             format_flip(row.error),
             format_fixed(100 * row.error.off, 2),
             format_picture_error(row.error.mae),
@@ -63,9 +63,10 @@ std::string make_seed_report_table_note(const Comparison& comparison) {
     std::string note =
         "Left: the seed report, frames per second in a browser on a GeForce GTX 770; R by its "
         "formula for four mirrors. Right: this run; R counted in the executed plan, a cube counted "
-        "once, draws with every face; ms the median of the rounds' medians and its 95 % interval; "
-        "place: from the fastest, rows that tie share one; FPS = 1000 / ms; errors against the "
-        "reference over the pixels whose first hit is a mirror, off the share of these in which a "
+        "once, draws with every face; ms" +
+        describe_judged_time(comparison) +
+        " the median of the rounds' medians and its 95 % interval; place: from the fastest, rows "
+        "that tie share one; FPS: 1000 ms divided by the device time; errors against the reference over the pixels whose first hit is a mirror, off the share of these in which a "
         "channel differs by more than .02; first order leaves out mirrors seen in mirrors.";
     if (comparison.scene.mirrors != measure::kSeedReportMirrorCount)
         note += " This scene has " + std::to_string(comparison.scene.mirrors) +
@@ -280,13 +281,14 @@ ReportTable make_rows_table(const Comparison& comparison) {
     ReportTable table{
         "Every row, times on " + comparison.device.name,
         {make_text_column("Row"), "Place"},
-        "A row's name leaves out knobs that nobody set. Place: in the order of time, from "
-        "the fastest; rows that tie share one. Without another word, errors are over the "
-        "pixels whose first hit is a mirror; off: a channel differs by more than .02. "
-        "rmse, light edges and rest: of pixels that looked within a texel of a light's "
-        "outline, and of the others; their squares add up to that of rmse. Longest line: "
-        "of pixels that are off, in pixels. wall: submit to fence; cpu: of all the "
-        "process's threads; record: filling the command buffer; MiB: the frame's images."};
+        "A row's name leaves out knobs that nobody set. Place: in the order of time" +
+            describe_judged_time(comparison) +
+            ", from the fastest; rows whose times are equal or cannot be told apart share one. "
+            "Without another word, errors are over the pixels whose first hit is a mirror; off: a channel differs by more than .02. "
+            "rmse, light edges and rest: of pixels that looked within a texel of a light's "
+            "outline, and of the others; their squares add up to that of rmse. Longest line: "
+            "of pixels that are off, in pixels. wall: submit to fence; cpu: of all the "
+            "process's threads; record: filling the command buffer; MiB: the frame's images."};
     if (measure::find_undrawn_dielectrics(comparison))
         table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
                       "mirror.";
@@ -308,9 +310,7 @@ ReportTable make_rows_table(const Comparison& comparison) {
 
 std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& comparison) {
     using measure::MetricValueFormat;
-    const std::string_view ranked = !comparison.rows.empty() && comparison.rows.front().moves
-                                        ? "frame_ms"
-                                        : "gpu_ms"; // see Row::time_ms
+    const std::string_view ranked = measure::find_judged_time(comparison);
     std::vector<RowMetricColumn> list;
     for (const MetricTableColumn& column :
          list_metric_columns(measure::MetricTableKind::rows, comparison)) {

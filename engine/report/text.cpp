@@ -72,6 +72,10 @@ int choose_ms_decimals(const Comparison& comparison) {
     return std::isfinite(fastest) ? choose_decimals(fastest) : 1;
 }
 
+std::string describe_judged_time(const Comparison& comparison) {
+    return measure::find_judged_time(comparison) == "cpu_ms" ? ", by processor time" : "";
+}
+
 std::string format_fps(double ms) {
     return ms > 0 ? format_fixed(1000 / ms, std::min(choose_decimals(1000 / ms), 2))
                   : std::string(kEmptyCellText);

@@ -32,6 +32,8 @@ std::string format_ms(double ms);
 /// Returns the decimals with which the fastest row still has three significant digits. A table uses
 /// one number of decimals so that its columns line up.
 int choose_ms_decimals(const Comparison& comparison);
+/// Returns ", by processor time" if the rows are judged by it, and otherwise an empty text.
+std::string describe_judged_time(const Comparison& comparison);
 /// Returns 1000 / ms with three significant digits, or "–" if no time passed.
 std::string format_fps(double ms);
 std::string format_mebibytes(std::uint64_t bytes);

@@ -232,7 +232,9 @@ bool is_second_plan_faster(const ResolvedChooseRequest& request, const std::stri
                            const std::string& second) {
     const std::vector<std::string> texts{first, second};
     const measure::Comparison both = request.compare_plans(texts, 0, request.base.seed, 1);
-    if (!request.device_costs) return measure::is_confidently_faster(both.rows[1], both.rows[0]);
+    if (!request.device_costs)
+        return measure::RowJudge(both.rows).times(both.rows[1], both.rows[0]) ==
+               measure::Order::less;
     const std::vector<JudgedPlan> plans = list_judged_plans(request, both, texts);
     return plans[1].ms < plans[0].ms;
 }

@@ -185,6 +185,7 @@ void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std
     row.cpu_record_ms = summary(&FrameTimes::record_ms);
     row.wall_ms = summary(&FrameTimes::wall_ms);
     if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
+    row.on_processor = on_processor && prefix.empty();
     row.closure = summarise_over_frames(
         rounds, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
     row.host_ms = summarise_over_frames(rounds,

@@ -180,7 +180,8 @@ list_comparisons_on_other_devices(const report::Comparison& comparison) {
             const PredictedCostCells time = list_cost_cells(comparison.rows[i])[device];
             report::Row& row = other.comparison.rows[i];
             other.comparison.device.name = time.device;
-            row.moves = row.noisy = false; // these facts describe measured times only
+            // These facts describe measured times only.
+            row.moves = row.on_processor = row.noisy = false;
             row.gpu_ms = row.frame_ms = make_stated_time(time);
             if (time.front) other.comparison.pareto.push_back(i);
         }

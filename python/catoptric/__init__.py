@@ -111,12 +111,14 @@ def compare(scene: Scene | str, techniques: typing.Iterable[str] | None = None, 
         - technique, label: the technique, and the row's text.
         - gpu_ms, gpu_ms_low, gpu_ms_high: median time of a frame on the device and its 95 % interval, milliseconds.
         - frame_ms: median time of host and device work, milliseconds.
+        - cpu_ms: median processor time of a frame, milliseconds; NaN unless the device is a processor.
+        - judged_time: the time by which rows are judged: "cpu_ms" on a processor, else "gpu_ms" or "frame_ms".
         - noisy: whether other programs disturbed the times.
         - flip, rmse, mae, p99, max, off: errors over the mirrors, 0 to 1 (see ``Difference``).
         - psnr: dB; infinite for equal pictures.
         - nonfinite: pixels with a NaN or infinity.
         - flip_all, rmse_all: errors over the whole picture, 0 to 1.
-        - front: whether no other row beats this row in time and flip. Rows that tie may all be on the front.
+        - front: whether no other row beats this row. Rows that tie may all be on the front.
         - scene_passes, scene_draws: renders of the scene per frame. scene_draws counts each face of a cube map.
         - memory_bytes: size of the frame's images.
         - model: "everything" or "required".

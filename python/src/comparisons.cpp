@@ -15,6 +15,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -54,6 +55,8 @@ nb::list list_rows(const measure::Comparison& comparison) {
         line["gpu_ms_low"] = row.gpu_ms.ci95.low;
         line["gpu_ms_high"] = row.gpu_ms.ci95.high;
         line["frame_ms"] = row.frame_ms.median;
+        line["cpu_ms"] = row.cpu_ms.n > 0 ? row.cpu_ms.median : NAN;
+        line["judged_time"] = row.time_metric();
         line["noisy"] = row.noisy;
         add_errors(line, row);
         line["front"] = std::ranges::find(comparison.pareto, k) != comparison.pareto.end();

@@ -72,7 +72,18 @@ std::pair<double, double> read_interval(const SiteJson& json) {
                         : std::pair<double, double>(NAN, NAN);
 }
 
-SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
+/// Returns the name of the time by which a report judges its rows. Reports without it are older,
+/// and judge by the device time.
+std::string read_judged_time(const SiteJson& json, const ReportPlace& place) {
+    const SiteJson name = find_member(json, "judged_time", place);
+    if (name.is_null()) return "gpu_ms";
+    place.at("judged_time")
+        .check(name == "gpu_ms" || name == "frame_ms" || name == "cpu_ms",
+               "wanted gpu_ms, frame_ms or cpu_ms, found ", report::describe_json_value(name));
+    return name.get<std::string>();
+}
+
+SiteRow read_site_row(const SiteJson& json, const std::string& time, const ReportPlace& place) {
     SiteRow row;
     row.label = read_text_member_of_report(json, "label", place);
     // The label of a row names the model only in reports that compare both models. On a page with
@@ -80,11 +91,12 @@ SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
     constexpr std::string_view kModel = ", model=required";
     if (find_member(json, "model", place) == "required" && !row.label.ends_with(kModel))
         row.label += kModel;
-    const SiteJson times = find_member(json, "gpu_ms", place);
+    SiteJson times = find_member(json, time, place);
+    if (times.is_null()) times = find_member(json, "gpu_ms", place); // a row with a stated time
     if (!times.is_null()) { // null for a row whose pictures come from a file
-        row.ms = read_number_member_within(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
+        row.ms = read_number_member_within(times, "median", place.at(time), 0, kMaxReportedMs);
         std::tie(row.ms_low,
-                 row.ms_high) = read_interval(find_member(times, "ci95", place.at("gpu_ms")));
+                 row.ms_high) = read_interval(find_member(times, "ci95", place.at(time)));
     }
     const SiteJson error = find_member(json, "error", place);
     row.flip = read_number_member_within(error, "flip", place.at("error"), 0, 1);
@@ -130,6 +142,7 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
     if (const SiteJson timing = find_member(json, "timing", place); timing == "pipelined")
         text += ", pipelined";
     if (find_member(json, "together", place) == true) text += ", all rows in one frame";
+    if (read_judged_time(json, place) == "cpu_ms") text += ", by processor time";
     return text;
 }
 
@@ -160,8 +173,9 @@ SiteComparison read_common_members(const SiteJson& json, const ReportPlace& plac
     const SiteJson rows = find_member(json, "rows", place);
     place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
                            report::describe_json_value(rows));
+    const std::string time = read_judged_time(json, place);
     for (std::size_t i = 0; i < rows.size(); ++i)
-        found.rows.push_back(read_site_row(rows[i], place.at(fmt::format("rows[{}]", i))));
+        found.rows.push_back(read_site_row(rows[i], time, place.at(fmt::format("rows[{}]", i))));
     const SiteJson front = find_member(json, "pareto", place);
     place.at("pareto").check(front.is_array(), "wanted a list, found ",
                              report::describe_json_value(front));

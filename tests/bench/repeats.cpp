@@ -36,8 +36,10 @@ void repeat_comparison_of_rows(int times, const std::vector<std::string>& rows) 
         for (std::size_t b = 1; b < rows.size(); ++b)
             for (std::size_t a = 0; a < b; ++a) {
                 PairOutcomeCount& count = pairs[{a, b}];
-                count.faster += measure::is_confidently_faster(found.rows[b], found.rows[a]);
-                count.slower += measure::is_confidently_faster(found.rows[a], found.rows[b]);
+                count.faster += measure::compare_times(found.rows[b], found.rows[a]) ==
+                                measure::Order::less;
+                count.slower += measure::compare_times(found.rows[a], found.rows[b]) ==
+                                measure::Order::less;
                 count.ratios.push_back(found.rows[b].time_ms().median /
                                        found.rows[a].time_ms().median);
             }

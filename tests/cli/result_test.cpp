@@ -101,7 +101,8 @@ TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
     const auto compare = [&](const Words& more) {
         Words words{"compare", "-o", "out", "--techniques", "reuse:face=8", "raytrace:depth=2"};
         words.insert(words.end(), more.begin(), more.end());
-        return run_cli(add_small_frame_options(words));
+        words.insert(words.end(), {"--size", "32x32", "--frames", "6", "--warmup", "1"});
+        return run_cli(words);
     };
     const test::ProcessResult plenty = compare({"--max-ms", "100000"});
     EXPECT_EQ(plenty.exit_code, 0) << plenty.err;
@@ -123,7 +124,18 @@ TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
     EXPECT_TRUE(missed["row"].is_null());
     EXPECT_FALSE(missed["nearest"].is_null());
     ASSERT_EQ(compare({}).exit_code, 0);
-    EXPECT_FALSE(json::parse(read_file_at_path(folder / "out/report.json")).contains("budget"));
+    const json free = json::parse(read_file_at_path(folder / "out/report.json"));
+    EXPECT_FALSE(free.contains("budget"));
+    // On a processor, rows are judged by processor time.
+    const bool on_processor = free["device"]["type"] == "cpu";
+    EXPECT_EQ(free["judged_time"], on_processor ? "cpu_ms" : "gpu_ms");
+    const auto verdict = free["verdict"]["text"].get<std::string>();
+    EXPECT_EQ(verdict.find(", by processor time, ") != verdict.npos, on_processor) << verdict;
+    // One frame has no interval, so that nothing can be told of its time.
+    const test::ProcessResult one = run_cli(add_small_frame_options(
+        {"compare", "-o", "out", "--max-ms", "100000", "--techniques", "reuse:face=8"}));
+    EXPECT_EQ(one.exit_code, 1);
+    EXPECT_THAT(one.out, testing::HasSubstr("Cannot tell whether a row keeps 100000 ms on "));
     expect_usage_refused({"compare", "-o", "out", "--max-flip", "2"}, 2,
                          {"--max-flip", "from 0 to 1"});
 }

@@ -326,14 +326,13 @@ TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
 TEST(Halves, DifferencesBelowTheFloorTie) {
     using report::sample::make_row;
     report::Row near = make_row("near", 2, .1, .20), far = make_row("far", 1, .1, .21);
-    EXPECT_TRUE(measure::has_less_flip(near, far));
+    EXPECT_EQ(measure::compare_flip(near, far), measure::Order::less);
     near.error.flip_floor = far.error.flip_floor = .005;
-    EXPECT_TRUE(measure::has_less_flip(near, far));
+    EXPECT_EQ(measure::compare_flip(near, far), measure::Order::less);
     near.error.flip_floor = far.error.flip_floor = .02;
-    EXPECT_FALSE(measure::has_less_flip(near, far));
-    EXPECT_FALSE(measure::has_less_flip(far, near));
-    EXPECT_TRUE(measure::beats_row(far, near)) << "it is faster and ties in FLIP";
+    EXPECT_EQ(measure::compare_flip(near, far), measure::Order::equal);
     report::Comparison made = report::sample::make_comparison({near, far});
+    EXPECT_TRUE(measure::RowJudge(made.rows).beats(far, near)) << "it is faster and ties in FLIP";
     made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{1});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[0]);

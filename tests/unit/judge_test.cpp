@@ -7,17 +7,29 @@
 namespace {
 
 using namespace catoptric;
+using measure::Order;
 using report::sample::make_row;
 using report::sample::make_time_samples;
+
+/// Returns whether row a beats row b in a comparison in which times differ, so that the two rows
+/// alone decide.
+bool beats(const measure::Row& a, const measure::Row& b) {
+    return measure::RowJudge({make_row("one", 1, 1, 1), make_row("two", 2, 1, 1), a, b})
+        .beats(a, b);
+}
+
+bool is_faster(const measure::Row& a, const measure::Row& b) {
+    return measure::compare_times(a, b) == Order::less;
+}
 
 TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
     measure::Row a = make_row("a", 1, .1, .1), b = make_row("b", 2, .1, .2);
     a.frame_ms = make_time_samples(9), b.frame_ms = make_time_samples(3);
-    EXPECT_TRUE(measure::is_confidently_faster(a, b));
-    EXPECT_TRUE(measure::beats_row(a, b));
+    EXPECT_TRUE(is_faster(a, b));
+    EXPECT_TRUE(beats(a, b));
     a.moves = b.moves = true;
-    EXPECT_TRUE(measure::is_confidently_faster(b, a)) << "the host's work counts";
-    EXPECT_FALSE(measure::beats_row(a, b)) << "it is closer, and slower";
+    EXPECT_TRUE(is_faster(b, a)) << "the host's work counts";
+    EXPECT_FALSE(beats(a, b)) << "it is closer, and slower";
     EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (std::vector<std::size_t>{1, 0}));
 }
 
@@ -65,13 +77,14 @@ TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
               Front{1});
-    EXPECT_FALSE(measure::beats_row(black, make_row_with_equal_times(3, .6)));
-    EXPECT_FALSE(measure::beats_row(make_row_with_equal_times(1, .1), black));
+    EXPECT_FALSE(beats(black, make_row_with_equal_times(3, .6)));
+    EXPECT_FALSE(beats(make_row_with_equal_times(1, .1), black));
     measure::Comparison made;
     made.rows = {black, make_row_with_equal_times(2, .1)};
     made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
-    EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
+    EXPECT_EQ(measure::find_fastest_rows(made).rows,
+              std::vector<const measure::Row*>{&made.rows[1]});
     ASSERT_EQ(measure::rank_rows(made).black.size(), 1U);
     EXPECT_TRUE(measure::rank_rows(made).beaten_by_beaten.empty());
 }
@@ -89,83 +102,79 @@ TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
     EXPECT_EQ(made.pareto, (Front{0, 2}));
     EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[2]).last, 2u);
     EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[1]).first, 0u);
-    EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[0]});
+    EXPECT_EQ(measure::find_fastest_rows(made).rows,
+              std::vector<const measure::Row*>{&made.rows[0]});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
     const measure::RowRanking ranking = measure::rank_rows(made);
     EXPECT_EQ(ranking.untimed, std::vector<const measure::Row*>{&made.rows[1]});
     EXPECT_TRUE(ranking.beaten_by_beaten.empty());
-    EXPECT_EQ(measure::find_ray_tracing_verdict(made).others, 2u);
+    EXPECT_EQ(measure::find_ray_tracing_verdict(made).others(), 2u);
 }
 
 TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
-    EXPECT_TRUE(measure::is_confidently_faster(make_row_with_equal_times(10, 1),
-                                               make_row_with_varying_time(12, 1)))
+    EXPECT_TRUE(is_faster(make_row_with_equal_times(10, 1), make_row_with_varying_time(12, 1)))
         << "10.8 at least";
-    EXPECT_FALSE(measure::is_confidently_faster(make_row_with_equal_times(10, 1),
-                                                make_row_with_varying_time(11, 1)))
+    EXPECT_FALSE(is_faster(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)))
         << "9.9 in three rounds";
-    EXPECT_FALSE(measure::is_confidently_faster(make_row_with_varying_time(11, 1),
-                                                make_row_with_equal_times(10, 1)));
-    EXPECT_TRUE(
-        measure::is_time_tie(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)));
-    EXPECT_TRUE(
-        measure::is_time_tie(make_row_with_equal_times(10, 1), make_row_with_equal_times(10, 1)));
+    EXPECT_FALSE(is_faster(make_row_with_varying_time(11, 1), make_row_with_equal_times(10, 1)));
+    EXPECT_EQ(
+        measure::compare_times(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)),
+        Order::unknown);
+    EXPECT_EQ(
+        measure::compare_times(make_row_with_equal_times(10, 1), make_row_with_equal_times(10, 1)),
+        Order::equal);
     // The same rounds are slow for both rows. Rows are compared round by round, so a slow moment of
     // the machine does not hide the difference.
-    EXPECT_TRUE(measure::is_confidently_faster(make_row_with_varying_time(10, 1),
-                                               make_row_with_varying_time(10.5, 1)));
+    EXPECT_TRUE(is_faster(make_row_with_varying_time(10, 1), make_row_with_varying_time(10.6, 1)));
     EXPECT_NEAR(measure::time_ratio_interval(make_row_with_varying_time(10.5, 1),
                                              make_row_with_varying_time(10, 1))
                     .low,
                 1.05, 1e-12);
 
-    EXPECT_TRUE(
-        measure::beats_row(make_row_with_equal_times(10, 1), make_row_with_varying_time(12, 1)));
-    EXPECT_FALSE(
-        measure::beats_row(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)));
-    EXPECT_TRUE(
-        measure::beats_row(make_row_with_varying_time(11, .9), make_row_with_equal_times(10, 1)))
-        << "closer, and not told apart in time";
-    EXPECT_FALSE(
-        measure::beats_row(make_row_with_varying_time(12, .9), make_row_with_equal_times(10, 1)))
+    EXPECT_TRUE(beats(make_row_with_equal_times(10, 1), make_row_with_varying_time(12, 1)));
+    EXPECT_FALSE(beats(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)));
+    EXPECT_FALSE(beats(make_row_with_varying_time(11, .9), make_row_with_equal_times(10, 1)))
+        << "closer, but whether it takes as long cannot be told";
+    EXPECT_TRUE(beats(make_row_with_varying_time(10.4, .9), make_row_with_varying_time(10, 1)))
+        << "closer, and equal in time";
+    EXPECT_FALSE(beats(make_row_with_varying_time(12, .9), make_row_with_equal_times(10, 1)))
         << "closer, but slower";
-    EXPECT_FALSE(
-        measure::beats_row(make_row_with_equal_times(10, 1.1), make_row_with_varying_time(12, 1)));
+    EXPECT_FALSE(beats(make_row_with_equal_times(10, 1.1), make_row_with_varying_time(12, 1)));
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_varying_time(11, 1), make_row_with_equal_times(10, 1)}),
               (Front{1, 0}));
     EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(10, 1),
-                                                  make_row_with_varying_time(11, .9),
+                                                  make_row_with_equal_times(10.4, .9),
                                                   make_row_with_equal_times(12, .9)}),
-              (Front{1, 2}));
+              Front{1});
 }
 
 TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     measure::Row a = make_row_with_equal_times(1, .1), b = make_row_with_equal_times(1, .2);
     // Other metrics do not decide which row is closer.
     a.error.rmse = a.error_all.flip = .5;
-    EXPECT_TRUE(measure::has_less_flip(a, b));
-    EXPECT_FALSE(measure::has_less_flip(b, a));
-    EXPECT_TRUE(measure::beats_row(a, b));
+    EXPECT_EQ(measure::compare_flip(a, b), Order::less);
+    EXPECT_EQ(measure::compare_flip(b, a), Order::more);
+    EXPECT_TRUE(beats(a, b));
     // With six drawn views, b is closer in only four, so neither row counts as closer.
     for (int view = 0; view < 6; ++view) {
         a.views.push_back(a), b.views.push_back(b);
         if (view < 4) std::swap(a.views.back().error.flip, b.views.back().error.flip);
     }
-    EXPECT_FALSE(measure::has_less_flip(a, b));
-    EXPECT_FALSE(measure::has_less_flip(b, a));
+    EXPECT_EQ(measure::compare_flip(a, b), Order::unknown);
+    EXPECT_EQ(measure::compare_flip(b, a), Order::unknown);
     EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{0, 1}));
     for (measure::Errors& view : a.views) view.error.flip = .3;
-    EXPECT_TRUE(measure::has_less_flip(b, a)) << "in every view";
+    EXPECT_EQ(measure::compare_flip(b, a), Order::less) << "in every view";
     EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{1}));
 }
 
 TEST(Judge, RowsWithFewerThanSixRoundsTie) {
     measure::Row a = make_row_with_equal_times(1, 1), b = make_row_with_equal_times(9, 1);
-    ASSERT_TRUE(measure::is_confidently_faster(a, b));
+    ASSERT_TRUE(is_faster(a, b));
     b.gpu_ms.rounds.pop_back();
     EXPECT_FALSE(measure::time_ratio_interval(a, b).is_known());
-    EXPECT_TRUE(measure::is_time_tie(a, b));
+    EXPECT_EQ(measure::compare_times(a, b), Order::unknown);
     EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{0, 1}));
 }
 
@@ -178,7 +187,7 @@ TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
               Front{3});
-    EXPECT_FALSE(measure::beats_row(make_row_with_equal_times(1, 1), no_error));
+    EXPECT_FALSE(beats(make_row_with_equal_times(1, 1), no_error));
 }
 
 TEST(Judge, TiedRowsShareTheirPlaces) {

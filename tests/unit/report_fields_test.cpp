@@ -402,6 +402,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
         {"95 %", ms(row.gpu_ms.ci95.low) + "–" + ms(row.gpu_ms.ci95.high)},
         {"Place", "1"},
         {"cpu ms", ms(row.cpu_ms.median)},
+        {"cpu 95 %", ms(row.cpu_ms.ci95.low) + "–" + ms(row.cpu_ms.ci95.high)},
         {"wall ms", ms(row.wall_ms.median)},
         {"FLIP", error(row.error.flip)},
         {"off, %", percent(row.error.off)},

@@ -38,11 +38,11 @@ TEST(ReportJson, JsonReportHasTheDocumentedFieldsInOrder) {
     const auto document = nlohmann::ordered_json::parse(text);
     std::vector<std::string> names;
     for (const auto& [name, value] : document.items()) names.push_back(name);
-    EXPECT_THAT(names,
-                ElementsAre("schema", "version", "commit", "date", "command", "complete", "device",
-                            "scene", "setup", "size", "frames", "warmup", "rounds", "timing",
-                            "load", "time", "ambient", "exposure", "flip_source", "together",
-                            "warnings", "reference", "model", "views", "rows", "pareto"));
+    EXPECT_THAT(names, ElementsAre("schema", "version", "commit", "date", "command", "complete",
+                                   "device", "scene", "setup", "size", "frames", "warmup", "rounds",
+                                   "timing", "load", "time", "ambient", "exposure", "flip_source",
+                                   "together", "warnings", "reference", "model", "views", "rows",
+                                   "pareto", "judged_time", "verdict"));
     EXPECT_EQ(document["schema"], "catoptric/compare/1");
     EXPECT_EQ(document["size"], json::parse("[4, 3]"));
     EXPECT_EQ(document["command"], json::parse(R"(["catoptric", "compare", "-o", "out"])"));

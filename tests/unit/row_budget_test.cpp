@@ -77,8 +77,12 @@ TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
     made.max_flip = .15;
     const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);
     EXPECT_EQ(label_of_row_or_none(found.row), "middle");
-    ASSERT_EQ(found.ties.size(), 1u);
-    EXPECT_EQ(label_of_row_or_none(found.ties[0]), "other");
+    EXPECT_TRUE(found.equal.empty());
+    ASSERT_EQ(found.open.size(), 1u);
+    EXPECT_EQ(label_of_row_or_none(found.open[0]), "other");
+    EXPECT_EQ(report::describe_budget_answer(made),
+              "Within FLIP 0.15 on card: cannot tell which of 2 rows has the least time: middle "
+              "(5.00 ms [4.50 - 5.50], FLIP 0.1000); other (5.00 ms [5.50 - 4.50], FLIP 0.1000).");
 }
 
 TEST(RowBudget, FailedRowsAreNeverChosen) {
@@ -101,7 +105,7 @@ TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {
                           "time is middle (5.00 ms"));
     made.max_ms = 2;
     EXPECT_THAT(report::describe_budget_answer(made),
-                HasSubstr("The fastest row is fast (3.00 ms"));
+                HasSubstr("The row with the least median time is fast (3.00 ms"));
     made.max_ms = NAN, made.max_flip = .001;
     EXPECT_THAT(report::describe_budget_answer(made),
                 HasSubstr("No row keeps FLIP 0.001 on card. The closest row is slow (9.00 ms"));

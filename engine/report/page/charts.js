@@ -263,13 +263,12 @@ class RowsChart extends Chart {
         this.draw_labels(pen, places, plot.bbox, unit);
     }
 
-    /** Draws the least error for each time as a staircase. */
+    /** Draws the least error of all marks for each time as a staircase. No mark lies left of it and below. */
     draw_front(line, places, {left, top, width}) {
-        const front = this.order.filter(row => this.data.rows[row].front).map(row => places.get(row))
-            .sort((a, b) => a[0] - b[0] || b[1] - a[1]);
-        if (front.length === 0) return;
-        const stairs = [[front[0][0], top]];
-        for (const [x, y] of front) stairs.push([x, stairs.at(-1)[1]], [x, y]);
+        const marks = [...places.values()].sort((a, b) => a[0] - b[0]);
+        if (marks.length === 0) return;
+        const stairs = [[marks[0][0], top]];
+        for (const [x, y] of marks) if (y > stairs.at(-1)[1]) stairs.push([x, stairs.at(-1)[1]], [x, y]);
         line("--accent", [...stairs, [left + width, stairs.at(-1)[1]]], [5, 4]);
     }
 
