@@ -361,29 +361,72 @@ std::vector<std::size_t> list_common_pieces(const std::vector<SweepPiece>& piece
     return common;
 }
 
-/// Throws `std::logic_error`, or an exception of the JSON library, unless a piece has all members.
-void check_piece_members(const SweepJson& content) {
-    const auto require = [](bool ok, const char* what) {
-        if (!ok) throw std::logic_error(std::string("a piece without ") + what);
+/// Throws `bad_data` unless a piece of a plan has all members.
+void check_piece_members(const SweepJson& content, const SweepPlace& place) {
+    place.check(content.is_object(), "wanted a piece, found ", describe(content));
+    const auto member = [&](const char* name) { return content.value(name, SweepJson()); };
+    const auto require = [&](const char* name, bool fits, const char* wanted) {
+        place.member(name).check(fits, "wanted ", wanted, ", found ", describe(member(name)));
     };
-    const bool is_timing = content.at("kind") == "timing";
-    require(is_timing || content.at("kind") == "picture", "the kind picture or timing");
-    require(content.at("scene").is_string() && content.at("scene_hash").is_string(), "a scene");
     const auto is_text = [](const SweepJson& value) { return value.is_string(); };
-    require(content.at("techniques").is_array() && !content["techniques"].empty() &&
-                std::ranges::all_of(content["techniques"], is_text),
-            "techniques");
-    require(content.at("options").is_object(), "options");
-    for (const auto& [name, value] : content["options"].items())
-        require(value == true || value.is_string() ||
-                    (value.is_array() && std::ranges::all_of(value, is_text)),
-                "valid options");
+    const bool is_timing = member("kind") == "timing";
+    require("kind", is_timing || member("kind") == "picture", "picture or timing");
+    for (const char* name : {"scene", "scene_hash"})
+        require(name, member(name).is_string(), "text");
+    const SweepJson techniques = member("techniques"), options = member("options");
+    require("techniques",
+            techniques.is_array() && !techniques.empty() &&
+                std::ranges::all_of(techniques, is_text),
+            "a list of techniques");
+    require("options", options.is_object(), "an object");
+    for (const auto& [name, value] : options.items())
+        place.member("options." + name)
+            .check(value == true || value.is_string() ||
+                       (value.is_array() && std::ranges::all_of(value, is_text)),
+                   "wanted true, text or a list of texts, found ", describe(value));
     if (is_timing)
-        return require(content.at("repeat").is_number_unsigned(), "the number of a repeat");
-    const SweepJson& view = content.at("view");
-    require(view.is_null() || (view.at("index").is_number_unsigned() &&
-                               view.at("seed").is_number_unsigned() && view.at("time").is_number()),
-            "a view");
+        return require("repeat", member("repeat").is_number_unsigned(), "the number of a repeat");
+    const SweepJson view = member("view");
+    const bool is_view = view.is_object() &&
+                         view.value("index", SweepJson()).is_number_unsigned() &&
+                         view.value("seed", SweepJson()).is_number_unsigned() &&
+                         view.value("time", SweepJson()).is_number();
+    require("view", content.contains("view") && (view.is_null() || is_view),
+            "null, or a view with index, seed and time");
+}
+
+/// Returns the pieces of a plan's file.
+std::vector<SweepPiece> read_pieces(const SweepJson& list, const SweepPlace& place) {
+    place.check(list.is_array() && !list.empty(), "wanted a list that is not empty, found ",
+                describe(list));
+    std::vector<SweepPiece> pieces;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const SweepPlace at{fmt::format("{}[{}]", place.text, i)};
+        at.check(list[i].is_object(), "wanted an object, found ", describe(list[i]));
+        SweepJson content = list[i].value("piece", SweepJson());
+        const SweepJson id = list[i].value("id", SweepJson());
+        check_piece_members(content, at.member("piece"));
+        at.member("id").check(id.is_string(), "wanted text, found ", describe(id));
+        pieces.push_back(make_piece(std::move(content)));
+        at.check(id == pieces.back().id, "was changed: wanted the id of its content, ",
+                 pieces.back().id, ", found ", describe(id));
+    }
+    return pieces;
+}
+
+/// Returns the indices of common pieces in a plan's file.
+std::vector<std::size_t> read_common_pieces(const SweepJson& list,
+                                            const std::vector<SweepPiece>& pieces,
+                                            const SweepPlace& place) {
+    place.check(list.is_array(), "wanted a list, found ", describe(list));
+    std::vector<std::size_t> common;
+    for (const SweepJson& index : list) {
+        place.check(index.is_number_unsigned() && index < pieces.size() &&
+                        !pieces[index.get<std::size_t>()].is_timing(),
+                    "wanted numbers of picture pieces, found ", describe(index));
+        common.push_back(index.get<std::size_t>());
+    }
+    return common;
 }
 
 fs::path find_plan_file(const fs::path& folder) { return folder / "plan.json"; }
@@ -469,30 +512,19 @@ void write_sweep_plan(const SweepPlan& plan, const fs::path& folder) {
 SweepPlan read_sweep_plan(const fs::path& folder) {
     const fs::path file = find_plan_file(folder);
     const std::string text = read_json_text(file, "the plan of a sweep", kMaxPlanBytes);
-    const auto document = parse_json<nlohmann::ordered_json>(file.string(), text);
-    check(document.is_object() &&
-              document.value("schema", nlohmann::ordered_json()) == "catoptric/sweep-plan/1",
-          Failure::bad_data, file.string(), ": wanted the schema catoptric/sweep-plan/1");
+    const auto document = parse_json<SweepJson>(file.string(), text);
+    const SweepPlace place{file.string()};
+    place.check(document.is_object(), "wanted an object, found ", describe(document));
+    const auto member = [&](const char* name) { return document.value(name, SweepJson()); };
+    place.member("schema").check(member("schema") == "catoptric/sweep-plan/1",
+                                 "wanted catoptric/sweep-plan/1, found ",
+                                 describe(member("schema")));
+    place.member("sweep").check(member("sweep").is_object(), "wanted an object, found ",
+                                describe(member("sweep")));
     SweepPlan plan;
-    try {
-        plan.sweep = document.at("sweep");
-        plan.common = document.at("common").get<std::vector<std::size_t>>();
-        for (const auto& entry : document.at("pieces")) {
-            plan.pieces.push_back(make_piece(entry.at("piece").get<SweepJson>()));
-            check_piece_members(plan.pieces.back().content);
-            check(entry.at("id").get<std::string>() == plan.pieces.back().id, Failure::bad_data,
-                  file.string(), ": piece ", entry.at("id").dump(),
-                  " was changed: its content has the id ", plan.pieces.back().id);
-        }
-        for (const std::size_t index : plan.common)
-            if (plan.pieces.at(index).is_timing())
-                throw std::logic_error("a common piece that is no picture piece");
-        if (plan.pieces.empty()) throw std::logic_error("a plan without pieces");
-    } catch (const std::logic_error& error) {
-        fail(Failure::bad_data, file.string(), ": ", error.what());
-    } catch (const SweepJson::exception& error) {
-        fail(Failure::bad_data, file.string(), ": ", error.what());
-    }
+    plan.sweep = nlohmann::ordered_json::parse(text).at("sweep"); // its members keep their order
+    plan.pieces = read_pieces(member("pieces"), place.member("pieces"));
+    plan.common = read_common_pieces(member("common"), plan.pieces, place.member("common"));
     return plan;
 }
 

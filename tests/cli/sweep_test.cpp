@@ -342,7 +342,8 @@ TEST_F(Sweep, ResultsWithWrongMembersAreBroken) {
     json empty = plan;
     empty["pieces"] = json::array(), empty["common"] = json::array();
     write_input_file("sweep/plan.json", empty.dump());
-    expect_usage_refused({"sweep", "merge", "sweep", "-o", "x"}, 65, {"plan without pieces"});
+    expect_usage_refused({"sweep", "merge", "sweep", "-o", "x"}, 65,
+                         {"sweep/plan.json.pieces: wanted a list that is not empty, found a list"});
     for (const char* member : {"kind", "scene", "scene_hash", "options", "techniques", "view"}) {
         json changed = plan;
         changed["pieces"][0]["piece"].erase(member);
@@ -533,7 +534,8 @@ TEST_F(Sweep, ChangedSceneAndChangedPlanAreRefused) {
     std::string plan = read_output_file("sweep/plan.json");
     plan.replace(plan.rfind("naive:bounces=0"), 15, "naive:bounces=1");
     write_input_file("sweep/plan.json", plan);
-    expect_usage_refused({"sweep", "run", "sweep"}, 65, {"plan.json: piece", "was changed"});
+    expect_usage_refused({"sweep", "run", "sweep"}, 65,
+                         {"plan.json.pieces[", "was changed: wanted the id of its content"});
     sweep["techniques"] = {"parallax"};
     const test::ProcessResult again = plan_sweep(sweep, "sweep");
     expect_exit_code(again, 2, {"plan.json: wanted a folder without a plan"});
