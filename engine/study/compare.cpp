@@ -19,6 +19,7 @@
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"
 #include "study/compare_row.hpp"
+#include "study/compare_settings.hpp"
 #include "study/compare_to_target.hpp"
 #include "study/light_model_warnings.hpp"
 #include "study/picture_rows.hpp"
@@ -64,12 +65,6 @@ std::string format_current_utc_time() {
     ::gmtime_r(&now, &utc);
     char text[32];
     return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
-}
-
-/// Returns the request, in which the default reference is replaced by the reference for the scene.
-CompareRequest replace_auto_reference(CompareRequest request) {
-    request.reference = choose_reference(request.reference, request.base.scene);
-    return request;
 }
 
 /// Measures the rows of a comparison in rounds, one by one or together in each frame. Compares each
@@ -151,28 +146,12 @@ private:
     }
 
     void prepare_comparison() {
-        const Request& base = compare_request_.base;
-        comparison_.version = version();
-        comparison_.commit = commit();
+        fill_comparison_settings(compare_request_, comparison_);
         comparison_.date = format_current_utc_time();
-        comparison_.command = compare_request_.command;
-        comparison_.images = compare_request_.images;
-        comparison_.complete = false;
-        comparison_.asked = base.techniques.size() + compare_request_.pictures.size();
+        comparison_.asked = compare_request_.base.techniques.size() +
+                            compare_request_.pictures.size();
         comparison_.device = make_device_facts(comparison_engine_);
-        comparison_.scene = make_scene_facts(base);
-        comparison_.width = static_cast<int>(base.size.x);
-        comparison_.height = static_cast<int>(base.size.y);
-        comparison_.frames = base.frames;
-        comparison_.warmup = base.warmup;
-        comparison_.rounds = choose_round_count(base.frames, compare_request_.rounds);
         comparison_.load_start = read_machine_load();
-        comparison_.time = base.time;
-        comparison_.ambient = base.ambient;
-        comparison_.exposure = base.exposure;
-        comparison_.timing = base.timing == PassTimingMode::isolated ? "isolated" : "pipelined";
-        comparison_.model = compare_request_.both_models ? "both" : rendered_work_name(base.model);
-        comparison_.together = compare_request_.together;
         for (const StudyChoice& choice : list_requested_studies())
             comparison_.studies.push_back(choice.name);
         if (truths_.has_reference_noise())
@@ -225,13 +204,7 @@ private:
         return samples;
     }
 
-    void fill_reference_facts() {
-        const TechniqueChoice choice = parse_technique(compare_request_.reference);
-        comparison_.reference_technique = choice.technique;
-        comparison_.reference_label = choice.label;
-        comparison_.reference_settings = choice.settings;
-        fill_reference_noise();
-    }
+    void fill_reference_facts() { fill_reference_noise(); }
 
     /// Fills the figures of the reference that change while its noise is reduced.
     void fill_reference_noise() {

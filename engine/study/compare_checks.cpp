@@ -9,9 +9,13 @@
 #include "session/candidates.hpp"
 #include "session/plan_file.hpp"
 #include "study/picture_rows.hpp"
+#include "study/plan_certificate.hpp"
+#include "study/reference_cache.hpp"
+#include "study/reference_file.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace catoptric::app {
@@ -73,6 +77,21 @@ void check_compare_request(const CompareRequest& request) {
     for (const StudyChoice& choice : request.studies) check_study(choice, request.reference);
     check(!request.both_models || !request.together, Failure::usage,
           "--model both and --together: rows of one frame have one model");
+}
+
+void check_compare_inputs(const CompareRequest& request) {
+    check_compare_request(request);
+    read_plan_certificates(request.base.techniques);
+    if (!request.reference_file.empty()) {
+        check_reference_has_file(request.reference, request.base.scene, request.reference_file);
+        if (std::filesystem::exists(request.reference_file))
+            read_reference_file(make_reference_key(request.base, request.reference),
+                                request.reference_file);
+    }
+    report::Comparison unused;
+    for (const StudyChoice& choice : request.studies)
+        if (const Study& study = find_study(choice.name); study.prepare != nullptr)
+            study.prepare(request, choice.count, unused);
 }
 
 } // namespace catoptric::app

@@ -22,5 +22,9 @@ void check_row_techniques(const std::vector<std::string>& techniques);
 /// Applies all checks above. Also refuses plans that do not fit the mirrors, and rows that are
 /// asked for in both models and in one frame.
 void check_compare_request(const CompareRequest& request);
+/// Reads every file that the comparison reads, and runs all checks that it makes before its first
+/// frame: check_compare_request, certificates of plans, the file of the reference, and the checks
+/// of the studies. `request` names its rows and its reference.
+void check_compare_inputs(const CompareRequest& request);
 
 } // namespace catoptric::app

@@ -114,6 +114,24 @@ void check_folder_shows_views(const std::string& folder, const std::vector<measu
     }
 }
 
+/// Throws `bad_data` unless the picture can be read to its end, has the size, and all its values
+/// are finite.
+void check_row_picture(const std::string& file, uvec2 size) {
+    measure::PictureReader picture_reader(file, [&](int columns, int rows) {
+        check(uvec2(columns, rows) == size, Failure::bad_data, file, ": wanted a picture of ",
+              size.x, "x", size.y, " pixels, as the comparison (--size), found ", columns, "x",
+              rows);
+    });
+    std::vector<vec3> row(size.x);
+    for (int y = 0; y < picture_reader.height(); ++y) {
+        picture_reader.read_rows(y, row);
+        for (std::size_t x = 0; x < row.size(); ++x)
+            check(std::isfinite(row[x].r) && std::isfinite(row[x].g) && std::isfinite(row[x].b),
+                  Failure::bad_data, file, ": pixel (", x, ", ", y,
+                  "): wanted three finite numbers, found ", row[x].r, " ", row[x].g, " ", row[x].b);
+    }
+}
+
 } // namespace
 
 std::string picture_row_image_name(const std::string& name, std::size_t index) {
@@ -157,15 +175,6 @@ void check_picture_rows(const CompareRequest& request) {
     std::vector<measure::View> drawn_views;
     if (has_folder && views > 0)
         drawn_views = draw_random_views(request.base, static_cast<int>(views));
-    const auto check_picture_size = [&](const std::string& file) {
-        const auto width = static_cast<int>(request.base.size.x),
-                   height = static_cast<int>(request.base.size.y);
-        measure::PictureReader picture_reader(file, [&](int columns, int rows) {
-            check(columns == width && rows == height, Failure::bad_data, file,
-                  ": wanted a picture of ", width, "x", height,
-                  " pixels, as the comparison (--size), found ", columns, "x", rows);
-        });
-    };
     for (const std::string& text : request.base.techniques)
         names.push_back(parse_technique(text).label);
     for (const auto& [name, file] : request.pictures) {
@@ -177,7 +186,7 @@ void check_picture_rows(const CompareRequest& request) {
         check_folder_shows_views(file, drawn_views, request.base);
         for (std::size_t view = 0; view <= views; ++view)
             if (const std::optional<std::string> picture = find_view_picture(file, view))
-                check_picture_size(*picture);
+                check_row_picture(*picture, request.base.size);
     }
 }
 

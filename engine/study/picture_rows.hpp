@@ -27,9 +27,9 @@ std::string view_picture_name(std::size_t view);
 std::optional<std::string> find_view_picture(const std::string& path, std::size_t view);
 
 /// Throws `usage` for a row without a name, or with the name of another row. Throws `bad_data`, and
-/// names the file, if a picture cannot be read or has another size than the comparison, and if a
-/// folder lacks the picture of a view or has a views.json (`catoptric views`) of other views. Reads
-/// the pictures' headers only.
+/// names the file, if a picture cannot be read, has another size than the comparison or a value
+/// that is not finite, and if a folder lacks the picture of a view or has a views.json (`catoptric
+/// views`) of other views. Reads every picture to its end.
 void check_picture_rows(const CompareRequest& request);
 
 /// Reads the picture of a row. Files of floats (EXR, Radiance) hold linear light. A PNG holds what

@@ -77,6 +77,14 @@ bool does_reference_have_noise(const std::string& reference, const scene::Scene&
            (draws_rays_from_lobes(reference) && scene::has_rough_reflector(scene));
 }
 
+void check_reference_has_file(const std::string& reference, const scene::Scene& scene,
+                              const std::filesystem::path& file) {
+    check(does_reference_have_noise(reference, scene), Failure::usage, "--reference ",
+          file.string(),
+          ": wanted a reference with noise, which draws rays from the lobes of rough surfaces; "
+          "found one without");
+}
+
 bool ReferenceCache::has_reference_noise() const {
     if (!noisy_) noisy_ = does_reference_have_noise(reference_, base_.scene);
     return *noisy_;
@@ -131,9 +139,7 @@ void ReferenceCache::read_stored_reference_frames(ReferencePicture& reference) c
 }
 
 void ReferenceCache::keep_reference_in_file(const std::filesystem::path& file) {
-    check(has_reference_noise(), Failure::usage, "--reference ", file.string(),
-          ": wanted a reference with noise, which draws rays from the lobes of rough surfaces; "
-          "found one without");
+    check_reference_has_file(reference_, base_.scene, file);
     file_ = file;
 }
 

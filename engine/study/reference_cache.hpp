@@ -41,6 +41,9 @@ std::string choose_reference(const std::string& asked, const scene::Scene& scene
 /// Returns whether a reference of this scene has noise: it traces paths, or draws rays to the
 /// environment or from the lobes of rough surfaces.
 bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene);
+/// Throws `usage` for a reference without noise, which cannot be kept in a file.
+void check_reference_has_file(const std::string& reference, const scene::Scene& scene,
+                              const std::filesystem::path& file);
 
 /// A noisy reference: two means of frames. All frames have different seeds.
 struct NoisyReference {

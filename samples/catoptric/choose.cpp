@@ -149,7 +149,11 @@ app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options
     request.base.techniques = options.techniques;
     request.reference = app::choose_reference(options.common.reference, request.base.scene,
                                               app::ReferencePixelKind::centre);
-    if (!options.certified.empty()) read_certificate(options, request);
+    if (!options.certified.empty()) {
+        app::check_row_techniques({"plan:" + options.certified});
+        read_certificate(options, request);
+    }
+    if (!request.costs.empty()) report::read_costs_file(request.costs); // before any work
     request.watcher = make_progress_watcher(progress);
     request.tell = [&progress, &options](const std::string& step) {
         progress.clear();

@@ -21,6 +21,7 @@
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"
+#include "study/compare_settings.hpp"
 #include "study/path_distance.hpp"
 #include "study/picture_rows.hpp"
 #include "study/reference_cache.hpp"
@@ -155,8 +156,8 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
         if (!options.axes.empty())
             request.base.techniques = expand_techniques_along_axes(list_requested_rows(request),
                                                                    options.axes);
-        app::check_row_techniques(request.base.techniques);
-        app::check_picture_rows(request);
+        request.base.techniques = list_requested_rows(request);
+        app::check_compare_inputs(request);
         requests.push_back(std::move(request));
     }
     return requests;
@@ -289,7 +290,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
     report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
         if (so_far.rows.size() == 1)
-            gate.check_baseline_scene(so_far); // the scene is checked before more time is spent
+            gate.check_baseline_scene(so_far); // its exposure may be known only now
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
@@ -315,6 +316,12 @@ int run_compare(const CompareOptions& options) {
     BaselineGate gate(options.baseline);
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
+    for (const app::CompareRequest& request : requests) {
+        if (options.baseline.baseline.empty()) break;
+        report::Comparison settings;
+        app::fill_comparison_settings(request, settings);
+        gate.check_baseline_scene(settings);
+    }
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.output_options);
     report::create_folder(options.folder);
