@@ -53,18 +53,65 @@ Json find_scene_report(const Json& document, const Comparison& comparison,
          "), found others");
 }
 
-/// Throws unless both comparisons show the same picture against the same reference.
+/// Throws unless a member of an object is null or has the wanted kind.
+void check_json_member(const Json& object, const char* name, bool fits, const char* wanted,
+                       const std::string& place) {
+    const Json value = find_json_member(object, name);
+    check(fits || value.is_null(), Failure::bad_data, place, ".", name, ": wanted ", wanted,
+          ", found ", describe_json_value(value));
+}
+
+/// Throws unless a time is null, or an object with a median and an interval.
+void check_time_summary(const Json& object, const char* name, const std::string& place) {
+    const Json times = find_json_member(object, name);
+    check_json_member(object, name, times.is_object(), "an object or null", place);
+    const std::string inside = place + "." + name;
+    check_json_member(times, "median", find_json_member(times, "median").is_number(), "a number",
+                      inside);
+    const Json ci95 = find_json_member(times, "ci95");
+    check_json_member(times, "ci95",
+                      ci95.is_array() && ci95.size() == 2 && ci95[0].is_number() &&
+                          ci95[1].is_number(),
+                      "two numbers or null", inside);
+}
+
+/// Throws unless the row has all members that the verdicts read, or lacks them.
+void check_baseline_row(const Json& row, const std::string& place) {
+    check(row.is_object() && find_json_member(row, "label").is_string(), Failure::bad_data, place,
+          ": wanted a row with a label, found ", describe_json_value(row));
+    const Json error = find_json_member(row, "error"), work = find_json_member(row, "work"),
+               passes = find_json_member(row, "passes");
+    check_json_member(row, "error", error.is_object(), "an object", place);
+    check_json_member(error, "flip", find_json_member(error, "flip").is_number(),
+                      "a number or null", place + ".error");
+    for (const char* time : {"gpu_ms", "frame_ms", "cpu_ms"}) check_time_summary(row, time, place);
+    check_json_member(row, "work", work.is_object(), "an object or null", place);
+    check_json_member(row, "passes", passes.is_array(), "a list", place);
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        const std::string pass = fmt::format("{}.passes[{}]", place, i);
+        check(find_json_member(passes[i], "name").is_string(), Failure::bad_data, pass,
+              ": wanted a pass with a name, found ", describe_json_value(passes[i]));
+        check_time_summary(passes[i], "gpu_ms", pass);
+    }
+}
+
+/// Throws unless both comparisons show the same picture against the same reference. Members that
+/// are null now are not known yet, and are not compared.
 void check_baseline_has_same_settings(const Json& before, const Json& now,
                                       const std::string& file) {
     check(find_json_member(before, "complete") == true &&
               find_json_member(before, "rows").is_array(),
           Failure::bad_data, file, ": wanted a complete report, found one that was stopped");
+    const Json rows = find_json_member(before, "rows");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        check_baseline_row(rows[i], fmt::format("{}: rows[{}]", file, i));
+    check_time_summary(before, "clear_ms", file);
     const auto check_equal = [&](const std::string& name, const Json& a, const Json& b) {
         const auto write = [](const Json& value) {
             return value.dump(-1, ' ', true, Json::error_handler_t::replace);
         };
         // Other programs may have written the members in another order.
-        check(nlohmann::json(a) == nlohmann::json(b), Failure::bad_data, file,
+        check(b.is_null() || nlohmann::json(a) == nlohmann::json(b), Failure::bad_data, file,
               ": wanted a baseline with the same ", name, " as now (", write(b), "), found ",
               a.is_null() ? "nothing" : quote_text_with_escapes(write(a)));
     };
@@ -104,8 +151,9 @@ double read_median_gpu_ms(const Json& timed) {
 class BaselineRegressionJudge {
 public:
     BaselineRegressionJudge(const Json& before, const Json& now, const BaselineLimits& limits)
-        : limits_(limits), same_device_(is_same_device(find_json_member(before, "device"),
-                                                       find_json_member(now, "device"))),
+        : limits_(limits), judged_time_(find_json_member(now, "judged_time")),
+          same_device_(
+              is_same_device(find_json_member(before, "device"), find_json_member(now, "device"))),
           floor_(find_noise_floor(now)) {
         const measure::MedianWithInterval control = measure::ratio_of_medians(
             read_median_of_time_summary(find_json_member(now, "clear_ms")),
@@ -124,15 +172,19 @@ public:
         if (!find_json_member(before, "gpu_ms").is_object() ||
             !find_json_member(now, "gpu_ms").is_object())
             return findings; // a picture of another renderer has no time
-        findings.push_back(judge_time_against_baseline(name, "ms", before, now, noisy));
+        // Older reports of moving scenes or processors may lack the time by which rows are judged.
+        const bool is_stated = find_json_member(before, judged_time_.c_str()).is_object() &&
+                               find_json_member(now, judged_time_.c_str()).is_object();
+        findings.push_back(judge_time_against_baseline(
+            name, "ms", is_stated ? judged_time_ : "gpu_ms", before, now, noisy));
         const double least = kMinJudgedPassShare * read_median_gpu_ms(now);
         for (const Json& pass : find_json_member(before, "passes"))
             for (const Json& other : find_json_member(now, "passes"))
                 if (find_json_member(pass, "name") == find_json_member(other, "name") &&
                     read_median_gpu_ms(other) >= least)
                     findings.push_back(judge_time_against_baseline(
-                        name, "ms of " + find_json_member(pass, "name").get<std::string>(), pass,
-                        other, noisy));
+                        name, "ms of " + find_json_member(pass, "name").get<std::string>(),
+                        "gpu_ms", pass, other, noisy));
         return findings;
     }
 
@@ -189,10 +241,11 @@ private:
     }
 
     BaselineFinding judge_time_against_baseline(const std::string& row, const std::string& quantity,
-                                                const Json& before, const Json& now,
-                                                bool noisy) const {
+                                                const std::string& time, const Json& before,
+                                                const Json& now, bool noisy) const {
         BaselineFinding finding{.row = row, .quantity = quantity, .says = {}};
-        const Json a = find_json_member(before, "gpu_ms"), b = find_json_member(now, "gpu_ms");
+        const Json a = find_json_member(before, time.c_str()),
+                   b = find_json_member(now, time.c_str());
         finding.before = read_json_number_member(a, "median"),
         finding.now = read_json_number_member(b, "median");
         const measure::Interval ratio =
@@ -200,15 +253,16 @@ private:
                                                                 read_median_of_time_summary(a)),
                                       machine_ratio_)
                 .ci95;
-        const std::string times = fmt::format("{} ms, before {} ms", format_ms(finding.now),
+        const std::string times = fmt::format("{} ms{}, before {} ms", format_ms(finding.now),
+                                              time == "cpu_ms" ? " of processor time" : "",
                                               format_ms(finding.before));
         const std::string limit = fmt::format("at most {:g} times is allowed",
                                               limits_.max_time_ratio);
-        const bool can_tell = same_device_ && !noisy && ratio.is_known();
-        if (can_tell && ratio.low > limits_.max_time_ratio)
-            finding.verdict = BaselineVerdict::worse;
-        else if (!can_tell || ratio.high > limits_.max_time_ratio)
-            finding.verdict = BaselineVerdict::unknown;
+        const measure::Order order = same_device_ && !noisy
+                                         ? measure::compare_to_limit(ratio, limits_.max_time_ratio)
+                                         : measure::Order::unknown;
+        if (order == measure::Order::more) finding.verdict = BaselineVerdict::worse;
+        if (order == measure::Order::unknown) finding.verdict = BaselineVerdict::unknown;
         const std::string why = !same_device_ ? "the device is another"
                                 : noisy       ? "other programs used the processors"
                                 : !ratio.is_known()
@@ -220,10 +274,44 @@ private:
     }
 
     BaselineLimits limits_;
+    std::string judged_time_; ///< name of the time by which rows are judged now
     bool same_device_;
     double floor_;
     measure::MedianWithInterval machine_ratio_{1, {1, 1}}; ///< how much slower the machine is now
 };
+
+/// Returns the row that takes the place of a row of the baseline which this comparison lacks: a new
+/// row of the same technique and model that errs no more, such as the technique with another knob.
+/// Null if there is none.
+const Json* find_replacing_row(const Json& rows, const Json& rows_before, const Json& missing) {
+    const double flip = read_json_number_member(find_json_member(missing, "error"), "flip");
+    for (const Json& row : rows)
+        if (find_row_with_same_label_and_model(rows_before, row) == nullptr &&
+            find_json_member(row, "technique") == find_json_member(missing, "technique") &&
+            find_json_member(row, "model") == find_json_member(missing, "model") &&
+            read_json_number_member(find_json_member(row, "error"), "flip") <= flip)
+            return &row;
+    return nullptr;
+}
+
+/// Returns what is said of a row of the baseline that this comparison lacks.
+BaselineFinding describe_missing_row(const Json& rows, const Json& rows_before,
+                                     const Json& missing) {
+    BaselineFinding finding{.row = baseline_row_name(missing),
+                            .quantity = "row",
+                            .verdict = BaselineVerdict::missing,
+                            .says = "is in the baseline, and not in this comparison"};
+    if (const Json* row = find_replacing_row(rows, rows_before, missing)) {
+        finding.verdict = BaselineVerdict::replaced;
+        finding.says = "is in the baseline, and not in this comparison, whose new row " +
+                       baseline_row_name(*row) + " errs no more";
+    }
+    return finding;
+}
+
+constexpr BaselineVerdict kShownVerdicts[] = {BaselineVerdict::worse, BaselineVerdict::missing,
+                                              BaselineVerdict::unknown, BaselineVerdict::replaced,
+                                              BaselineVerdict::added};
 
 std::vector<const BaselineFinding*>
 list_baseline_findings_with_verdict(const std::vector<BaselineFinding>& findings,
@@ -234,19 +322,38 @@ list_baseline_findings_with_verdict(const std::vector<BaselineFinding>& findings
     return list;
 }
 
+std::size_t count_failures(const std::vector<BaselineFinding>& findings) {
+    return static_cast<std::size_t>(std::ranges::count_if(findings, is_baseline_failure));
+}
+
+/// Returns the number of findings with each verdict. Verdicts on whole rows are left out where
+/// there are none.
 std::string format_baseline_verdict_counts(const std::vector<BaselineFinding>& findings) {
-    return fmt::format(
-        "baseline: {} worse, {} unknown, {} kept",
-        list_baseline_findings_with_verdict(findings, BaselineVerdict::worse).size(),
-        list_baseline_findings_with_verdict(findings, BaselineVerdict::unknown).size(),
-        list_baseline_findings_with_verdict(findings, BaselineVerdict::kept).size());
+    std::string text = "baseline:";
+    for (const BaselineVerdict verdict :
+         {BaselineVerdict::worse, BaselineVerdict::missing, BaselineVerdict::unknown,
+          BaselineVerdict::kept, BaselineVerdict::replaced, BaselineVerdict::added}) {
+        const std::size_t count = list_baseline_findings_with_verdict(findings, verdict).size();
+        const bool is_of_rows = verdict == BaselineVerdict::missing ||
+                                verdict == BaselineVerdict::replaced ||
+                                verdict == BaselineVerdict::added;
+        if (count > 0 || !is_of_rows)
+            text += fmt::format("{} {} {}", text.ends_with(':') ? "" : ",", count,
+                                baseline_verdict_name(verdict));
+    }
+    return text;
 }
 
 } // namespace
 
 const char* baseline_verdict_name(BaselineVerdict verdict) {
-    constexpr const char* kBaselineVerdictNames[] = {"kept", "worse", "unknown"};
+    constexpr const char* kBaselineVerdictNames[] = {"kept",    "worse",    "unknown",
+                                                     "missing", "replaced", "added"};
     return kBaselineVerdictNames[static_cast<std::size_t>(verdict)];
+}
+
+bool is_baseline_failure(const BaselineFinding& finding) {
+    return finding.verdict == BaselineVerdict::worse || finding.verdict == BaselineVerdict::missing;
 }
 
 void check_baseline_matches_comparison(const Comparison& comparison, const std::string& json,
@@ -265,23 +372,25 @@ std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison&
     check_baseline_has_same_settings(before, now, file);
     const BaselineRegressionJudge judge(before, now, limits);
     std::vector<BaselineFinding> findings;
-    for (const Json& row : before.at("rows")) {
-        check(find_json_member(row, "label").is_string(), Failure::bad_data, file,
-              ": wanted rows with a label, found ", describe_json_value(row));
-        if (const Json* same = find_row_with_same_label_and_model(now.at("rows"), row)) {
+    const Json &rows_before = before.at("rows"), &rows = now.at("rows");
+    for (const Json& row : rows_before) {
+        if (const Json* same = find_row_with_same_label_and_model(rows, row)) {
             for (BaselineFinding& finding : judge.judge_row_against_baseline(row, *same))
                 findings.push_back(std::move(finding));
         } else {
-            findings.push_back({baseline_row_name(row), "row", BaselineVerdict::worse, NAN, NAN,
-                                "is in the baseline, and not in this comparison"});
+            findings.push_back(describe_missing_row(rows, rows_before, row));
         }
     }
+    for (const Json& row : rows)
+        if (find_row_with_same_label_and_model(rows_before, row) == nullptr)
+            findings.push_back({baseline_row_name(row), "row", BaselineVerdict::added, NAN, NAN,
+                                "is not in the baseline, and not judged"});
     return findings;
 }
 
 std::string format_baseline_findings(const std::vector<BaselineFinding>& findings) {
     std::string text;
-    for (const BaselineVerdict verdict : {BaselineVerdict::worse, BaselineVerdict::unknown})
+    for (const BaselineVerdict verdict : kShownVerdicts)
         for (const BaselineFinding* finding :
              list_baseline_findings_with_verdict(findings, verdict))
             text += fmt::format("{}: {}, {}: {}\n", baseline_verdict_name(verdict), finding->row,
@@ -291,14 +400,13 @@ std::string format_baseline_findings(const std::vector<BaselineFinding>& finding
 
 std::string make_baseline_markdown(const std::vector<BaselineFinding>& findings,
                                    const std::string& scene) {
-    const bool is_worse =
-        !list_baseline_findings_with_verdict(findings, BaselineVerdict::worse).empty();
+    const bool is_worse = count_failures(findings) > 0;
     std::string text = fmt::format("### {}: {}\n\n{}\n", escape_markdown(scene),
                                    is_worse ? "worse than the baseline"
                                             : "not worse than the baseline",
                                    format_baseline_verdict_counts(findings));
     std::string table;
-    for (const BaselineVerdict verdict : {BaselineVerdict::worse, BaselineVerdict::unknown})
+    for (const BaselineVerdict verdict : kShownVerdicts)
         for (const BaselineFinding* finding :
              list_baseline_findings_with_verdict(findings, verdict))
             table += fmt::format("| {} | {} | {} | {} |\n", baseline_verdict_name(verdict),
@@ -313,16 +421,18 @@ std::string make_baseline_junit(const std::vector<BaselineFinding>& findings,
     // HTML and XML need the same five characters escaped.
     std::string xml = fmt::format(
         "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", escape_html(scene),
-        findings.size(),
-        list_baseline_findings_with_verdict(findings, BaselineVerdict::worse).size(),
+        findings.size(), count_failures(findings),
         list_baseline_findings_with_verdict(findings, BaselineVerdict::unknown).size());
     for (const BaselineFinding& finding : findings) {
         xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escape_html(finding.row),
                            escape_html(finding.quantity));
         const std::string says = escape_html(finding.says);
         switch (finding.verdict) {
-        case BaselineVerdict::kept: xml += "/>\n"; break;
+        case BaselineVerdict::kept:
+        case BaselineVerdict::replaced:
+        case BaselineVerdict::added: xml += "/>\n"; break;
         case BaselineVerdict::worse:
+        case BaselineVerdict::missing:
             xml += fmt::format("><failure message=\"{}\"/></testcase>\n", says);
             break;
         case BaselineVerdict::unknown:

@@ -17,11 +17,14 @@ struct BaselineLimits {
 };
 
 enum class BaselineVerdict : std::uint8_t {
-    kept,    ///< within the limit
-    worse,   ///< the row is above the limit, with 95 % confidence where times are compared
-    unknown, ///< cannot be told from these measurements
+    kept,     ///< within the limit
+    worse,    ///< the row is above the limit, with 95 % confidence where times are compared
+    unknown,  ///< cannot be told from these measurements
+    missing,  ///< the comparison lacks this row of the baseline
+    replaced, ///< as `missing`, but a new row of the same technique and model errs no more
+    added,    ///< the baseline lacks this row, so nothing of it is judged
 };
-/// Returns "kept", "worse" or "unknown".
+/// Returns the name of the enumerator.
 const char* baseline_verdict_name(BaselineVerdict verdict);
 
 /// The verdict on one quantity of one row, with its earlier and its present value.
@@ -32,21 +35,25 @@ struct BaselineFinding {
     double before = std::numeric_limits<double>::quiet_NaN(), now = before;
     std::string says; ///< a sentence without the row's name
 };
+/// Returns whether the finding makes the gate fail: `worse` and `missing`.
+bool is_baseline_failure(const BaselineFinding& finding);
 
-/// Throws `bad_data` if the baseline is no report, is incomplete, or shows another scene, camera,
-/// instant, size, exposure, ambient light, way of timing or reference. `json` is a report.json of
+/// Throws `bad_data` if the baseline is no report, is incomplete, has a member of a wrong kind, or
+/// shows another scene, camera, instant, size, exposure, ambient light, way of timing or reference.
+/// An exposure that is NaN in the comparison is not compared. `json` is a report.json of
 /// one scene or of several; `file` names it in messages. The comparison may be unfinished.
 void check_baseline_matches_comparison(const Comparison& comparison, const std::string& json,
                                        const std::string& file);
 
-/// Judges each row of the baseline against the row with the same label and model. A row that is
-/// missing now is worse. Device times of rows, and of passes with at least a twentieth of their
-/// row's time, are `worse` only if the 95 % interval of the ratio of both medians lies above the
-/// limit as a whole. Clearing the cube maps is constant work. If its time has risen with
-/// confidence, the machine is slower, and all times are divided by the same ratio. Times are
-/// `unknown` on another device, if a row was noisy, or if the interval contains the limit. Counted
-/// work, if both reports have it, must not grow by more than the same factor. A rise of FLIP below
-/// the noise of the reference counts as kept. Throws as check_baseline_matches_comparison does.
+/// Judges each row of the baseline against the row with the same label and model. A row that only
+/// one of them has is said apart. The time by which the comparison judges its rows, and device
+/// times of passes with at least a twentieth of their row's time, are `worse` only if the 95 %
+/// interval of the ratio of both medians lies above the limit as a whole. Clearing the cube maps is
+/// constant work. If its time has risen with confidence, the machine is slower, and all times are
+/// divided by the same ratio. Times are `unknown` on another device, if a row was noisy, or if the
+/// interval contains the limit. Counted work, if both reports have it, must not grow by more than
+/// the same factor. A rise of FLIP below the noise of the reference counts as kept. Throws as
+/// check_baseline_matches_comparison does.
 std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison& comparison,
                                                                const std::string& json,
                                                                const std::string& file,

@@ -62,9 +62,7 @@ void BaselineGate::judge_scene_against_baseline(const report::Comparison& compar
     summary_ += (summary_.empty() ? "" : "\n") +
                 report::make_baseline_markdown(findings, comparison.scene.name);
     junit_ += report::make_baseline_junit(findings, comparison.scene.name);
-    passes_ = passes_ && std::ranges::none_of(findings, [](const auto& finding) {
-                  return finding.verdict == report::BaselineVerdict::worse;
-              });
+    passes_ = passes_ && std::ranges::none_of(findings, report::is_baseline_failure);
 }
 
 std::string BaselineGate::finish() {

@@ -30,7 +30,7 @@ public:
     /// Reads the baseline, if there is one. `options` must outlive the gate.
     explicit BaselineGate(const BaselineOptions& options);
     /// Throws `bad_data` if the baseline shows another scene or other settings than the comparison,
-    /// which may be unfinished.
+    /// which may have no row yet.
     void check_baseline_scene(const report::Comparison& comparison) const;
     /// Judges the finished comparison of one scene. Throws `bad_data` if the baseline shows another
     /// scene or other settings.

@@ -179,13 +179,69 @@ TEST(Baseline, MoreCountedWorkIsWorse) {
     EXPECT_EQ(judge_nodes(0), both);
 }
 
-TEST(Baseline, MissingRowIsWorseAndNewRowIsNot) {
+TEST(Baseline, MissingRowFailsAndNewRowIsSaidApart) {
     const Comparison before = make_timed_comparison();
     Comparison now = before;
     now.rows.pop_back();
+    const Names second{before.rows[1].label + ": row"};
+    std::vector<BaselineFinding> findings = judge(now, before);
+    EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::worse), Names{});
+    EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::missing), second);
+    EXPECT_TRUE(std::ranges::any_of(findings, is_baseline_failure));
+    EXPECT_EQ(format_baseline_findings(findings),
+              "missing: " + before.rows[1].label +
+                  ", row: is in the baseline, and not in this comparison\n"
+                  "baseline: 0 worse, 1 missing, 0 unknown, 2 kept\n");
+    EXPECT_THAT(make_baseline_junit(findings, "s"), HasSubstr("failures=\"1\""));
+    EXPECT_THAT(make_baseline_markdown(findings, "s"), HasSubstr("worse than the baseline"));
+
+    findings = judge(before, now);
+    EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::added), second);
+    EXPECT_FALSE(std::ranges::any_of(findings, is_baseline_failure));
+    EXPECT_EQ(format_baseline_findings(findings),
+              "added: " + before.rows[1].label +
+                  ", row: is not in the baseline, and not judged\n"
+                  "baseline: 0 worse, 0 unknown, 2 kept, 1 added\n");
+    EXPECT_THAT(make_baseline_junit(findings, "s"), HasSubstr("failures=\"0\""));
+    EXPECT_THAT(make_baseline_markdown(findings, "s"), HasSubstr("| added | "));
+}
+
+/// A technique whose settings changed has another label. It takes the place of its earlier row
+/// where it errs no more.
+TEST(Baseline, NewRowOfTheSameTechniqueReplacesAMissingRowIfItErrsNoMore) {
+    const Comparison before = make_timed_comparison();
+    Comparison now = before;
+    now.rows[1].label += ":face=512";
+    for (const double factor : {.9, 1.0}) {
+        now.rows[1].error.flip = factor * before.rows[1].error.flip;
+        const std::vector<BaselineFinding> findings = judge(now, before);
+        EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::replaced),
+                  (Names{before.rows[1].label + ": row"}));
+        EXPECT_FALSE(std::ranges::any_of(findings, is_baseline_failure));
+        EXPECT_THAT(format_baseline_findings(findings),
+                    HasSubstr("whose new row " + now.rows[1].label + " errs no more\n"));
+    }
+    now.rows[1].error.flip = 1.01 * before.rows[1].error.flip;
+    EXPECT_TRUE(std::ranges::any_of(judge(now, before), is_baseline_failure));
+    now.rows[1].error.flip = 0, now.rows[1].technique = "another";
+    EXPECT_TRUE(std::ranges::any_of(judge(now, before), is_baseline_failure));
+}
+
+/// Programs beside the comparison lengthen its device times, and not its processor time.
+TEST(Baseline, TimesOnAProcessorAreProcessorTimes) {
+    Comparison before = make_timed_comparison();
+    before.device.type = "cpu";
+    for (Row& row : before.rows) row.on_processor = true, row.cpu_ms = row.gpu_ms;
+    Comparison now = before;
+    now.rows[0].gpu_ms = make_six_timed_rounds(100);
+    now.rows[1].cpu_ms = make_six_timed_rounds(20 * 1.3);
     EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
-              (Names{before.rows[1].label + ": row"}));
-    EXPECT_EQ(list_quantities_with_verdict(judge(before, now), BaselineVerdict::worse), Names{});
+              (Names{before.rows[1].label + ": ms"}));
+    EXPECT_THAT(format_baseline_findings(judge(now, before)),
+                HasSubstr("26.0 ms of processor time, before 20.0 ms"));
+    before.rows[0].cpu_ms = {}; // an older report
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
+              (Names{before.rows[0].label + ": ms", before.rows[1].label + ": ms"}));
 }
 
 TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
@@ -221,6 +277,21 @@ TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
                     HasSubstr("wanted a report.json of 'catoptric compare'"));
     EXPECT_THAT(refusal(before, R"({"schema": "catoptric/compare-scenes/1", "scenes": [1, {}]})"),
                 HasSubstr("wanted the scene "));
+    // A baseline that was changed by hand is refused as a whole, with the place.
+    const auto changed = [&](const char* pointer, const nlohmann::ordered_json& value) {
+        auto json = nlohmann::ordered_json::parse(to_json(before));
+        json[nlohmann::ordered_json::json_pointer(pointer)] = value;
+        return json.dump();
+    };
+    EXPECT_EQ(refusal(before, changed("/rows/1/label", 3)),
+              "old.json: rows[1]: wanted a row with a label, found an object");
+    EXPECT_EQ(refusal(before, changed("/rows/1/error/flip", "small")),
+              "old.json: rows[1].error.flip: wanted a number or null, found '\"small\"'");
+    EXPECT_EQ(refusal(before, changed("/rows/0/gpu_ms/ci95", "wide")),
+              "old.json: rows[0].gpu_ms.ci95: wanted two numbers or null, found '\"wide\"'");
+    EXPECT_EQ(refusal(before, changed("/rows/1/passes/0/name", nullptr)),
+              "old.json: rows[1].passes[0]: wanted a pass with a name, found an object");
+    EXPECT_THAT(refusal(before, changed("/rows/0", 1)), HasSubstr("old.json: rows[0]: wanted"));
     other = before, other.timing = "pipelined";
     EXPECT_THAT(refusal(other, to_json(before)), HasSubstr("the same timing as now"));
     EXPECT_THAT(refusal(before, "{"), HasSubstr("old.json"));
