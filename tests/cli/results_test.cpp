@@ -12,6 +12,11 @@ namespace {
 
 using nlohmann::json;
 
+/// Returns the time of a row by which its report judges rows.
+json& judged_time_of_row(json& report, std::size_t row) {
+    return report["rows"][row][report["judged_time"].get<std::string>()];
+}
+
 class ResultsSite : public CommandLineTest {
 protected:
     /// Returns the report of a comparison of two rows on two scenes. The comparison runs once for
@@ -66,10 +71,11 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
     EXPECT_EQ(read_pages("site").size(), 3u);
     for (const json& one : report_of_two_scenes()["scenes"]) {
         const std::string page = find_page("site", one["scene"]["name"]);
+        const std::string time = one["judged_time"];
         for (const json& row : one["rows"]) {
-            EXPECT_THAT(page, testing::HasSubstr(
-                                  row["label"].get<std::string>() + "</th><td>" +
-                                  fmt::format("{:.3f}", row["gpu_ms"]["median"].get<double>())));
+            EXPECT_THAT(
+                page, testing::HasSubstr(row["label"].get<std::string>() + "</th><td>" +
+                                         fmt::format("{:.3f}", row[time]["median"].get<double>())));
             const double flip = row["error"]["flip"];
             const std::string cell = flip == 0 ? "<td>0</td>"
                                                : fmt::format("<td>{:.4f}</td>", flip);
@@ -85,7 +91,8 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
         // Rows on the front have numbers from the fastest row on, in the plot and in the table.
         std::vector<std::pair<double, std::string>> rows;
         for (const std::size_t index : one["pareto"])
-            rows.emplace_back(one["rows"][index]["gpu_ms"]["median"], one["rows"][index]["label"]);
+            rows.emplace_back(one["rows"][index][one["judged_time"].get<std::string>()]["median"],
+                              one["rows"][index]["label"]);
         std::ranges::stable_sort(rows, {}, &std::pair<double, std::string>::first);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const std::size_t line = page.find("class=\"text\">" + rows[i].second + "</th>");
@@ -135,8 +142,8 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     json old = report_of_one_scene(), late = old;
     old["date"] = "2026-01-02T00:00:00Z", old["commit"] = "0ldc0de";
     late["date"] = "2026-02-03T00:00:00Z", late["commit"] = "1a7ec0de";
-    old["rows"][1]["gpu_ms"]["median"] = 111.5;
-    late["rows"][1]["gpu_ms"]["median"] = 222.25;
+    judged_time_of_row(old, 1)["median"] = 111.5;
+    judged_time_of_row(late, 1)["median"] = 222.25;
     for (const auto& [site, order] :
          std::map<std::string, std::vector<json>>{{"a", {old, late}}, {"b", {late, old}}}) {
         for (const json& report : order) add_report_to_results_site(report, site);
@@ -148,6 +155,14 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     EXPECT_THAT(page, testing::HasSubstr("the latest 2 of 2 reports"));
     EXPECT_LT(page.find("0ldc0de, 2026-01-02"), page.find("1a7ec0de, 2026-02-03"));
     EXPECT_LT(page.find("111.500 / "), page.find("222.250 / "));
+    // Older reports judge by device time, and stand apart.
+    json older = late;
+    older.erase("judged_time");
+    add_report_to_results_site(older, "older");
+    build("older");
+    const bool differs = late["judged_time"] == "cpu_ms";
+    EXPECT_EQ(find_page("older", "cornell-mirrors").find(", by processor time"), std::string::npos);
+    EXPECT_EQ(page.find(", by processor time") != page.npos, differs);
     // Reports with another light or camera belong to another setting, which has its own page.
     json other = late;
     other["exposure"] = 3;
@@ -252,9 +267,11 @@ TEST_F(ResultsSite, RefusalsNameTheMember) {
     refuse([](json& r) { r["complete"] = false; }, {"wanted a complete report"});
     refuse([](json& r) { r["rows"] = json::array(); }, {"report.json: rows: wanted a list"});
     refuse([](json& r) { r["rows"][1].erase("label"); }, {"rows[1].label: wanted text"});
-    refuse([](json& r) { r["rows"][0]["gpu_ms"]["median"] = "fast"; },
-           {"rows[0].gpu_ms.median: wanted a number from 0 to 1e+09, found '\"fast\"'"});
-    refuse([](json& r) { r["rows"][0]["gpu_ms"]["median"] = 1.7e308; }, {"from 0 to 1e+09"});
+    refuse([](json& r) { judged_time_of_row(r, 0)["median"] = "fast"; },
+           {"_ms.median: wanted a number from 0 to 1e+09, found '\"fast\"'"});
+    refuse([](json& r) { judged_time_of_row(r, 0)["median"] = 1.7e308; }, {"from 0 to 1e+09"});
+    refuse([](json& r) { r["judged_time"] = "wall_ms"; },
+           {"judged_time: wanted gpu_ms, frame_ms or cpu_ms, found '\"wall_ms\"'"});
     refuse([](json& r) { r["rows"][0]["error"]["flip"] = 2; }, {"error.flip: wanted a number"});
     refuse([](json& r) { r["date"] = "zzzz"; }, {"date: wanted a date", "'zzzz'"});
     refuse([](json& r) { r["rows"][0]["error"] = 4; }, {"rows[0].error: wanted an object"});
