@@ -97,7 +97,7 @@ public:
         try {
             if (!compare_request_.reference_file.empty())
                 truths_.keep_reference_in_file(compare_request_.reference_file);
-            fill_reference_facts();
+            fill_reference_noise();
             measure_all_rounds();
             add_plan_certificates(certificates, comparison_);
             reduce_reference_noise();
@@ -203,8 +203,6 @@ private:
         }
         return samples;
     }
-
-    void fill_reference_facts() { fill_reference_noise(); }
 
     /// Fills the figures of the reference that change while its noise is reduced.
     void fill_reference_noise() {
