@@ -133,8 +133,8 @@ void make_pipeline_layout(const GpuDevice& device, const std::string& name,
 VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
                                 std::span<const VkPipelineShaderStageCreateInfo> stages,
                                 const AttachmentFormats& attachments,
-                                const RasterPipelineState& state, VkPipelineLayout layout,
-                                const std::string& name) {
+                                const RasterPipelineState& state, bool reads_vertices,
+                                VkPipelineLayout layout, const std::string& name) {
     const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
     const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{
@@ -142,9 +142,11 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
          {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, normal)}}};
     VkPipelineVertexInputStateCreateInfo vertices{
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    vertices.vertexBindingDescriptionCount = 1;
+    vertices.vertexBindingDescriptionCount = reads_vertices ? 1 : 0;
     vertices.pVertexBindingDescriptions = &vertex_binding;
-    vertices.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(vertex_attributes.size());
+    vertices.vertexAttributeDescriptionCount = reads_vertices ? static_cast<std::uint32_t>(
+                                                                    vertex_attributes.size())
+                                                              : 0;
     vertices.pVertexAttributeDescriptions = vertex_attributes.data();
     VkPipelineInputAssemblyStateCreateInfo assembly{
         VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
@@ -273,9 +275,10 @@ const Pipeline& PipelineStore::find_or_make_raster_pipeline(const RasterPipeline
     make_pipeline_layout(pipeline_device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (const ShaderStage* stage : stages) infos.push_back(stage->make_shader_stage_create_info());
-    pipeline.pipeline = {pipeline_device_.device_handle(),
-                         make_raster_pipeline(pipeline_device_, cache_.cache_handle(), infos,
-                                              attachments, state, pipeline.layout, name)};
+    pipeline.pipeline = {
+        pipeline_device_.device_handle(),
+        make_raster_pipeline(pipeline_device_, cache_.cache_handle(), infos, attachments, state,
+                             stages.front()->reflection.has_inputs, pipeline.layout, name)};
     pipeline_device_.set_debug_name_of_vulkan_object(
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)),
         name);

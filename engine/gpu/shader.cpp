@@ -41,12 +41,14 @@ enum SpirvOp : std::uint32_t {
 };
 enum SpirvDecoration : std::uint32_t {
     kSpecId = 1,
+    kLocation = 30,
     kBinding = 33,
     kDescriptorSet = 34,
     kOffset = 35
 };
 enum SpirvStorageClass : std::uint32_t {
     kUniformConstant = 0,
+    kInput = 1,
     kUniform = 2,
     kPushConstant = 9,
     kStorageBuffer = 12
@@ -80,6 +82,8 @@ public:
     ShaderReflection make_reflection() const {
         ShaderReflection result;
         for (const SpirvVariable& variable : variables_) {
+            if (variable.storage == kInput && find_spirv_decoration_value(variable.id, kLocation))
+                result.has_inputs = true;
             if (variable.storage == kPushConstant)
                 result.push_bytes = std::max(
                     result.push_bytes,

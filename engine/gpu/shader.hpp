@@ -52,6 +52,7 @@ struct ShaderReflection {
     std::vector<SpecialisationConstant> constants;
     std::uint32_t push_bytes = 0;
     bool doubles = false;          ///< needs a device that computes with doubles
+    bool has_inputs = false;       ///< reads what the stage before passes on: vertices
     bool triangle_numbers = false; ///< needs a device that numbers triangles (gl_PrimitiveID)
 };
 
