@@ -8,13 +8,16 @@
 layout(set = 0, binding = PICTURE_BINDING, rgba32f) writeonly uniform image2D normals_and_distances;
 // The object's number from 1 as a word of engine/bvh/words.hpp, and the texture's factor of the material's roughness.
 layout(set = 0, binding = 20, rgba32f) writeonly uniform image2D objects_and_roughness;
-layout(push_constant, scalar) uniform Push { uvec2 size; };
+layout(push_constant, scalar) uniform Push {
+    uvec2 size;
+    uint first_group; // of this dispatch, which may be a range of all
+};
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 void main() {
     uvec2 picture_size = size; // push constants are read before the lanes diverge
-    uint across = (picture_size.x + 7u) / 8u, group = find_assigned_work_group();
+    uint across = (picture_size.x + 7u) / 8u, group = first_group + find_assigned_work_group();
     uvec2 pixel = uvec2(group % across, group / across) * 8u + uvec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
     if (all(lessThan(pixel, picture_size))) {
         vec4 normal_and_distance = vec4(0);

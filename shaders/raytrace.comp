@@ -17,7 +17,7 @@ layout(local_size_x = 64) in; // 64 invocations: kPixelsPerListGroup
 layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list[]; };
 
 bool find_pixel_to_trace(out uvec2 pixel) {
-    uint place = find_assigned_work_group() * kPixelsPerListGroup + gl_LocalInvocationIndex;
+    uint place = (trace.first_group + find_assigned_work_group()) * kPixelsPerListGroup + gl_LocalInvocationIndex;
     if (place >= counters.value.listed) return false;
     uint entry = words_per_list_entry(first_raster) * place;
     pixel = uvec2(list[entry] % trace.size.x, list[entry] / trace.size.x);
@@ -37,7 +37,7 @@ uvec2 pixel_in_work_group(uint i) {
 
 bool find_pixel_to_trace(out uvec2 pixel) {
     uint across = (trace.size.x + 7u) / 8u;
-    uint group = find_assigned_work_group();
+    uint group = trace.first_group + find_assigned_work_group();
     pixel = uvec2(group % across, group / across) * 8u + pixel_in_work_group(gl_LocalInvocationIndex);
     return all(lessThan(pixel, trace.size));
 }

@@ -283,6 +283,7 @@ struct TraceParameters {
     uint sample_count;  // samples a pixel; the last sample divides the sum by this count
     uvec2 size;         // size of the picture, pixels
     uint seed;          // seed of the directions in which rays leave rough surfaces
+    uint first_group;   // first work group of this dispatch, which may be a range of all
 };
 
 // A traced picture's alpha is a word of engine/bvh/words.hpp: the number, from 1, of the mirror that the pixel's first
@@ -349,7 +350,7 @@ static_assert(sizeof(Sky) == 208);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(DrawParameters) == 24);
 static_assert(sizeof(Placement) == 60);
-static_assert(sizeof(TraceParameters) == 28);
+static_assert(sizeof(TraceParameters) == 32);
 static_assert(sizeof(Counters) == 28);
 static_assert(sizeof(ScreenParameters) == 24);
 static_assert(sizeof(OverlayVertex) == 20);

@@ -1,6 +1,7 @@
 #include "core/file.hpp"
 
 #include "core/error.hpp"
+#include "core/watch.hpp"
 
 #include <atomic>
 #include <cerrno>
@@ -132,6 +133,7 @@ void PartialFile::replace_target() {
 }
 
 void write_file(const fs::path& path, std::string_view content) {
+    look_at_stop();
     std::error_code error;
     const fs::path target = resolve_all_links(path);
     const fs::file_status status = fs::status(target, error);

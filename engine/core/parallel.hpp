@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/watch.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -19,15 +21,18 @@ inline unsigned hardware_thread_count() {
 /// Calls body(i) for every i below `count`, on at most `threads` threads including the caller's.
 /// Fewer threads are used if the system cannot start more. Lower numbers begin first. If calls
 /// throw, the calls that have not begun are skipped. Once all threads have ended, the exception of
-/// the lowest number is rethrown. Starting a thread costs some ten microseconds.
+/// the lowest number is rethrown. Before each call, looks whether the caller's work is to stop.
+/// Starting a thread costs some ten microseconds.
 template <typename Body>
 void run_in_parallel(std::size_t count, unsigned threads, const Body& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr error;
     std::size_t thrown_by = count;
-    const auto work = [&] {
+    const auto work = [&, watch = current_watch()] {
+        const WatchScope scope(watch);
         for (std::size_t i = next++; i < count; i = next++) try {
+                look_at_stop();
                 body(i);
             } catch (...) {
                 const std::lock_guard lock(mutex);

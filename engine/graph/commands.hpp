@@ -1,11 +1,13 @@
 #pragma once
 
+#include "core/math.hpp"
 #include "core/work.hpp"
 #include "gpu/buffer.hpp"
 #include "gpu/pipeline.hpp"
 #include "graph/graph.hpp"
 
 #include <array>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -83,6 +85,18 @@ public:
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
     /// pass declares as indirect.
     void dispatch_indirect(BufferHandle arguments, std::uint64_t offset = 0);
+    /// Dispatches work groups that trace rays: all at once, or in ranges where they exceed what a
+    /// piece of the frame may still hold. `dispatch` gets the first group of the range and the
+    /// numbers of groups along x and y. Only for compute passes.
+    void split_rays(std::uint32_t groups, std::uint64_t rays_per_group,
+                    const std::function<void(std::uint32_t, uvec2)>& dispatch);
+    /// As above, for at most this many rays in a dispatch that cannot be split.
+    void add_rays(std::uint64_t rays);
+    /// Returns the most rays of a piece of the frame.
+    std::uint64_t most_rays_of_piece() const;
+    /// Returns a word of a buffer that the pass declares, as the passes and dispatches before left
+    /// it. The host waits for them, so call it only if the frame is in pieces anyway.
+    std::uint32_t read_word(BufferHandle buffer, std::uint64_t offset);
     /// Makes the writes of earlier dispatches of this pass visible to later ones.
     void storage_barrier();
     /// Copies an image to an image of the same size and format, in all layers of the handles. The
@@ -106,6 +120,7 @@ private:
     using BoundResource =
         std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::GpuBuffer*>;
     void write_bound_descriptors();
+    void run_piece();
     /// Adds to the counted work of the pass, if the frame counts work.
     void add_counted_work(CountedWorkKind kind, std::uint64_t count = 1);
     void check_pass_declares_resource(ImageHandle image, std::string_view name) const;

@@ -3,6 +3,7 @@
 #include "graph/sync.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace catoptric::graph {
 
@@ -104,22 +105,54 @@ FrameRecorder::FrameRecorder(gpu::GpuDevice& device, gpu::PipelineStore& pipelin
 
 void FrameRecorder::record_frame(const Graph& graph, CompiledRenderGraph& shape,
                                  FrameInFlightResources& slot, std::size_t slot_index,
-                                 PassTiming timing, WorkCounter* work) {
+                                 PassTiming timing, WorkCounter* work, FramePieces& pieces) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index, work_ = work;
-    commands_ = slot.commands;
-    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    gpu::throw_unless_vk_success(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
-    record_full_barrier();
+    commands_ = slot.commands, pieces_ = &pieces, timing_ = timing;
+    begin_commands();
     if (timing == PassTiming::isolated) write_timestamp(timing);
     for (const PlannedPass& planned : shape.plan.passes) {
         if (timing == PassTiming::pipelined) write_timestamp(timing);
         record_planned_barriers(planned.barriers, false);
         record_pass(planned);
         write_timestamp(timing);
+        pieces.end_pass(graph.list_passes()[planned.pass].most_rays);
     }
     record_planned_barriers(shape.plan.last, true);
     gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
+}
+
+void FrameRecorder::begin_commands() {
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    gpu::throw_unless_vk_success(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
+    record_full_barrier();
+}
+
+void FrameRecorder::run_piece() {
+    if (work_) work_->pause_pass(commands_);
+    if (end_label_) end_label_(commands_);
+    write_timestamp(timing_);
+    record_full_barrier();
+    gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
+    pieces_->submit_and_wait();
+    begin_commands();
+    write_timestamp(timing_);
+    begin_label(*pass_in_pieces_);
+    if (work_) work_->resume_pass(commands_);
+}
+
+std::uint32_t FrameRecorder::read_word(BufferHandle buffer, std::uint64_t offset) {
+    run_piece();
+    const std::string name = "word of buffer '" + graph_->list_buffers()[buffer.id].name + "'";
+    const gpu::GpuBuffer target(graph_device_, name, sizeof(std::uint32_t),
+                                gpu::BufferUsage::read_back);
+    graph_device_.submit_one_time_commands("read a " + name, [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{offset, 0, sizeof(std::uint32_t)};
+        vkCmdCopyBuffer(commands, vulkan_buffer(buffer), target.buffer_handle(), 1, &region);
+    });
+    std::uint32_t word = 0;
+    std::memcpy(&word, target.read_contents().data(), sizeof word);
+    return word;
 }
 
 /// Records a barrier that completes all earlier work and makes it visible to all later work. It
@@ -176,15 +209,19 @@ void FrameRecorder::record_planned_barriers(const std::vector<PlannedBarrier>& l
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
+void FrameRecorder::begin_label(const Pass& pass) {
+    if (!begin_label_) return;
+    VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+    label.pLabelName = pass.name.c_str();
+    begin_label_(commands_, &label);
+}
+
 void FrameRecorder::record_pass(const PlannedPass& planned) {
     const Pass& pass = graph_->list_passes()[planned.pass];
-    if (begin_label_) {
-        VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-        label.pLabelName = pass.name.c_str();
-        begin_label_(commands_, &label);
-    }
+    begin_label(pass);
     if (work_) work_->begin_pass(commands_);
     if (!pass.is_raster_pass()) {
+        pass_in_pieces_ = &pass;
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
     } else if (pass.layer_count == 1 || graph_device_.supports_layered_rendering()) {

@@ -51,23 +51,46 @@ void FrameInFlightResources::reset_commands() {
     gpu::throw_unless_vk_success(vkResetCommandBuffer(commands, 0), "reset a command buffer");
 }
 
-void FrameInFlightResources::reset(std::uint32_t stamps) {
-    if (query_count_ < stamps) {
+void FrameInFlightResources::reset(std::uint32_t most_stamps) {
+    if (query_count_ < most_stamps) {
         VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
-        create.queryCount = stamps;
+        create.queryCount = most_stamps;
         VkQueryPool pool = VK_NULL_HANDLE;
         gpu::throw_unless_vk_success(
             vkCreateQueryPool(slot_device_.device_handle(), &create, nullptr, &pool),
             "create time stamps");
         queries = {slot_device_.device_handle(), pool};
-        query_count_ = stamps;
+        query_count_ = most_stamps;
     }
     vkResetQueryPool(slot_device_.device_handle(), queries, 0, query_count_);
+    reset_descriptors();
+    next_query = 0;
+    stamps.clear(), piece_begins.clear();
+}
+
+void FrameInFlightResources::reset_descriptors() {
     for (const auto& pool : descriptor_pools_)
         vkResetDescriptorPool(slot_device_.device_handle(), pool, 0);
     next_pool_ = 0;
+}
+
+void FrameInFlightResources::end_piece() {
+    gpu::throw_unless_vk_success(read_stamps(), "read the time stamps of a piece of a frame");
+    piece_begins.push_back(stamps.size());
+    vkResetQueryPool(slot_device_.device_handle(), queries, 0, query_count_);
     next_query = 0;
+    reset_descriptors();
+    reset_commands();
+}
+
+VkResult FrameInFlightResources::read_stamps() {
+    if (next_query == 0) return VK_SUCCESS;
+    const std::size_t before = stamps.size();
+    stamps.resize(before + next_query);
+    return vkGetQueryPoolResults(slot_device_.device_handle(), queries, 0, next_query,
+                                 8 * std::size_t{next_query}, &stamps[before], 8,
+                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 }
 
 VkDescriptorSet FrameInFlightResources::allocate_descriptor_set(VkDescriptorSetLayout layout) {

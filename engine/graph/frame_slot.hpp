@@ -18,13 +18,21 @@ public:
     /// Empties the command buffer. A frame that failed has left it unfinished, with commands that
     /// use resources which the next frame may destroy.
     void reset_commands();
-    /// Empties the descriptor pools and makes room for `stamps` timestamps.
-    void reset(std::uint32_t stamps);
+    /// Empties the descriptor pools and makes room for `most_stamps` timestamps.
+    void reset(std::uint32_t most_stamps);
+    /// Reads the timestamps that the commands wrote, and empties the command buffer and the
+    /// descriptor pools, for the next piece of the same frame. The piece must have ended.
+    void end_piece();
+    /// Appends the timestamps since the last call to `stamps`.
+    VkResult read_stamps();
     VkDescriptorSet allocate_descriptor_set(VkDescriptorSetLayout layout);
 
     VkCommandBuffer commands = VK_NULL_HANDLE;
     gpu::UniqueQueryPool queries;
     std::uint32_t next_query = 0;
+    std::vector<std::uint64_t> stamps; ///< of the frame so far
+    /// Positions in `stamps` of the first of each piece but the frame's first piece.
+    std::vector<std::size_t> piece_begins;
 
     // The frame that was submitted last from this slot.
     std::uint64_t frame =
@@ -38,6 +46,8 @@ public:
     std::unique_ptr<WorkCounter> work; ///< null: the frame does not count its work
 
 private:
+    void reset_descriptors();
+
     const gpu::GpuDevice& slot_device_;
     gpu::UniqueCommandPool pool_;
     std::uint32_t query_count_ = 0;

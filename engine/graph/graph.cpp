@@ -75,6 +75,11 @@ PassBuilder& PassBuilder::set_pass_render_area(const PixelRectangle& area) {
     return *this;
 }
 
+PassBuilder& PassBuilder::most_rays(std::uint64_t rays) {
+    pass_.most_rays = rays;
+    return *this;
+}
+
 void PassBuilder::record(std::function<void(PassCommands&)> body) { pass_.body = std::move(body); }
 
 ImageHandle Graph::add_image(ImageDesc desc) {

@@ -141,6 +141,8 @@ struct Pass {
     /// attachments. Contents outside the area are undefined unless ImageUse::stays is set. The area
     /// is no part of the shape and may change from frame to frame.
     std::optional<PixelRectangle> area;
+    /// Most rays that the pass traces, for the progress of a frame in pieces. No part of the shape.
+    std::uint64_t most_rays = 0;
     std::function<void(PassCommands&)> body;
 
     bool is_raster_pass() const; ///< returns whether the pass has an attachment
@@ -160,6 +162,7 @@ public:
     PassBuilder& updates(ImageHandle image, ResourceUse use, const ClearValue& clear);
     PassBuilder& set_pass_layer_count(std::uint32_t count);
     PassBuilder& set_pass_render_area(const PixelRectangle& area);
+    PassBuilder& most_rays(std::uint64_t rays);
     void record(std::function<void(PassCommands&)> body);
 
 private:

@@ -15,17 +15,6 @@ namespace {
 
 constexpr std::size_t kMaxCachedGraphs = 8;
 
-gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
-    VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(
-        vkCreateSemaphore(device.device_handle(), &create, nullptr, &semaphore),
-        "create a semaphore");
-    return {device.device_handle(), semaphore};
-}
-
 std::vector<std::string> list_pass_names(const CompiledRenderGraph& shape) {
     std::vector<std::string> names;
     for (const PlannedPass& planned : shape.plan.passes)
@@ -33,29 +22,17 @@ std::vector<std::string> list_pass_names(const CompiledRenderGraph& shape) {
     return names;
 }
 
-/// Returns the number of the frame and the names of all its passes. A lost device does not tell
-/// which pass was running.
-std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGraph& shape) {
-    std::string name = "frame " + std::to_string(frame) + " (passes";
-    for (const PlannedPass& planned : shape.plan.passes)
-        name += " '" + shape.outline.list_passes()[planned.pass].name + "'";
-    return name + ")";
-}
-
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_timestamps(gpu::GpuDevice& device, const FrameInFlightResources& slot,
-                     GraphFrameTimes& times) {
+void read_timestamps(gpu::GpuDevice& device, FrameInFlightResources& slot, GraphFrameTimes& times) {
     const CompiledRenderGraph& shape = *slot.shape;
-    std::vector<std::uint64_t> stamps(slot.next_query);
-    const VkResult result = vkGetQueryPoolResults(
-        device.device_handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(),
-        8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    const VkResult result = slot.read_stamps();
     if (result != VK_SUCCESS)
         device.check_result_and_abandon_if_lost(
             result, "read the time stamps of " + describe_submitted_frame(slot.frame, shape));
-    const std::vector<double> at = timestamps_to_milliseconds(
-        stamps, device.valid_timestamp_bits(),
+    std::vector<double> at = timestamps_to_milliseconds(
+        slot.stamps, device.valid_timestamp_bits(),
         static_cast<double>(device.vulkan_limits().timestampPeriod));
+    if (!slot.piece_begins.empty()) at = remove_gaps(at, slot.piece_begins);
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
         const bool isolated = slot.timing == PassTiming::isolated;
         times.passes.push_back({shape.outline.list_passes()[shape.plan.passes[i].pass].name,
@@ -69,7 +46,7 @@ void read_timestamps(gpu::GpuDevice& device, const FrameInFlightResources& slot,
 
 GraphRunner::GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
                          std::uint32_t in_flight)
-    : runner_device_(device), frame_recorder_(device, pipelines),
+    : runner_device_(device), frame_recorder_(device, pipelines), pieces_(device),
       timeline_(make_timeline_semaphore(device)), memory_(device), kept_(device) {
     check(in_flight >= 1 && in_flight <= kMaxFramesInFlight, Failure::usage,
           "frames in flight must be 1 to ", kMaxFramesInFlight, ", not ", in_flight);
@@ -142,6 +119,7 @@ CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
 SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
                                                const ExternalSemaphores& outside,
                                                bool counts_work) {
+    has_dropped_contents_ = false;
     runner_device_.check_device_not_abandoned();
     const double waited_before = wait_ms_;
     CompiledRenderGraph& shape = compile_render_graph(graph);
@@ -168,15 +146,37 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     const SteadyClock::time_point record_begin = SteadyClock::now();
     slot.work = counts_work ? std::make_unique<WorkCounter>(runner_device_, list_pass_names(shape))
                             : nullptr;
-    frame_recorder_.record_frame(graph, shape, slot, index, timing, slot.work.get());
-    times.record_ms = elapsed_milliseconds(record_begin);
+    record_frame(graph, shape, slot, index, timing, outside.wait);
+    times.record_ms = elapsed_milliseconds(record_begin) - pieces_.wait_ms();
+    times.wait_ms += pieces_.wait_ms(), wait_ms_ += pieces_.wait_ms();
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
-    submit_frame(slot, shape, outside);
+    submit_frame(slot, shape, {pieces_.semaphore_of_last_piece(), outside.signal});
     slot.shape = shapes_.front();
     kept_.store_content_hashes(graph, shape);
     if (!stays) kept_.swap_previous_copies(shape);
     return {frame_};
+}
+
+void GraphRunner::record_frame(const Graph& graph, CompiledRenderGraph& shape,
+                               FrameInFlightResources& slot, std::size_t slot_index,
+                               PassTiming timing, VkSemaphore wait) {
+    std::uint64_t rays = 0;
+    for (const PlannedPass& planned : shape.plan.passes)
+        rays += graph.list_passes()[planned.pass].most_rays;
+    pieces_.begin_frame(slot, shape, frame_ + 1, wait, rays);
+    try {
+        frame_recorder_.record_frame(graph, shape, slot, slot_index, timing, slot.work.get(),
+                                     pieces_);
+    } catch (...) {
+        // The pieces before have changed images that outlive the frame, and their layouts.
+        if (pieces_.submitted() > 0 && !runner_device_.is_abandoned()) {
+            has_dropped_contents_ = true;
+            shape.kept.assign(shape.kept.size(), nullptr);
+            discard_persistent_image_contents();
+        }
+        throw;
+    }
 }
 
 void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
@@ -200,7 +200,7 @@ void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRende
     submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
     submit.pSignalSemaphoreInfos = signals.data();
     runner_device_.submit_uploads();
-    slot.submitted = SteadyClock::now();
+    if (pieces_.submitted() == 0) slot.submitted = SteadyClock::now();
     const VkResult result = vkQueueSubmit2(runner_device_.vulkan_queue(), 1, &submit,
                                            VK_NULL_HANDLE);
     if (result != VK_SUCCESS)

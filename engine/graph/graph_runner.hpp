@@ -3,6 +3,7 @@
 #include "gpu/buffer.hpp"
 #include "gpu/pipeline.hpp"
 #include "graph/frame_memory.hpp"
+#include "graph/frame_pieces.hpp"
 #include "graph/frame_recorder.hpp"
 #include "graph/persistent_images.hpp"
 
@@ -20,10 +21,10 @@ struct ExternalSemaphores {
     VkSemaphore signal = VK_NULL_HANDLE;
 };
 
-/// Runs graphs. Each shape is planned once. Each frame is one command buffer and one submit, and
-/// one timeline semaphore tells when it has ended. Frames run in order, each after all work of the
-/// one before. Images, memory and history stay between frames. Each run of a technique has its own
-/// GraphRunner.
+/// Runs graphs. Each shape is planned once. Each frame is one command buffer and one submit, unless
+/// it traces many rays (frame_pieces.hpp), and one timeline semaphore tells when it has ended.
+/// Frames run in order, each after all work of the one before. Images, memory and history stay
+/// between frames. Each run of a technique has its own GraphRunner.
 class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
@@ -61,11 +62,15 @@ public:
 
     /// Records and submits a frame. If `in_flight` frames are on the device, waits for the oldest.
     /// `stays`: the frame does not advance the history, so that the next frame sees the same last
-    /// frame. `counts_work`: the frame counts its work, which makes it slower. Throws `exhausted`.
-    /// Throws `device_lost` if a wait fails or the device refuses the frame.
+    /// frame. `counts_work`: the frame counts its work, which makes it slower. Of a frame in
+    /// pieces, waits for all but the last. Throws `exhausted`, and what the watch of the thread
+    /// throws between pieces. Throws `device_lost` if a wait fails or the device refuses the frame.
     SubmittedFrameTicket submit_frame(const Graph& graph, PassTiming timing, bool stays = false,
                                       const ExternalSemaphores& outside = {},
                                       bool counts_work = false);
+    /// Returns whether the last call of submit_frame, which threw, has dropped the contents of
+    /// earlier frames, because pieces of the frame had run.
+    bool has_dropped_contents() const { return has_dropped_contents_; }
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
@@ -108,9 +113,13 @@ private:
     void finish_frame_in_flight(FrameInFlightResources& slot);
     void finish_all_frames_in_flight();
     void release_persistent_images();
+    /// Records the frame, and submits all its pieces but the last.
+    void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
+                      std::size_t slot_index, PassTiming timing, VkSemaphore wait);
 
     gpu::GpuDevice& runner_device_;
     FrameRecorder frame_recorder_;
+    FramePieces pieces_;
     gpu::UniqueSemaphore timeline_;
     SharedGraphMemoryArena memory_;
     PersistentImages kept_;
@@ -119,6 +128,7 @@ private:
     std::vector<FrameInFlightResources> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;
+    bool has_dropped_contents_ = false;
     double compile_ms_ = 0; ///< since the last submit
     double wait_ms_ = 0;    ///< total
 };

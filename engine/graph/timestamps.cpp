@@ -13,4 +13,21 @@ std::vector<double> timestamps_to_milliseconds(std::span<const std::uint64_t> st
     return times;
 }
 
+std::vector<double> remove_gaps(std::span<const double> times,
+                                std::span<const std::size_t> begins) {
+    std::vector<double> left;
+    left.reserve(times.size());
+    double gaps = 0;
+    for (std::size_t i = 0, next = 0; i < times.size(); ++i) {
+        if (next < begins.size() && i + 1 == begins[next]) continue;
+        if (next < begins.size() && i == begins[next]) {
+            gaps += times[i] - times[i - 1];
+            ++next;
+            continue;
+        }
+        left.push_back(times[i] - gaps);
+    }
+    return left;
+}
+
 } // namespace catoptric::graph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,5 +12,9 @@ namespace catoptric::graph {
 /// `tick_ns`: nanoseconds per tick. The result is empty if there are no timestamps.
 std::vector<double> timestamps_to_milliseconds(std::span<const std::uint64_t> stamps,
                                                std::uint32_t valid_bits, double tick_ns);
+
+/// Takes the time between the pieces of a frame out of its times. `begins`: positions of the first
+/// time of each piece but the first; the time before it ends the piece before. Both are removed.
+std::vector<double> remove_gaps(std::span<const double> times, std::span<const std::size_t> begins);
 
 } // namespace catoptric::graph

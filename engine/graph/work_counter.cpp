@@ -24,6 +24,7 @@ constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
 WorkCounter::WorkCounter(gpu::GpuDevice& device, std::vector<std::string> passes)
     : graph_device_(device) {
     for (std::string& name : passes) passes_.push_back({std::move(name), {}});
+    paused_.resize(passes_.size());
     const std::uint64_t alignment = device.vulkan_limits().minStorageBufferOffsetAlignment;
     stride_ = (kShaderCounterBytes + alignment - 1) / alignment * alignment;
     buffer_ = gpu::GpuBuffer(device, "counted work", stride_ * passes_.size(),
@@ -56,6 +57,31 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
     if (statistics_) vkCmdBeginQuery(commands, statistics_, static_cast<std::uint32_t>(pass_), 0);
 }
 
+void WorkCounter::pause_pass(VkCommandBuffer commands) {
+    if (statistics_) vkCmdEndQuery(commands, statistics_, static_cast<std::uint32_t>(pass_));
+}
+
+void WorkCounter::resume_pass(VkCommandBuffer commands) {
+    if (!statistics_) return;
+    const auto query = static_cast<std::uint32_t>(pass_);
+    const std::vector<std::uint64_t> results = read_statistics(query, 1);
+    for (std::size_t k = 0; k < kPipelineStatisticCount; ++k) paused_[pass_][k] += results[k];
+    vkResetQueryPool(graph_device_.device_handle(), statistics_, query, 1);
+    vkCmdBeginQuery(commands, statistics_, query, 0);
+}
+
+std::vector<std::uint64_t> WorkCounter::read_statistics(std::uint32_t first,
+                                                        std::uint32_t count) const {
+    std::vector<std::uint64_t> results(kPipelineStatisticCount * count);
+    gpu::throw_unless_vk_success(
+        vkGetQueryPoolResults(graph_device_.device_handle(), statistics_, first, count,
+                              results.size() * sizeof results[0], results.data(),
+                              kPipelineStatisticCount * sizeof results[0],
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "read pipeline statistics");
+    return results;
+}
+
 void WorkCounter::end_pass(VkCommandBuffer commands) {
     if (statistics_) vkCmdEndQuery(commands, statistics_, static_cast<std::uint32_t>(pass_));
     if (++pass_ < passes_.size()) return;
@@ -73,15 +99,8 @@ VkDescriptorBufferInfo WorkCounter::shader_counts() const {
 
 std::vector<PassWorkCounts> WorkCounter::read() {
     const std::vector<std::byte> bytes = buffer_.read_contents();
-    std::vector<std::uint64_t> results(kPipelineStatisticCount * passes_.size());
-    if (statistics_)
-        gpu::throw_unless_vk_success(
-            vkGetQueryPoolResults(graph_device_.device_handle(), statistics_, 0,
-                                  static_cast<std::uint32_t>(passes_.size()),
-                                  results.size() * sizeof results[0], results.data(),
-                                  kPipelineStatisticCount * sizeof results[0],
-                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-            "read pipeline statistics");
+    std::vector<std::uint64_t> results;
+    if (statistics_) results = read_statistics(0, static_cast<std::uint32_t>(passes_.size()));
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         WorkCountsByKind& counts = passes_[i].counts;
         // Of each count, the low word comes first.
@@ -90,7 +109,8 @@ std::vector<PassWorkCounts> WorkCounter::read() {
         for (std::size_t kind = 0; kind < shared::kShaderWorkKindCount; ++kind)
             counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];
         for (std::size_t k = 0; statistics_ && k < kPipelineStatisticCount; ++k)
-            counts[kWorkKindsFromPipelineStatistics[k]] = results[kPipelineStatisticCount * i + k];
+            counts[kWorkKindsFromPipelineStatistics[k]] = paused_[i][k] +
+                                                          results[kPipelineStatisticCount * i + k];
     }
     return passes_;
 }

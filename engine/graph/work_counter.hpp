@@ -3,6 +3,7 @@
 #include "core/work.hpp"
 #include "gpu/buffer.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ public:
     /// Records the begin and the end of the query for the next pass, outside of a rendering scope.
     void begin_pass(VkCommandBuffer commands);
     void end_pass(VkCommandBuffer commands);
+    /// Ends the query of the pass with a piece of the frame, and begins it again with the next,
+    /// once the piece has run.
+    void pause_pass(VkCommandBuffer commands);
+    void resume_pass(VkCommandBuffer commands);
     /// Adds to a count of the pass that is being recorded.
     void add_count(CountedWorkKind kind, std::uint64_t count) {
         passes_[pass_].counts.add_count(kind, count);
@@ -31,9 +36,13 @@ public:
     std::vector<PassWorkCounts> read();
 
 private:
+    std::vector<std::uint64_t> read_statistics(std::uint32_t first, std::uint32_t count) const;
+
     gpu::GpuDevice& graph_device_;
     std::vector<PassWorkCounts> passes_;
     std::size_t pass_ = 0;
+    /// Results of the query in ended pieces, for each pass, in the order of its bits.
+    std::vector<std::array<std::uint64_t, 4>> paused_;
     std::uint64_t stride_ = 0; ///< bytes between the parts of two passes
     gpu::GpuBuffer buffer_;
     gpu::UniqueQueryPool statistics_; ///< null if the device has no pipeline statistics

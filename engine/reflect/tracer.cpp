@@ -1,7 +1,7 @@
 // Whitted ray tracing in a compute shader, over a BVH that needs no ray-tracing extension. Each
-// sample is one dispatch, and the picture adds the samples up. The reason is a software driver that
-// ends all loops of an invocation after 65,535 iterations. One sample of a deep path stays below
-// this limit.
+// sample is one dispatch, or several in pieces of the frame, and the picture adds the samples up.
+// The reason is a software driver that ends all loops of an invocation after 65,535 iterations. One
+// sample of a deep path stays below this limit.
 #include "reflect/tracer.hpp"
 
 #include "core/content_hash.hpp"
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <random>
 
 namespace catoptric::reflect {
@@ -19,8 +20,9 @@ using graph::ResourceUse;
 
 /// Offset of a ray's origin in the seed report, in world units.
 constexpr double kSeedReportRayOffset = 1e-3;
-/// Most work groups in one row of a dispatch. Every device allows 65535.
-constexpr std::uint32_t kMaxWorkGroupsPerRow = 32768;
+/// Pixels of a work group: 8x8 of a picture, or 64 of a list (kPixelsPerListGroup in
+/// shaders/lib/trace_list.glsl).
+constexpr std::uint32_t kPixelsPerWorkGroup = 64;
 
 /// Returns the positions of the samples in the pixel. These are the centre for one sample, and a
 /// regular grid for n*n. Other counts get one jittered point in each of n cells of the smallest
@@ -88,12 +90,9 @@ bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
-/// Returns the numbers of work groups of 8x8 pixels along x and y, which are at least as many as
-/// the picture has.
-uvec2 count_picture_work_groups(uvec2 size) {
-    const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
-                        rows = (groups + kMaxWorkGroupsPerRow - 1) / kMaxWorkGroupsPerRow;
-    return {(groups + rows - 1) / rows, rows};
+/// Returns the number of work groups of 8x8 pixels.
+std::uint32_t count_picture_work_groups(uvec2 size) {
+    return (size.x + 7) / 8 * ((size.y + 7) / 8);
 }
 
 /// Declares the pass that sets a tracer's counters to 0.
@@ -167,23 +166,45 @@ std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
 
-/// Runs one dispatch per sample and ray, or more for rays to the environment, with barriers between
-/// them.
+/// Returns the dispatches that each pixel takes part in: one per sample and ray, or more for rays
+/// to the environment.
+std::uint32_t count_dispatches(const TracerSettings& tracer, const render::GpuScene& scene) {
+    return static_cast<std::uint32_t>(tracer.samples) * std::max(tracer.rays, 1u) *
+           schedule_environment_rays(tracer, scene).dispatches;
+}
+
+/// Returns the most rays that this tracer sends from the pixels of a picture, counting those of a
+/// lobe, and one for a pixel without.
+std::uint64_t count_most_rays(const TracerSettings& tracer, const render::GpuScene& scene,
+                              uvec2 size) {
+    return std::uint64_t{size.x} * size.y * count_dispatches(tracer, scene);
+}
+
+/// Runs all dispatches, with barriers between them. `dispatch` gets the parameters of each.
 template <typename Dispatch>
 void dispatch_sample_passes(graph::PassCommands& commands, const TracerSettings& tracer,
                             const render::GpuScene& scene, uvec2 size, std::uint64_t seed,
                             Dispatch&& dispatch) {
     const std::vector<vec2> offsets = make_sample_offsets(tracer.samples, seed);
-    const std::uint32_t rays = std::max(tracer.rays, 1u) *
-                               schedule_environment_rays(tracer, scene).dispatches;
-    const auto count = static_cast<std::uint32_t>(offsets.size()) * rays;
+    const std::uint32_t count = count_dispatches(tracer, scene),
+                        rays = count / static_cast<std::uint32_t>(offsets.size());
     const std::uint32_t lobe_seed = make_lobe_seed(tracer, seed);
     for (std::uint32_t i = 0; i < count; ++i) {
         if (i > 0) commands.storage_barrier();
-        commands.push_constants(
-            shared::TraceParameters{offsets[i / rays], i, count, size, lobe_seed});
-        dispatch();
+        dispatch(shared::TraceParameters{offsets[i / rays], i, count, size, lobe_seed, 0});
     }
+}
+
+/// Dispatches these work groups, one invocation for each pixel, in pieces of the frame if they are
+/// many. `parameters`: push constants.
+template <typename Parameters>
+void dispatch_work_groups(graph::PassCommands& commands, std::uint32_t groups,
+                          Parameters parameters) {
+    commands.split_rays(groups, kPixelsPerWorkGroup, [&](std::uint32_t first, uvec2 range) {
+        parameters.first_group = first;
+        commands.push_constants(parameters);
+        commands.dispatch(range.x, range.y);
+    });
 }
 
 /// The pixels to trace, the dispatch arguments in work groups, and counters.
@@ -252,14 +273,17 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     declare_lighting_reads(pass, tracer);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
+        .most_rays(count_most_rays(tracer, inputs.scene, size))
         .record([=, &scene = inputs.scene, seed = inputs.seed](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
             commands.bind_resource("picture", traced.hdr);
             commands.bind_resource("counters", traced.counters);
             commands.bind_pipeline(make_tracer_state(tracer, scene, false));
-            const uvec2 groups = count_picture_work_groups(size);
             dispatch_sample_passes(commands, tracer, scene, size, seed,
-                                   [&] { commands.dispatch(groups.x, groups.y); });
+                                   [&](const shared::TraceParameters& parameters) {
+                                       dispatch_work_groups(
+                                           commands, count_picture_work_groups(size), parameters);
+                                   });
         });
     return traced;
 }
@@ -279,6 +303,7 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
         .writes(images.normals_and_distances, ResourceUse::storage_write)
         .writes(images.objects_and_roughness, ResourceUse::storage_write)
         .writes(images.counters, ResourceUse::storage)
+        .most_rays(std::uint64_t{size.x} * size.y)
         .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
             commands.bind_resource("normals_and_distances", images.normals_and_distances);
@@ -288,9 +313,11 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
                 "first_surface.comp",
                 {},
                 scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))});
-            commands.push_constants(size);
-            const uvec2 groups = count_picture_work_groups(size);
-            commands.dispatch(groups.x, groups.y);
+            struct {
+                uvec2 size;
+                std::uint32_t first_group;
+            } parameters{size, 0};
+            dispatch_work_groups(commands, count_picture_work_groups(size), parameters);
         });
     return images;
 }
@@ -309,6 +336,7 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
         .reads(list.pixels, ResourceUse::storage_read)
         .writes(list.counters, ResourceUse::storage)
         .writes(view.hdr, ResourceUse::storage)
+        .most_rays(count_most_rays(tracer, inputs.scene, inputs.size))
         .record([=, &scene = inputs.scene, size = inputs.size, seed = inputs.seed,
                  hdr = view.hdr](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
@@ -316,8 +344,26 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
             commands.bind_resource("counters", list.counters);
             commands.bind_resource("List", list.pixels);
             commands.bind_pipeline(make_tracer_state(tracer, scene, true));
+            // The host learns the number of listed pixels only if the frame must be in pieces.
+            const std::uint64_t most = count_most_rays(tracer, scene, size);
+            const bool is_split = most > commands.most_rays_of_piece();
+            if (!is_split) commands.add_rays(most);
+            const std::uint32_t listed = is_split ? commands.read_word(
+                                                        list.counters,
+                                                        offsetof(shared::Counters, listed))
+                                                  : 0;
             dispatch_sample_passes(commands, tracer, scene, size, seed,
-                                   [&] { commands.dispatch_indirect(list.arguments); });
+                                   [&](const shared::TraceParameters& parameters) {
+                                       if (is_split) {
+                                           dispatch_work_groups(commands,
+                                                                (listed + kPixelsPerWorkGroup - 1) /
+                                                                    kPixelsPerWorkGroup,
+                                                                parameters);
+                                           return;
+                                       }
+                                       commands.push_constants(parameters);
+                                       commands.dispatch_indirect(list.arguments);
+                                   });
         });
     return list.counters;
 }

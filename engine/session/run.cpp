@@ -85,6 +85,7 @@ RunResult FrameLoop::result() const { return {frame_->read_all(), times_, settle
 
 RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
                            FrameHistoryState history) {
+    const WatchedWork watched(watcher);
     FrameLoop frames(session, request, {}, history);
     throw_if_stopped(watcher);
     while (frames.render_next())

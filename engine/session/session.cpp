@@ -122,6 +122,25 @@ Session::Impl::parse_and_cache_technique_plans(const FrameSpec& spec) {
     return plans;
 }
 
+graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
+                                                     const FrameSpec& spec,
+                                                     const graph::ExternalSemaphores& outside,
+                                                     bool counts_work) {
+    try {
+        return runner.submit_frame(graph,
+                                   spec.timing == PassTimingMode::isolated
+                                       ? graph::PassTiming::isolated
+                                       : graph::PassTiming::pipelined,
+                                   spec.keeps_history, outside, counts_work);
+    } catch (...) {
+        if (runner.has_dropped_contents()) {
+            kept.clear(), paces.clear(), timed.reset();
+            remembered.clear();
+        }
+        throw;
+    }
+}
+
 const std::shared_ptr<const require::RequiredWorkModel>&
 Session::Impl::find_required_work_model(RenderedWork work, bool is_ablated) {
     std::shared_ptr<const require::RequiredWorkModel>& model = models[{work, is_ablated}];
@@ -201,11 +220,8 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
     self.resident->write_views_and_update_trees();
     const double hierarchy_ms = compute_milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish(frame);
-    const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(
-        frame.graph,
-        spec.timing == PassTimingMode::isolated ? graph::PassTiming::isolated
-                                                : graph::PassTiming::pipelined,
-        spec.keeps_history, outside, hooks.counts_work);
+    const graph::SubmittedFrameTicket ticket = self.run_graph(frame.graph, spec, outside,
+                                                              hooks.counts_work);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     if (!spec.keeps_history) self.store_captures_of_frame(frame, ticket);

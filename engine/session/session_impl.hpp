@@ -51,6 +51,10 @@ struct Session::Impl {
     /// frame.
     const std::vector<reflect::TechniquePlan>&
     parse_and_cache_technique_plans(const FrameSpec& spec);
+    /// Submits the graph of a frame. A frame that is stopped leaves the session without history.
+    graph::SubmittedFrameTicket run_graph(const graph::Graph& graph, const FrameSpec& spec,
+                                          const graph::ExternalSemaphores& outside,
+                                          bool counts_work);
     /// Returns the model of the scene at its present instant.
     const std::shared_ptr<const require::RequiredWorkModel>&
     find_required_work_model(RenderedWork work, bool is_ablated);

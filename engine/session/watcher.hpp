@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/error.hpp"
+#include "core/watch.hpp"
 #include "session/run.hpp"
 
 #include <string>
@@ -14,17 +14,26 @@ inline void report_row_to_watcher(const Watcher& watcher, const std::string& lab
 }
 /// Throws if a stop is asked for: `hangup` (1), `terminated` (15), else `interrupted`.
 inline void throw_if_stopped(const Watcher& watcher) {
-    const int signal = watcher.stop ? watcher.stop->load() : 0;
-    if (signal == 0) return;
-    fail(signal == 1    ? Failure::hangup
-         : signal == 15 ? Failure::terminated
-                        : Failure::interrupted,
-         "stopped by signal ", signal);
+    if (watcher.stop) throw_if_signalled(watcher.stop->load());
 }
 /// Reports a frame, then checks for a stop.
 inline void report_frame_to_watcher(const Watcher& watcher, int number, int count) {
     if (watcher.on_frame) watcher.on_frame(number, count);
     throw_if_stopped(watcher);
 }
+
+/// Makes the watcher that of all work in this thread, for its life: frames look at the signal
+/// between their pieces, and other long work between its own. A watcher without `stop` and
+/// `on_piece` leaves the watch as it is.
+class WatchedWork {
+public:
+    explicit WatchedWork(const Watcher& watcher)
+        : watch_{.stop = watcher.stop, .on_piece = watcher.on_piece},
+          scope_(watcher.stop || watcher.on_piece ? &watch_ : current_watch()) {}
+
+private:
+    WorkWatch watch_;
+    WatchScope scope_;
+};
 
 } // namespace catoptric::app

@@ -7,6 +7,7 @@ namespace catoptric::app {
 
 std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& request,
                                              const Watcher& watcher) {
+    const WatchedWork watched(watcher);
     session.forget();
     const int last = request.warmup + 1;
     std::vector<PassWorkCounts> work;

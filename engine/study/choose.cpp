@@ -423,12 +423,14 @@ double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Differe
 }
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::string& plan) {
+    const WatchedWork watched(asked.watcher);
     const ResolvedChooseRequest request(asked, make_rendering_comparer(engine, asked));
     check_choose_request(request);
     return prove_plans(request, {plan}).front();
 }
 
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& asked) {
+    const WatchedWork watched(asked.watcher);
     ChooseRequest request = asked;
     if (request.base.techniques.empty())
         request.base.techniques = list_default_techniques(request.base);

@@ -1,6 +1,7 @@
 #include "study/oracle.hpp"
 
 #include "bvh/closest_hit.hpp"
+#include "core/watch.hpp"
 #include "measure/lookup.hpp"
 #include "render/views.hpp"
 #include "scene/material_facts.hpp"
@@ -16,6 +17,7 @@ namespace catoptric::app {
 namespace {
 
 constexpr int kLookupStateUnknown = 1, kLookupStateMiss = 2; // Lookup::state
+constexpr std::size_t kRaysBetweenLooks = 1024;              // at the signal to stop
 constexpr float kUnlimitedRayDistance = std::numeric_limits<float>::max();
 
 /// Returns the ray that a mirror reflects from the point where `ray` met it, as
@@ -65,6 +67,7 @@ void TrueHitFinder::trace_true_hits_of_request(const Request& request) {
                                           mirror_objects_.begin());
     };
     for (std::size_t pixel = 0; pixel < std::size_t{request.size.x} * request.size.y; ++pixel) {
+        if (pixel % kRaysBetweenLooks == 0) look_at_stop();
         const f32::Ray ray = make_camera_ray(view, request.size, pixel);
         const auto hit = bvh::find_closest_hit<float>(everything_, ray, kUnlimitedRayDistance,
                                                       bvh::kHiddenFromCameraFlag |
@@ -107,6 +110,7 @@ std::vector<measure::LookupDirectionError>
 TrueHitFinder::judge_lookups(const std::vector<vec4>& lookup, bool left_out) const {
     std::vector<measure::LookupDirectionError> judged;
     for (const FirstOrderPixel& target : targets_) {
+        if (judged.size() % kRaysBetweenLooks == 0) look_at_stop();
         const vec4& pixel = lookup[target.pixel];
         const int code = static_cast<int>(pixel.w) - 1;
         if (code < 0) continue;
@@ -134,6 +138,7 @@ TrueHitFinder::find_pixels_at_light_edges(const std::vector<vec4>& lookup,
                                           const std::vector<std::uint32_t>& faces) const {
     measure::Mask found(lookup.size(), 0);
     for (std::size_t pixel = 0; pixel < lookup.size(); ++pixel) {
+        if (pixel % kRaysBetweenLooks == 0) look_at_stop();
         if (!(lookup[pixel].w > 0)) continue;
         const auto mirror = static_cast<std::uint32_t>(lookup[pixel].w - 1) / 8;
         const float texel = 2.0f / static_cast<float>(faces.at(mirror));

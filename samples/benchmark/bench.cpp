@@ -163,6 +163,7 @@ measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjec
                                      const ProcessorUsageMeter& meter, const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command) {
+    const WatchedWork watched(options.watcher);
     measure::BenchmarkRun run;
     run.version = version(), run.commit = commit(), run.date = format_current_date();
     run.command = std::move(command);

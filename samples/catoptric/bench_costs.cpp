@@ -109,6 +109,7 @@ int run_cost_fit(const CostsArguments& arguments) {
     print_device_and_warnings(engine, asked.common.output_options);
     ProgressPrinter progress(asked.common.output_options);
     const app::Watcher watcher = make_progress_watcher(progress);
+    const app::WatchedWork watched(watcher);
     const measure::DeviceCosts costs =
         asked.times.empty()
             ? fit_costs_of_this_device(asked, engine, requests, watcher)

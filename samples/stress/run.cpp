@@ -62,6 +62,7 @@ report::StressRow judge_stress_property(app::Engine& engine, const StressRequest
 } // namespace
 
 report::StressResults run_stress_properties(app::Engine& engine, const StressRequest& request) {
+    const app::WatchedWork watched(request.watcher);
     std::vector<const StressProperty*> chosen;
     for (const std::string& id : request.only) chosen.push_back(&find_stress_property(id));
     if (chosen.empty()) chosen = list_stress_properties();

@@ -94,6 +94,7 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(TraceParameters, sample_count),
                                                            MEMBER(TraceParameters, size),
                                                            MEMBER(TraceParameters, seed),
+                                                           MEMBER(TraceParameters, first_group),
                                                            MEMBER(Counters, primary_rays),
                                                            MEMBER(Counters, mirror_rays),
                                                            MEMBER(Counters, shadow_rays),

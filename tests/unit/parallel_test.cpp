@@ -1,5 +1,7 @@
 #include "core/parallel.hpp"
 
+#include "core/error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <set>
@@ -56,6 +58,29 @@ TEST(Parallel, CallerReceivesTheExceptionOfTheLowestNumber) {
         EXPECT_GE(thrown, 2);
         EXPECT_LT(begun, 10000) << "the rest is left out";
     }
+}
+
+TEST(Parallel, AllThreadsLookAtTheSignalOfTheCaller) {
+    std::atomic<int> stop = 0, calls = 0;
+    const WorkWatch watch{.stop = &stop};
+    const WatchScope scope(&watch);
+    run_in_parallel(10, 3, [&](std::size_t) { ++calls; });
+    EXPECT_EQ(calls, 10);
+    const auto count_until_stop = [&](std::size_t i) {
+        ++calls;
+        if (i == 0) stop = 15;
+    };
+    calls = 0;
+    try {
+        run_in_parallel(1'000'000, 3, count_until_stop);
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::terminated);
+    }
+    EXPECT_LT(calls, 1'000'000);
+    EXPECT_TRUE(has_seen_signal());
+    const WatchScope nobody(nullptr);
+    EXPECT_NO_THROW(look_at_stop());
 }
 
 } // namespace

@@ -31,4 +31,14 @@ TEST(Timestamps, SurviveAWrapOfTheirValidBits) {
     EXPECT_EQ(timestamps_to_milliseconds(full, 64, 1)[1], 1);
 }
 
+TEST(Timestamps, LeaveOutTheGapsBetweenPieces) {
+    using catoptric::graph::remove_gaps;
+    // The frame begins at 0. Its first pass ends at 5, after a gap of 2 from 2 to 4. The second
+    // pass ends at 20, after gaps from 8 to 9 and from 11 to 16.
+    const double times[] = {0, 2, 4, 5, 8, 9, 11, 16, 20};
+    const std::size_t begins[] = {2, 5, 7};
+    EXPECT_EQ(remove_gaps(times, begins), (std::vector<double>{0, 3, 12}));
+    EXPECT_EQ(remove_gaps(times, {}), (std::vector<double>(std::begin(times), std::end(times))));
+}
+
 } // namespace

@@ -1,0 +1,91 @@
+#include "graph/frame_pieces.hpp"
+
+#include "core/watch.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+namespace {
+
+constexpr std::uint64_t kMostRaysOnProcessor = std::uint64_t{1} << 15,
+                        kMostRaysOnOtherDevices = std::uint64_t{1} << 24;
+
+std::uint64_t choose_most_rays(const gpu::GpuDevice& device) {
+    const WorkWatch* const watch = current_watch();
+    if (watch != nullptr && watch->most_rays > 0) return watch->most_rays;
+    return device.is_cpu_device() ? kMostRaysOnProcessor : kMostRaysOnOtherDevices;
+}
+
+} // namespace
+
+std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGraph& shape) {
+    std::string name = "frame " + std::to_string(frame) + " (passes";
+    for (const PlannedPass& planned : shape.plan.passes)
+        name += " '" + shape.outline.list_passes()[planned.pass].name + "'";
+    return name + ")";
+}
+
+gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
+    VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    gpu::throw_unless_vk_success(
+        vkCreateSemaphore(device.device_handle(), &create, nullptr, &semaphore),
+        "create a semaphore");
+    return {device.device_handle(), semaphore};
+}
+
+FramePieces::FramePieces(gpu::GpuDevice& device)
+    : pieces_device_(device), timeline_(make_timeline_semaphore(device)) {}
+
+void FramePieces::begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
+                              std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays) {
+    slot_ = &slot, shape_ = &shape, frame_ = frame, wait_ = wait;
+    most_rays_ = choose_most_rays(pieces_device_), all_rays_ = all_rays;
+    rays_ = traced_ = ended_ = submitted_ = 0;
+    wait_ms_ = 0;
+}
+
+void FramePieces::submit_and_wait() {
+    const auto at = [](VkSemaphore semaphore, std::uint64_t value) {
+        VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+        info.semaphore = semaphore;
+        info.value = value;
+        info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        return info;
+    };
+    const VkSemaphore outside = semaphore_of_last_piece(), timeline = timeline_;
+    const VkSemaphoreSubmitInfo begin = at(outside, 0), end = at(timeline, ++piece_);
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = slot_->commands;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &commands;
+    submit.waitSemaphoreInfoCount = outside ? 1 : 0;
+    submit.pWaitSemaphoreInfos = &begin;
+    submit.signalSemaphoreInfoCount = 1;
+    submit.pSignalSemaphoreInfos = &end;
+    pieces_device_.submit_uploads();
+    const SteadyClock::time_point start = SteadyClock::now();
+    if (submitted_++ == 0) slot_->submitted = start;
+    const std::string doing = "run piece " + std::to_string(submitted_) + " of " +
+                              describe_submitted_frame(frame_, *shape_);
+    pieces_device_.check_result_and_abandon_if_lost(
+        vkQueueSubmit2(pieces_device_.vulkan_queue(), 1, &submit, VK_NULL_HANDLE), doing);
+    VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+    wait.semaphoreCount = 1;
+    wait.pSemaphores = &timeline;
+    wait.pValues = &piece_;
+    pieces_device_.check_wait_or_abandon(
+        vkWaitSemaphores(pieces_device_.device_handle(), &wait, ~std::uint64_t{0}), doing);
+    wait_ms_ += elapsed_milliseconds(start);
+    slot_->end_piece();
+    traced_ += rays_, rays_ = 0;
+    if (const WorkWatch* const watch = current_watch(); watch != nullptr && watch->on_piece)
+        watch->on_piece(std::min(ended_ + traced_, all_rays_), all_rays_);
+    look_at_stop();
+}
+
+} // namespace catoptric::graph
