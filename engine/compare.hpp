@@ -29,7 +29,8 @@ struct CompareRequest {
     Request base;
     std::string reference;      ///< empty: kReference, or rays from lobes if a mirror is rough
     std::string reference_file; ///< .exr of its halves, read if it exists and written; empty: none
-    double reference_seconds = 60; ///< most time to reduce the noise of a reference
+    /// Most time for a reference with noise; 0: each half is one frame with all its rays.
+    double reference_seconds = 60;
     bool together = false;         ///< render all rows in one frame
     /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;

@@ -117,7 +117,10 @@ void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estim
 
 /// The noise of a comparison's reference.
 struct ReferenceNoise {
-    int frames = 0;                          ///< frames of each half, each with seeds of its own
+    int frames = 0; ///< frames of each half, each with seeds of its own
+    /// Rays of a lobe for each pixel of a frame, and those that the reference asks for in each
+    /// half; 0: the reference traces no lobes.
+    int rays = 0, wanted_rays = 0;
     double seconds = 0;                      ///< time in which they were rendered
     double most_seconds = 0;                 ///< CompareRequest::reference_seconds
     double wanted_floor = Difference::kNone; ///< a fifth of the least FLIP of a row with captures
@@ -129,6 +132,8 @@ struct ReferenceNoise {
     std::vector<double>
         view_floors; ///< noise floor of each drawn view, by the target's quantity; NaN: unknown
 
+    /// Returns whether a half has fewer rays than the reference asks for.
+    bool is_coarse() const { return rays * frames < wanted_rays; }
     bool is_noise_target_reached() const { return flip_floor <= wanted_floor; }
 };
 

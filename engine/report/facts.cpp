@@ -57,10 +57,11 @@ std::string describe_reference(const Comparison& comparison) {
     if (!comparison.noise) return text;
     const measure::ReferenceNoise& noise = *comparison.noise;
     text += fmt::format(
-        " a frame, two halves of {} frames with {} seeds in {} s; between the halves "
+        " a frame, two halves of {} frames {}with {} seeds in {} s; between the halves "
         "FLIP {}, rmse {}",
-        noise.frames, 2 * noise.frames, format_fixed(noise.seconds, 1),
-        format_picture_error(noise.flip_floor), format_picture_error(noise.halves_rmse));
+        noise.frames, noise.rays == noise.wanted_rays ? "" : fmt::format("of {} rays ", noise.rays),
+        2 * noise.frames, format_fixed(noise.seconds, 1), format_picture_error(noise.flip_floor),
+        format_picture_error(noise.halves_rmse));
     if (std::isfinite(noise.predicted_rmse))
         text += fmt::format(" (their variance predicts {})",
                             format_picture_error(noise.predicted_rmse));
@@ -124,6 +125,13 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
                         "beside, and {} times are not to be trusted: {}.",
                         noisy.size(), comparison.rows.size(),
                         by_processor_time ? "their device" : "these", join_labels_of_rows(noisy)));
+    if (comparison.noise && comparison.noise->is_coarse())
+        list.push_back(fmt::format(
+            "The reference is coarse: each half has {} of {} rays for a pixel{}.",
+            comparison.noise->rays * comparison.noise->frames, comparison.noise->wanted_rays,
+            comparison.complete ? fmt::format(", which fit into --reference-seconds {:g}",
+                                              comparison.noise->most_seconds)
+                                : ", and is refined once all rows are measured"));
     if (comparison.noise && !comparison.noise->is_noise_target_reached())
         list.push_back(fmt::format(
             "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "

@@ -229,6 +229,8 @@ void add_circumstances_json(Json& json, const Comparison& comparison) {
 /// Returns the noise of a reference.
 Json to_json(const measure::ReferenceNoise& noise) {
     return {{"frames", noise.frames},
+            {"rays", noise.rays},
+            {"wanted_rays", noise.wanted_rays},
             {"seconds", make_number_json(noise.seconds)},
             {"most_seconds", make_number_json(noise.most_seconds)},
             {"flip_floor", make_number_json(noise.flip_floor)},

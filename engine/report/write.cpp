@@ -9,6 +9,7 @@
 #include "report/text.hpp"
 #include "report/writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -105,7 +106,9 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
         if (!images.empty() && !bytes.empty()) write_file(images / file, bytes);
         png = std::move(bytes); // after a failed write, the picture still counts as new
     };
-    const int noise_frames = comparison.noise ? comparison.noise->frames : 0;
+    const int noise_frames = comparison.noise
+                                 ? comparison.noise->frames * std::max(comparison.noise->rays, 1)
+                                 : 0;
     const auto write_values = [&](const std::string& name, const measure::Picture& picture) {
         const std::string file = report_image_path(comparison, name + ".js");
         if (!images.empty() && !picture.pixels.empty())

@@ -77,7 +77,7 @@ public:
           noise_target_(noise_target), compiled_before_(Access::compiled_pipelines(engine)),
           shared_session_(engine, compare_request_.base.scene),
           truths_(shared_session_, compare_request_.base, compare_request_.reference,
-                  compare_request_.watcher),
+                  compare_request_.watcher, compare_request_.reference_seconds),
           judge_(shared_session_, truths_, compare_request_.base, compare_request_.watcher) {
         if (compare_request_.base.techniques.empty())
             compare_request_.base.techniques = list_default_techniques(compare_request_.base);
@@ -490,6 +490,7 @@ report::Comparison compare(Engine& engine, const CompareRequest& request) {
 
 report::Comparison compare_to_noise_target(Engine& engine, const CompareRequest& request,
                                            const std::optional<NoiseFloorTarget>& target) {
+    const WatchedWork watched(request.watcher);
     return RowComparisonRunner(engine, request, target).run_whole_comparison();
 }
 

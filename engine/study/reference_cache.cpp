@@ -2,13 +2,15 @@
 
 #include "compare.hpp"
 #include "core/error.hpp"
+#include "core/stopwatch.hpp"
 #include "measure/masks.hpp"
 #include "scene/rough_reflectors.hpp"
 #include "session/technique_choice.hpp"
 #include "study/reference_file.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -30,7 +32,34 @@ double predict_rmse_between_halves(const NoisyReference& noisy, const measure::M
     return std::exp2(exposure) * std::sqrt(sum / pixels);
 }
 
+/// Thrown between the pieces of a frame that takes too long.
+struct OutOfTime {};
+
+/// Most rays of a frame from whose time the time of others is foretold.
+constexpr std::uint64_t kMostCoarseRays = std::uint64_t{1} << 18;
+
 } // namespace
+
+int choose_coarse_rays(const std::string& reference, uvec2 size) {
+    const int wanted = find_lobe_rays(reference);
+    const std::uint64_t pixels = std::uint64_t{size.x} * size.y *
+                                 std::stoull(find_sample_count(parse_technique(reference)));
+    if (pixels * static_cast<std::uint64_t>(wanted) <= kMostCoarseRays) return wanted;
+    const auto most = static_cast<unsigned>(
+        std::min<std::uint64_t>(kMostCoarseRays / pixels, static_cast<std::uint64_t>(wanted)));
+    return static_cast<int>(std::bit_floor(std::max(most, 1U)));
+}
+
+std::string choose_coarse_technique(const std::string& reference, uvec2 size) {
+    const int rays = choose_coarse_rays(reference, size);
+    return rays == find_lobe_rays(reference) ? reference : set_lobe_rays(reference, rays);
+}
+
+int choose_refined_rays(int wanted, int rays, double frame_seconds, double seconds) {
+    const double fit = seconds / (2 * frame_seconds / rays);
+    if (!(fit < wanted)) return wanted;
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(fit, 1.0))));
+}
 
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
                              ReferencePixelKind truth) {
@@ -90,26 +119,61 @@ bool ReferenceCache::has_reference_noise() const {
     return *noisy_;
 }
 
-void ReferenceCache::add_reference_frames(ReferencePicture& reference, const std::string& technique,
-                                          int number) {
+bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int number, double seconds) {
     NoisyReference& noisy = *reference.noisy;
-    const auto start = std::chrono::steady_clock::now();
     Request request = base_;
     request.model = RenderedWork::everything;
     request.time = base_.instant(number); // the rays of a frame do not depend on frames before
     request.animate = false;
     request.warmup = 0, request.frames = 1;
-    for (measure::PictureMean* half : {&noisy.a, &noisy.b}) {
-        noisy.used.push_back(noisy.seeds.next());
-        request.techniques = {set_lobe_seed(technique, noisy.used.back())};
-        RunResult result = run(reference_session_, request, watcher_);
-        half->add_picture(result.parts.front().hdr);
-        reference.gpu_ms.push_back(result.frames.front().gpu_ms);
-        if (reference.part.hdr.pixels.empty()) reference.part = std::move(result.parts.front());
+    const SteadyClock::time_point start = SteadyClock::now();
+    Watcher watcher = watcher_;
+    watcher.on_piece = [&](std::uint64_t done, std::uint64_t all) {
+        if (watcher_.on_piece) watcher_.on_piece(done, all);
+        if (elapsed_milliseconds(start) > 1e3 * seconds) throw OutOfTime();
+    };
+    const std::array seeds{noisy.seeds.next(), noisy.seeds.next()};
+    std::vector<RunResult> results;
+    try {
+        for (const int seed : seeds) {
+            const SteadyClock::time_point frame = SteadyClock::now();
+            request.techniques = {set_lobe_seed(noisy.technique, seed)};
+            results.push_back(run(reference_session_, request, watcher));
+            noisy.frame_seconds = 1e-3 * elapsed_milliseconds(frame);
+        }
+    } catch (const OutOfTime&) {
+        noisy.seconds += 1e-3 * elapsed_milliseconds(start);
+        return false;
     }
+    noisy.used.insert(noisy.used.end(), seeds.begin(), seeds.end());
+    noisy.a.add_picture(results[0].parts.front().hdr);
+    noisy.b.add_picture(results[1].parts.front().hdr);
+    for (const RunResult& result : results)
+        reference.gpu_ms.push_back(result.frames.front().gpu_ms);
+    if (reference.part.hdr.pixels.empty())
+        reference.part = std::move(results.front().parts.front());
     update_picture(reference);
-    noisy.seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    noisy.seconds += 1e-3 * elapsed_milliseconds(start);
+    return true;
+}
+
+bool ReferenceCache::refine_reference(ReferencePicture& reference, int wanted, double seconds) {
+    constexpr int kLeastGain = 4;  // for less, the frames so far are worth more
+    constexpr double kMargin = .8; // the machine may become slower
+    NoisyReference& noisy = *reference.noisy;
+    const int rays = find_lobe_rays(noisy.technique),
+              refined = choose_refined_rays(wanted, rays, noisy.frame_seconds, kMargin * seconds);
+    if (noisy.a.picture_count() > 1 || refined < kLeastGain * rays) return false;
+    ReferencePicture finer;
+    finer.part = reference.part;
+    finer.noisy = std::make_shared<NoisyReference>(noisy.seeds);
+    finer.noisy->technique = set_lobe_rays(noisy.technique, refined);
+    const bool is_made = add_reference_frames(finer, base_.total(), seconds);
+    noisy.seconds += finer.noisy->seconds;
+    if (!is_made) return false;
+    finer.noisy->seconds = noisy.seconds;
+    reference = std::move(finer);
+    return true;
 }
 
 void ReferenceCache::update_picture(ReferencePicture& reference) const {
@@ -132,6 +196,8 @@ void ReferenceCache::read_stored_reference_frames(ReferencePicture& reference) c
               ": a frame has the seed ", seed,
               ", which a row has as well; choose another seed for the row");
     noisy.used = std::move(stored.seeds);
+    if (stored.rays > 0 && stored.rays != find_lobe_rays(noisy.technique))
+        noisy.technique = set_lobe_rays(noisy.technique, stored.rays);
     noisy.a = std::move(stored.a), noisy.b = std::move(stored.b);
     reference.gpu_ms = std::move(stored.gpu_ms);
     reference.part.label = reference_;
@@ -147,7 +213,11 @@ void ReferenceCache::write_file() {
     if (file_.empty()) return;
     const ReferencePicture& reference = get_reference("1");
     const NoisyReference& noisy = *reference.noisy;
-    write_reference_file({noisy.a, noisy.b, noisy.used, reference.gpu_ms},
+    write_reference_file({.a = noisy.a,
+                          .b = noisy.b,
+                          .seeds = noisy.used,
+                          .gpu_ms = reference.gpu_ms,
+                          .rays = find_lobe_rays(noisy.technique)},
                          make_reference_key(base_, reference_), file_);
 }
 
@@ -160,12 +230,14 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
     if (has_reference_noise()) {
         std::vector<std::string> rows = base_.techniques;
         rows.push_back(reference_);
-        made.noisy = std::make_shared<NoisyReference>(ReferenceSeeds(rows));
         const bool is_kept = !file_.empty() && samples == "1" && key.second == base_.total();
+        made.noisy = std::make_shared<NoisyReference>(ReferenceSeeds(rows));
+        made.noisy->technique = begins_coarse_ ? choose_coarse_technique(technique, base_.size)
+                                               : technique;
         if (is_kept && std::filesystem::exists(file_))
             read_stored_reference_frames(made);
         else
-            add_reference_frames(made, technique, key.second);
+            add_reference_frames(made, key.second);
         made.part.hits.clear(); // with random rays, the second mirror of a pixel is random as well
     } else {
         RunResult result = render_reference(technique, key.second);
@@ -200,19 +272,30 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
                                     const NoiseFloorTarget& target) {
     if (!has_reference_noise()) return false;
     ReferencePicture& reference = find_reference_to_change(samples, base_.total());
+    const auto whole = static_cast<std::size_t>(std::max(std::ceil(seconds), 1.0));
+    const int wanted = find_lobe_rays(reference_);
     const auto is_done = [&] { // a floor of NaN, without a mirror pixel, is done, too
-        return reference.noisy->seconds >= seconds ||
-               !(measure_noise_floor(samples, target.quantity) > target.floor);
+        const NoisyReference& noisy = *reference.noisy;
+        const double floor = measure_noise_floor(samples, target.quantity);
+        const bool is_coarse = find_lobe_rays(noisy.technique) * noisy.a.picture_count() < wanted;
+        return std::isnan(floor) || noisy.seconds + 2 * noisy.frame_seconds > seconds ||
+               !(is_coarse || floor > target.floor);
+    };
+    const auto report = [&](bool has_grown) {
+        const NoisyReference& noisy = *reference.noisy;
+        report_row_to_watcher(watcher_,
+                              "reference " + noisy.technique + ", " +
+                                  std::to_string(noisy.a.picture_count()) + " frames a half",
+                              has_grown ? static_cast<std::size_t>(noisy.seconds) : 0, whole);
     };
     bool has_grown = false;
-    const auto whole = static_cast<std::size_t>(std::max(std::ceil(seconds), 1.0));
     for (; !is_done(); has_grown = true) {
-        report_row_to_watcher(
-            watcher_,
-            "reference " + reference_ + ", " + std::to_string(reference.noisy->a.picture_count()) +
-                " frames a half",
-            has_grown ? static_cast<std::size_t>(reference.noisy->seconds) : 0, whole);
-        add_reference_frames(reference, set_reference_samples(reference_, samples), base_.total());
+        const double left = seconds - reference.noisy->seconds;
+        report(has_grown);
+        if (refine_reference(reference, wanted, left)) continue;
+        if (reference.noisy->seconds + 2 * reference.noisy->frame_seconds > seconds ||
+            !add_reference_frames(reference, base_.total(), seconds - reference.noisy->seconds))
+            break;
     }
     return has_grown;
 }
@@ -225,6 +308,8 @@ measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples
     const measure::NoiseFreeErrorEstimate between = measure::estimate_noise_free_error_by_halves(
         noisy.halves.a, noisy.halves, mirrors, noisy.halves.floor_map);
     return {.frames = noisy.a.picture_count(),
+            .rays = find_lobe_rays(noisy.technique),
+            .wanted_rays = find_lobe_rays(reference_),
             .seconds = noisy.seconds,
             .flip_floor = between.flip_floor,
             .halves_rmse = between.halves_rmse,

@@ -10,6 +10,7 @@
 #include "study/reference_seeds.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -50,10 +51,13 @@ struct NoisyReference {
     explicit NoisyReference(ReferenceSeeds free_seeds) : seeds(std::move(free_seeds)) {}
 
     ReferenceSeeds seeds;
+    /// The frames' technique. Its rays are those of the reference, or fewer if these take long.
+    std::string technique;
     std::vector<int> used; ///< seeds of all frames
     measure::PictureMean a, b;
     measure::NoisyReferenceHalves halves; ///< halves of these means, after exposure
-    double seconds = 0;                   ///< time in which the frames were rendered
+    double seconds = 0;       ///< time in which all frames were rendered, dropped ones too
+    double frame_seconds = 0; ///< time of the last frame
 };
 
 /// Picture that a row is judged against: the reference at the row's own sample count.
@@ -73,17 +77,31 @@ std::string find_sample_count(const TechniqueChoice& choice);
 /// such knob, or if it states more than one sample, because it is then the reference of all rows.
 std::string set_reference_samples(const std::string& reference, const std::string& samples);
 
+/// Returns the most rays of a lobe for each pixel in the first frames of a noisy reference: a power
+/// of two, with which a frame has at most 2^18 rays, or all rays that the reference asks for. At
+/// least 1.
+int choose_coarse_rays(const std::string& reference, uvec2 size);
+/// Returns the reference with these rays.
+std::string choose_coarse_technique(const std::string& reference, uvec2 size);
+/// Returns the rays for each pixel in later frames: as many as `wanted`, or the largest power of
+/// two with which two frames fit into `seconds`, for frames of `rays` rays that take
+/// `frame_seconds`.
+int choose_refined_rays(int wanted, int rays, double frame_seconds, double seconds);
+
 /// The reference of a comparison, rendered once for each sample count and instant on demand. A
 /// reference that draws rays from lobes has noise if the scene has a rough reflector. Such a
 /// reference is kept as two halves (measure/halves.hpp), which begin with a frame each and may
-/// grow.
+/// grow. The first frames of a large picture have few rays.
 class ReferenceCache {
 public:
     /// All objects passed by reference must outlive the cache. `base` describes the scene that the
-    /// session shows, and its techniques are the rows.
+    /// session shows, and its techniques are the rows. `seconds`: time for all noisy references;
+    /// 0: each half is one frame with the rays of the reference, whatever time it takes, so that
+    /// the pictures do not depend on the speed of the machine.
     ReferenceCache(Session& session, const Request& base, const std::string& reference,
-                   const Watcher& watcher)
-        : reference_session_(session), base_(base), reference_(reference), watcher_(watcher) {}
+                   const Watcher& watcher, double seconds)
+        : reference_session_(session), base_(base), reference_(reference), watcher_(watcher),
+          begins_coarse_(seconds > 0) {}
 
     /// Returns the reference of a row's last frame. Valid as long as the cache. Throws as the
     /// watcher does.
@@ -99,10 +117,12 @@ public:
 
     /// Returns whether the reference has noise.
     bool has_reference_noise() const;
-    /// Adds frames to both halves of the reference of a row's last frame, until the error between
-    /// the halves over the mirrors is at most that of the target or the reference took `seconds` in
-    /// all. Reports progress to the watcher. Returns whether any frame was added. Does nothing for
-    /// a reference without noise, and if no pixel shows a mirror.
+    /// Adds frames to both halves of the reference of a row's last frame, until each half has the
+    /// rays that the reference asks for, and the error between the halves over the mirrors is at
+    /// most that of the target; or until further frames would take longer than `seconds` in all.
+    /// If frames of more rays fit into the time, they replace those of few rays. Reports progress
+    /// to the watcher. Returns whether the reference changed. Does nothing for a reference without
+    /// noise, and if no pixel shows a mirror.
     bool grow_reference(const std::string& samples, double seconds, const NoiseFloorTarget& target);
     /// Returns the error between the halves of the reference of a row's last frame, over the
     /// mirrors; NaN if no pixel shows a mirror. Only for noisy references.
@@ -124,9 +144,12 @@ private:
     /// frames of a still scene are equal, so the last frame is rendered for each of them.
     int choose_frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
     RunResult render_reference(const std::string& technique, int number) const;
-    /// Adds a frame of each half, and updates the picture.
-    void add_reference_frames(ReferencePicture& reference, const std::string& technique,
-                              int number);
+    /// Adds a frame of each half, and updates the picture. Returns false, and changes nothing, if
+    /// the frames took longer than `seconds`.
+    bool add_reference_frames(ReferencePicture& reference, int number,
+                              double seconds = std::numeric_limits<double>::infinity());
+    /// Replaces the frames by those of as many rays as fit into `seconds`. Returns whether it did.
+    bool refine_reference(ReferencePicture& reference, int wanted, double seconds);
     /// Sets the picture to the mean of the halves.
     void update_picture(ReferencePicture& reference) const;
     void read_stored_reference_frames(ReferencePicture& reference) const;
@@ -136,6 +159,7 @@ private:
     const Request& base_;
     const std::string& reference_;
     const Watcher& watcher_;
+    bool begins_coarse_;
     /// References by sample count and frame.
     std::map<std::pair<std::string, int>, ReferencePicture> truths_;
     /// First hits of the reference's camera rays, by frame number.

@@ -66,6 +66,7 @@ void write_reference_file(const StoredReference& reference, const ReferenceKey& 
     for (const auto& [name, value] : key) json["key"][name] = value;
     json["seeds"] = reference.seeds;
     json["gpu_ms"] = reference.gpu_ms;
+    json["rays"] = reference.rays;
     measure::write_picture_layers({{{kReferenceFileLayerNames[0], reference.a.mean()},
                                     {kReferenceFileLayerNames[1], reference.b.mean()},
                                     {kReferenceFileLayerNames[2], reference.a.variance()},
@@ -87,6 +88,8 @@ StoredReference read_reference_file(const ReferenceKey& key, const std::filesyst
     StoredReference reference;
     reference.seeds = read_number_list<int>(json, "seeds", file);
     reference.gpu_ms = read_number_list<double>(json, "gpu_ms", file);
+    if (json.contains("rays") && json["rays"].is_number_integer())
+        reference.rays = json["rays"].get<int>();
     const int frames = static_cast<int>(reference.seeds.size() / 2);
     check(frames > 0 && !reference.gpu_ms.empty(), Failure::bad_data, file,
           ": wanted seeds and times of at least one frame a half, found ", reference.seeds.size(),

@@ -23,6 +23,7 @@ struct StoredReference {
     measure::PictureMean a, b;
     std::vector<int> seeds;     ///< values of the knob `seed` of all frames
     std::vector<double> gpu_ms; ///< times of the frames
+    int rays = 0; ///< value of the knob `rays` of the frames, which may be less than the key's
 };
 
 /// Writes the halves as OpenEXR, with the layers A, B, variance_A and variance_B. The variances are

@@ -9,12 +9,25 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::string_view kSeedKnobName = "seed";
+constexpr std::string_view kSeedKnobName = "seed", kRaysKnobName = "rays";
 
 /// Returns the value of a knob that holds whole numbers, or 0 if the technique lacks the knob.
 double find_knob_number(const TechniqueChoice& choice, std::string_view knob) {
     const auto setting = std::ranges::find(choice.settings, knob, &Setting::name);
     return setting == choice.settings.end() ? 0 : setting->number.value_or(0);
+}
+
+std::string set_knob_number(const std::string& technique, std::string_view knob, int value) {
+    const TechniqueChoice choice = parse_technique(technique);
+    std::string text = choice.technique;
+    char separator = ':';
+    for (const Setting& setting : choice.settings) {
+        const bool is_set = setting.name == knob;
+        if (!is_set && !setting.changed) continue;
+        text += separator + setting.name + "=" + (is_set ? std::to_string(value) : setting.text);
+        separator = ',';
+    }
+    return text;
 }
 
 } // namespace
@@ -45,7 +58,7 @@ bool traces_paths(const std::string& technique) {
 bool draws_rays_from_lobes(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
     return choice.technique == "raytrace" &&
-           (find_knob_number(choice, "rays") > 0 || traces_paths(technique));
+           (find_knob_number(choice, kRaysKnobName) > 0 || traces_paths(technique));
 }
 
 bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene) {
@@ -57,16 +70,15 @@ bool draws_rays_to_environment(const std::string& technique, const scene::Scene&
 }
 
 std::string set_lobe_seed(const std::string& technique, int seed) {
-    const TechniqueChoice choice = parse_technique(technique);
-    std::string text = choice.technique;
-    char separator = ':';
-    for (const Setting& setting : choice.settings) {
-        const bool is_seed = setting.name == kSeedKnobName;
-        if (!is_seed && !setting.changed) continue;
-        text += separator + setting.name + "=" + (is_seed ? std::to_string(seed) : setting.text);
-        separator = ',';
-    }
-    return text;
+    return set_knob_number(technique, kSeedKnobName, seed);
+}
+
+int find_lobe_rays(const std::string& technique) {
+    return static_cast<int>(find_knob_number(parse_technique(technique), kRaysKnobName));
+}
+
+std::string set_lobe_rays(const std::string& technique, int rays) {
+    return set_knob_number(technique, kRaysKnobName, rays);
 }
 
 } // namespace catoptric::app

@@ -37,5 +37,9 @@ bool traces_paths(const std::string& technique);
 bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene);
 /// Returns the text of a `raytrace` technique with another value of the knob `seed`.
 std::string set_lobe_seed(const std::string& technique, int seed);
+/// Returns the value of the knob `rays`; 0 if the technique lacks it.
+int find_lobe_rays(const std::string& technique);
+/// Returns the text of a `raytrace` technique with another value of the knob `rays`.
+std::string set_lobe_rays(const std::string& technique, int rays);
 
 } // namespace catoptric::app

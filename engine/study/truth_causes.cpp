@@ -100,8 +100,10 @@ std::vector<ChainReference> make_reference_chain(scene::Scene scene) {
 class ChainPictures {
 public:
     ChainPictures(const StudyInput& input, ChainReference reference)
-        : technique_(std::move(reference.technique)), request_(input.request.base),
-          watcher_(input.request.watcher),
+        : technique_(input.request.reference_seconds > 0
+                         ? choose_coarse_technique(reference.technique, input.request.base.size)
+                         : reference.technique),
+          request_(input.request.base), watcher_(input.request.watcher),
           has_noise_(does_reference_have_noise(technique_, reference.scene)),
           chain_session_(input.engine, reference.scene) {
         request_.scene = std::move(reference.scene);
@@ -259,15 +261,17 @@ void split_distance_to_path_tracing(const StudyInput& input) {
     const auto start = std::chrono::steady_clock::now();
     const auto most = static_cast<std::size_t>(
         std::max(std::ceil(input.request.reference_seconds), 1.0));
-    double seconds = 0;
+    double seconds = 0, round = 0;
     do {
         report_row_to_watcher(input.request.watcher,
                               "references of the truth causes, " +
                                   std::to_string(chain.back()->frame_count()) + " frames a half",
                               std::min(static_cast<std::size_t>(seconds), most), most);
         for (const std::unique_ptr<ChainPictures>& pictures : chain) pictures->add_frames(seeds);
+        const double before = seconds;
         seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    } while (seconds < input.request.reference_seconds);
+        round = seconds - before;
+    } while (seconds + round < input.request.reference_seconds);
     set_truth_causes(input, causes, chain);
     input.tell();
 }

@@ -91,7 +91,7 @@ struct ViewReferencePicture {
 
     ViewReferencePicture(Session& session, const ViewsRequest& request, const measure::View& view)
         : at_view(make_view_request(request.base, view)),
-          cache(session, at_view, request.reference, request.watcher),
+          cache(session, at_view, request.reference, request.watcher, request.reference_seconds),
           hits(cache.find_mirror_hits()) {}
     /// Renders the reference pictures of the view for all rows. Reduces their noise for at most
     /// `seconds` in all, until the noise reaches the target. Returns the largest noise floor of the

@@ -314,6 +314,8 @@ int run_compare(const CompareOptions& options) {
     check_figure_options(options.figures, options.common.size);
     check_baseline_options(options.baseline);
     BaselineGate gate(options.baseline);
+    ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::tenths,
+                             "reading scenes, opening the device");
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
     for (const app::CompareRequest& request : requests) {
@@ -323,6 +325,7 @@ int run_compare(const CompareOptions& options) {
         gate.check_baseline_scene(settings);
     }
     app::Engine engine(make_engine_options(options.common.device));
+    progress.clear();
     print_device_and_warnings(engine, options.common.output_options);
     report::create_folder(options.folder);
     for (const app::CompareRequest& request : requests)
@@ -337,7 +340,6 @@ int run_compare(const CompareOptions& options) {
                                     "in PATH (apt install librsvg2-bin), found none");
     }
 
-    ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::tenths);
     CompareReportOutput output(options, requests.size());
     std::vector<std::string> broken;
     bool keeps_budgets = true;
@@ -482,8 +484,8 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                 });
     verb.option(
         "--reference-seconds", "S",
-        "most seconds to reduce the noise of a reference with rays=N, if a surface is rough "
-        "(60)",
+        "most seconds for a reference with rays=N, if a surface is rough; 0: all its rays in one "
+        "frame a half, however long they take (60)",
         [options](const std::string& text) {
             options->reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
         });

@@ -22,7 +22,7 @@ measure::Picture draw_random_picture(std::uint64_t seed) {
 }
 
 app::StoredReference make_stored_reference() {
-    app::StoredReference stored{.seeds = {1, 2, 4, 5}, .gpu_ms = {1.5, 2.5}};
+    app::StoredReference stored{.seeds = {1, 2, 4, 5}, .gpu_ms = {1.5, 2.5}, .rays = 8};
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         stored.a.add_picture(draw_random_picture(seed));
         stored.b.add_picture(draw_random_picture(seed + 10));
@@ -41,6 +41,7 @@ TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
     app::StoredReference after = app::read_reference_file(kTestReferenceKey, folder / "halves.exr");
     EXPECT_EQ(after.seeds, before.seeds);
     EXPECT_EQ(after.gpu_ms, before.gpu_ms);
+    EXPECT_EQ(after.rays, 8);
     EXPECT_EQ(after.a.picture_count(), 2);
     EXPECT_EQ(after.a.mean().pixels, before.a.mean().pixels);
     EXPECT_EQ(after.b.mean().pixels, before.b.mean().pixels);

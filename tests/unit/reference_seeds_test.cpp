@@ -135,4 +135,29 @@ TEST(RoughReflectors, BuiltInScenesOfPerfectMirrorsKeepTheirReference) {
         EXPECT_EQ(app::choose_reference("", scene::load(name)), app::kReference) << name;
 }
 
+TEST(ReferenceRays, FirstFramesHaveAtMost262144) {
+    const std::string rough = app::kRoughReference;
+    EXPECT_EQ(app::choose_coarse_rays(rough, {64, 64}), 64) << "a small picture needs no fewer";
+    EXPECT_EQ(app::choose_coarse_technique(rough, {64, 64}), rough);
+    EXPECT_EQ(app::choose_coarse_rays(rough, {65, 64}), 32);
+    EXPECT_EQ(app::choose_coarse_rays(rough, {256, 256}), 4);
+    EXPECT_EQ(app::choose_coarse_rays(rough, {1920, 1080}), 1);
+    EXPECT_EQ(app::choose_coarse_rays("raytrace:rays=100", {64, 64}), 64);
+    EXPECT_EQ(app::choose_coarse_rays("raytrace:samples=4,rays=16", {128, 128}), 4);
+    EXPECT_EQ(app::choose_coarse_rays("raytrace:depth=16", {1920, 1080}), 0);
+    EXPECT_EQ(app::choose_coarse_technique(app::kPathReference, {256, 256}),
+              "raytrace:depth=16,rays=4,indirect=paths");
+}
+
+TEST(ReferenceRays, LaterFramesFitIntoTheTime) {
+    // A frame of 4 rays takes 2 s, and two frames of 64 rays take 64 s.
+    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 64), 64);
+    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 63), 32);
+    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 33), 32);
+    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 31), 16);
+    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 0), 1);
+    EXPECT_EQ(app::choose_refined_rays(100, 4, 1e-9, 60), 100);
+    EXPECT_EQ(app::choose_refined_rays(64, 4, 0, 60), 64) << "a clock without progress";
+}
+
 } // namespace
