@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -36,6 +37,7 @@ app::Watcher make_progress_watcher(ProgressPrinter& progress) {
     return {.on_row = [&](const std::string& label, std::size_t index,
                           std::size_t count) { progress.row(label, index, count); },
             .on_frame = [&](int number, int total) { progress.frame(number, total); },
+            .on_piece = [&](std::uint64_t done, std::uint64_t all) { progress.piece(done, all); },
             .stop = &stop_on_signals()};
 }
 
@@ -47,18 +49,67 @@ std::string format_duration(double seconds) {
 }
 
 ProgressPrinter::ProgressPrinter(const OutputOptions& output_options,
-                                 ProgressOffTerminal off_terminal)
+                                 ProgressOffTerminal off_terminal, std::string phase)
     : is_active_(!output_options.quiet &&
                  (output_options.progress == ProgressMode::always ||
                   (output_options.progress == ProgressMode::automatic && is_stderr_terminal()))),
       rewrites_(is_stderr_terminal()),
       in_tenths_(!is_active_ && !output_options.quiet &&
                  output_options.progress == ProgressMode::automatic &&
-                 off_terminal == ProgressOffTerminal::tenths) {}
+                 off_terminal == ProgressOffTerminal::tenths),
+      label_(std::move(phase)) {
+    if (output_options.quiet || output_options.progress == ProgressMode::never) return;
+    teller_ = std::jthread([this](const std::stop_token& ended) { tell_while_working(ended); });
+}
 
-ProgressPrinter::~ProgressPrinter() { clear(); }
+ProgressPrinter::~ProgressPrinter() {
+    teller_ = {}; // ends the thread
+    clear();
+}
+
+void ProgressPrinter::tell_while_working(const std::stop_token& ended) {
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex_);
+    const SteadyClock::time_point begin = SteadyClock::now();
+    for (std::chrono::seconds next{1};;) {
+        if (wake.wait_until(lock, ended, begin + next, [] { return false; }) ||
+            ended.stop_requested())
+            return;
+        next = rewrites_ && is_active_ ? next + std::chrono::seconds(1) : 2 * next;
+        if (is_cleared_) continue;
+        if (rewrites_ && is_active_) {
+            show(describe_phase());
+            continue;
+        }
+        fmt::print(stderr, "{}\n", describe_phase());
+        std::fflush(stderr);
+    }
+}
+
+std::string ProgressPrinter::describe_phase() const {
+    const double seconds = 1e-3 * elapsed_milliseconds(phase_start_),
+                 done = std::min((frame_ + share_) / frames_, 1.0);
+    const std::string so_far = format_duration(seconds) + " so far";
+    if (!(done > 0)) return fmt::format("{}: {}, no estimate yet", label_, so_far);
+    std::string text = fmt::format("{}: about {} left, {:.0f} % done in {}", label_,
+                                   format_duration(seconds * (1 - done) / done), 100 * done,
+                                   format_duration(seconds));
+    if (const double all = (static_cast<double>(index_) + done) / static_cast<double>(count_);
+        count_ > 1)
+        text += fmt::format("; about {} left in all", format_estimated_time_left(all));
+    return text;
+}
+
+void ProgressPrinter::piece(std::uint64_t done, std::uint64_t all) {
+    const std::lock_guard lock(mutex_);
+    share_ = static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(all, 1));
+    is_cleared_ = false;
+}
 
 void ProgressPrinter::row(const std::string& label, std::size_t index, std::size_t count) {
+    const std::lock_guard lock(mutex_);
+    phase_start_ = SteadyClock::now();
+    frame_ = 0, frames_ = 1, share_ = 0, is_cleared_ = false;
     if (index == 0) start_ = SteadyClock::now(), tenths_ = 0; // a new list of rows begins
     label_ = escape_control_characters(label);
     index_ = index;
@@ -85,6 +136,8 @@ std::string ProgressPrinter::format_estimated_time_left(double done) const {
 }
 
 void ProgressPrinter::frame(int number, int total) {
+    const std::lock_guard lock(mutex_);
+    frame_ = number, frames_ = std::max(total, 1), share_ = 0, is_cleared_ = false;
     if (!is_active_ || !rewrites_) return;
     const SteadyClock::time_point now = SteadyClock::now();
     if (now - shown_at_ < std::chrono::milliseconds(100)) return;
@@ -98,6 +151,12 @@ void ProgressPrinter::frame(int number, int total) {
 }
 
 void ProgressPrinter::clear() {
+    const std::lock_guard lock(mutex_);
+    is_cleared_ = true;
+    remove_line();
+}
+
+void ProgressPrinter::remove_line() {
     if (shown_width_ == 0) return;
     fmt::print(stderr, "\r{}\r", std::string(shown_width_, ' '));
     std::fflush(stderr);

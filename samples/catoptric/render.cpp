@@ -339,15 +339,18 @@ int run_render(const RenderOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output_options(options);
+    ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::nothing,
+                             "reading the scene, opening the device");
     app::Request request = make_render_request(options);
     const std::optional<FrameCameras> cameras = read_cameras_of_request(options, request);
     const std::vector<std::string> files = list_output_files(options, request.frames);
     check_picture_places(options, request.scene, files);
     app::Engine engine(make_engine_options(options.common.device));
+    progress.clear();
     print_device_and_warnings(engine, options.common.output_options);
 
-    ProgressPrinter progress(output_options);
     const app::Watcher watcher = make_progress_watcher(progress);
+    const app::WatchedWork watched(watcher);
     report_row_to_watcher(watcher, choice.label, 0, 1);
     std::optional<PictureOrigin> origin = make_picture_origin(options, request, engine.device());
     scene::Scene scene = std::exchange(request.scene, {});

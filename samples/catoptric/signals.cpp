@@ -1,10 +1,16 @@
 #include "signals.hpp"
 
+#include "core/watch.hpp"
+
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <system_error>
+#include <thread>
 
+#include <sys/eventfd.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -12,12 +18,14 @@ namespace catoptric::cli {
 
 namespace {
 
+constexpr std::chrono::milliseconds kLongestBlindWork{1500};
 constexpr std::int64_t kSignalRepeatNanoseconds = 1'000'000'000; // nanoseconds
 
 std::atomic<const char*> program{"catoptric"};
 std::atomic<bool> is_looked_at{false}; ///< whether the program polls `number_of_signal`
 std::atomic<int> number_of_signal{0};
 std::atomic<unsigned> most_seconds{0}; ///< seconds from the first signal to the end; 0: no limit
+std::atomic<int> signal_event{-1};     ///< becomes readable at the first signal; -1: none
 std::atomic<std::int64_t> first_at{0}; ///< nanoseconds of the steady clock; 0: none yet
 
 static_assert(std::atomic<int>::is_always_lock_free &&
@@ -53,6 +61,15 @@ std::int64_t monotonic_nanoseconds() {
     ::_exit(128 + number);
 }
 
+/// Ends the program 1.5 s after a signal, unless the work has seen it by then.
+void end_if_not_seen() {
+    std::uint64_t value = 0;
+    while (::read(signal_event.load(), &value, sizeof value) < 0 && errno == EINTR) {
+    }
+    std::this_thread::sleep_for(kLongestBlindWork);
+    if (!has_seen_signal()) exit_from_signal(number_of_signal.load());
+}
+
 void handle_signal(int number) {
     if (!is_looked_at.load()) exit_from_signal(number);
     const int error = errno;
@@ -61,6 +78,11 @@ void handle_signal(int number) {
         number_of_signal.store(number);
         if (const unsigned seconds = most_seconds.load(); seconds > 0)
             ::alarm(seconds); // allowed in a signal handler
+        const std::uint64_t one = 1;
+        if (const int event = signal_event.load(); event >= 0) {
+            const ssize_t written = ::write(event, &one, sizeof one); // wakes end_if_not_seen
+            static_cast<void>(written);
+        }
     } else if (monotonic_nanoseconds() - first_at.load() > kSignalRepeatNanoseconds) {
         std::signal(number, SIG_DFL);
         std::raise(number); // delivered when this handler returns
@@ -85,7 +107,13 @@ void exit_on_signals(const char* name) {
 }
 
 const std::atomic<int>& stop_on_signals() {
-    if (!is_looked_at.exchange(true)) exit_on_signals(program);
+    if (is_looked_at.exchange(true)) return number_of_signal;
+    signal_event = ::eventfd(0, EFD_CLOEXEC);
+    exit_on_signals(program);
+    try {
+        if (signal_event.load() >= 0) std::thread(end_if_not_seen).detach();
+    } catch (const std::system_error&) { // without the thread, a second signal ends the program
+    }
     return number_of_signal;
 }
 

@@ -11,9 +11,10 @@ namespace catoptric::cli {
 void exit_on_signals(const char* program);
 
 /// After this call, the first SIGHUP, SIGINT or SIGTERM is stored and does not end the program, so
-/// that work can end after its frame. Returns the stored number; 0 before a signal. Further signals
-/// within a second count as the same one (`timeout` sends two). A later one ends the program at
-/// once.
+/// that work can end after its frame or a piece of it. If nothing looks at the signal for 1.5 s,
+/// such as while a driver compiles a shader, the program ends at once. Returns the stored number; 0
+/// before a signal. Further signals within a second count as the same one (`timeout` sends two). A
+/// later one ends the program at once.
 const std::atomic<int>& stop_on_signals();
 
 /// Ends the program, as `exit_on_signals` does, this many seconds after a signal that
