@@ -7,7 +7,6 @@
 #include "graph/graph.hpp"
 
 #include <array>
-#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -88,8 +87,14 @@ public:
     /// Dispatches work groups that trace rays: all at once, or in ranges where they exceed what a
     /// piece of the frame may still hold. `dispatch` gets the first group of the range and the
     /// numbers of groups along x and y. Only for compute passes.
-    void split_rays(std::uint32_t groups, std::uint64_t rays_per_group,
-                    const std::function<void(std::uint32_t, uvec2)>& dispatch);
+    template <typename Dispatch>
+    void split_rays(std::uint32_t groups, std::uint64_t rays_per_group, const Dispatch& dispatch) {
+        for (std::uint32_t first = 0; first < groups;) {
+            const WorkGroupRange range = begin_range(first, groups, rays_per_group);
+            dispatch(first, range.along);
+            first = range.end;
+        }
+    }
     /// As above, for at most this many rays in a dispatch that cannot be split.
     void add_rays(std::uint64_t rays);
     /// Returns the most rays of a piece of the frame.
@@ -121,6 +126,13 @@ private:
         std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::GpuBuffer*>;
     void write_bound_descriptors();
     void run_piece();
+    struct WorkGroupRange {
+        uvec2 along{0};        ///< work groups along x and y
+        std::uint32_t end = 0; ///< first group after the range
+    };
+    /// Returns the next range of split_rays, for which the piece of the frame has room.
+    WorkGroupRange begin_range(std::uint32_t first, std::uint32_t groups,
+                               std::uint64_t rays_per_group);
     /// Adds to the counted work of the pass, if the frame counts work.
     void add_counted_work(CountedWorkKind kind, std::uint64_t count = 1);
     void check_pass_declares_resource(ImageHandle image, std::string_view name) const;

@@ -37,25 +37,20 @@ void PassCommands::add_rays(std::uint64_t rays) {
     pieces.add_rays(rays);
 }
 
-void PassCommands::split_rays(std::uint32_t groups, std::uint64_t rays_per_group,
-                              const std::function<void(std::uint32_t, uvec2)>& dispatch) {
-    if (groups == 0) return;
+PassCommands::WorkGroupRange PassCommands::begin_range(std::uint32_t first, std::uint32_t groups,
+                                                       std::uint64_t rays_per_group) {
     FramePieces& pieces = frame_recorder_.frame_pieces();
     if (groups * rays_per_group <= pieces.most_rays()) {
         add_rays(groups * rays_per_group);
-        dispatch(0, arrange_work_groups(groups));
-        return;
+        return {arrange_work_groups(groups), groups};
     }
-    // Each range is one row, because a second row could hold groups beyond the range.
-    for (std::uint32_t first = 0; first < groups;) {
-        if (pieces.room() < rays_per_group && pieces.room() < pieces.most_rays()) run_piece();
-        const std::uint64_t fit = std::max<std::uint64_t>(pieces.room() / rays_per_group, 1);
-        const auto count = static_cast<std::uint32_t>(
-            std::min<std::uint64_t>({fit, groups - first, kMaxWorkGroupsPerRow}));
-        pieces.add_rays(count * rays_per_group);
-        dispatch(first, {count, 1});
-        first += count;
-    }
+    if (pieces.room() < rays_per_group && pieces.room() < pieces.most_rays()) run_piece();
+    const std::uint64_t fit = std::max<std::uint64_t>(pieces.room() / rays_per_group, 1);
+    // The range is one row, because a second row could hold groups beyond it.
+    const auto count = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>({fit, groups - first, kMaxWorkGroupsPerRow}));
+    pieces.add_rays(count * rays_per_group);
+    return {{count, 1}, first + count};
 }
 
 std::uint32_t PassCommands::read_word(BufferHandle buffer, std::uint64_t offset) {
