@@ -127,13 +127,14 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
     request.animate = false;
     request.warmup = 0, request.frames = 1;
     const SteadyClock::time_point start = SteadyClock::now();
-    Watcher watcher = watcher_;
+    std::vector<RunResult> results;
+    Watcher watcher = watcher_; // is told of both halves as of one frame
+    watcher.on_frame = {};
     watcher.on_piece = [&](std::uint64_t done, std::uint64_t all) {
-        if (watcher_.on_piece) watcher_.on_piece(done, all);
+        if (watcher_.on_piece) watcher_.on_piece(results.size() * all + done, 2 * all);
         if (elapsed_milliseconds(start) > 1e3 * seconds) throw OutOfTime();
     };
     const std::array seeds{noisy.seeds.next(), noisy.seeds.next()};
-    std::vector<RunResult> results;
     try {
         for (const int seed : seeds) {
             const SteadyClock::time_point frame = SteadyClock::now();
@@ -154,6 +155,7 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
         reference.part = std::move(results.front().parts.front());
     update_picture(reference);
     noisy.seconds += 1e-3 * elapsed_milliseconds(start);
+    report_frame_to_watcher(watcher_, 1, 1);
     return true;
 }
 

@@ -2,6 +2,7 @@
 // pictures stay the same, and the work stops between two pieces.
 #include "core/watch.hpp"
 #include "scene/built_in.hpp"
+#include "scene/classify.hpp"
 #include "session/access.hpp"
 #include "session/watcher.hpp"
 #include "session/work.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace {
 
@@ -18,7 +20,9 @@ constexpr uvec2 kPiecesPictureSize{48, 40};
 constexpr std::uint64_t kUnlimitedRays = std::uint64_t{1} << 40;
 
 app::Request make_rough_request(const std::string& technique) {
-    return test::make_test_request(scene::make_rough_cornell(), {technique}, kPiecesPictureSize);
+    scene::Scene scene = scene::make_rough_cornell();
+    scene::find_mirrors(scene);
+    return test::make_test_request(std::move(scene), {technique}, kPiecesPictureSize);
 }
 
 /// Renders a frame and returns its picture. `told`: gets the arguments of each on_piece.
