@@ -12,6 +12,7 @@
 #include "measure/proof_order.hpp"
 #include "report/costs.hpp"
 #include "session/plan_file.hpp"
+#include "session/watcher.hpp"
 #include "study/choose_noise.hpp"
 #include "study/compare_checks.hpp"
 #include "study/compare_to_target.hpp"
