@@ -172,9 +172,10 @@ std::string read_file(const fs::path& path) {
     std::string content;
     char block[1 << 16];
     while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) {
+        check(!is_stream || content.size() + count <= kMaxStreamBytes, Failure::bad_data,
+              path.string(), ": wanted at most ", kMaxStreamBytes,
+              " bytes of a pipe or a device, found more");
         content.append(block, count);
-        check(!is_stream || content.size() <= kMaxStreamBytes, Failure::bad_data, path.string(),
-              ": wanted at most ", kMaxStreamBytes, " bytes of a pipe or a device, found more");
     }
     check(std::ferror(file.get()) == 0, Failure::io, path.string(), ": reading failed after ",
           content.size(), " bytes");

@@ -2,6 +2,7 @@
 // no word may end the program by an internal error or a signal, and each refusal names the option
 // or the word.
 #include "cli/program.hpp"
+#include "core/image_codec.hpp"
 
 #include <map>
 #include <random>
@@ -30,6 +31,12 @@ const std::map<std::string, std::vector<std::string>> kNeededArguments{
 
 class NameTest : public CommandLineTest {
 protected:
+    void SetUp() override {
+        CommandLineTest::SetUp();
+        const std::string picture = catoptric::encode_png({{1, 1}, 1, {}},
+                                                          std::vector<std::uint8_t>{0});
+        write_input_file("a.png", picture), write_input_file("b.png", picture);
+    }
     struct OptionWithValue {
         std::string name, verb;
     };
