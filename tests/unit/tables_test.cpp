@@ -174,8 +174,8 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
 TEST(Tables, RegisteredStudyIsFoundAndAskedForItsReference) {
     std::vector<std::string_view> names;
     for (const app::Study& study : app::list_studies()) names.push_back(study.name);
-    EXPECT_THAT(names, testing::ElementsAre("views", "causes", "lag", "row-times", "work", "costs",
-                                            "truth-causes", "test-only"));
+    EXPECT_THAT(names, testing::ElementsAre("path-distance", "views", "causes", "lag", "row-times",
+                                            "work", "costs", "truth-causes", "test-only"));
     EXPECT_NO_THROW(app::check_study({"test-only", 2}, app::kReference));
     EXPECT_THROW(app::check_study({"test-only", 2}, "raytrace"), Error);
     try {
