@@ -565,6 +565,9 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             if (!is_drawn) direction = reflect_exact_ray();
 #endif
             ray = Ray(reflected_ray_origin(point, direction), direction, point.leaves);
+#ifdef DOUBLES
+            if (is_drawn) set_double_precision_ray(ray, trace_low);
+#endif
             skipped = 0u;
             ++mirror_rays;
             if (samples_lamps != 0u && (is_drawn || parts.diffuse != vec3(0)))
