@@ -283,7 +283,28 @@ struct TraceParameters {
     uint sample_count;  // samples a pixel; the last sample divides the sum by this count
     uvec2 size;         // size of the picture, pixels
     uint seed;          // seed of the directions in which rays leave rough surfaces
+    uint path_count;    // samples that share a camera ray (lib/path_start.glsl)
+    uint resumes;       // 1: the paths resume at stored starts
     uint first_group;   // first work group of this dispatch, which may be a range of all
+};
+
+// Where the paths of a camera ray part (lib/path_start.glsl): at a surface that a ray has met.
+struct PathStart {
+    vec3 barycentric;                    // of the hit, as in TraceHit of lib/trace.glsl
+    float t;
+    uint triangle, object, place, inside;
+    vec3 origin, direction, origin_low;  // the ray, and the rounding error of its origin
+    vec3 weight;                         // share of the surface's light in the pixel
+    uint bounce;                         // surfaces that the path has met before; kNoPathStart: no path goes on
+    uint is_shaded;                      // 1: the picture has the light of this surface's shading already
+    uint pixel;                          // number of the pixel, row by row
+};
+const uint kNoPathStart = 0xffffffffu;
+const uint kMaxPathStarts = 262144u; // stored at a time; more pixels are traced in several turns
+// The dispatch that resumes paths: its work groups, and the number of listed starts.
+struct PathStartArguments {
+    uint x, y, z;
+    uint count;
 };
 
 // A traced picture's alpha is a word of engine/bvh/words.hpp: the number, from 1, of the mirror that the pixel's first
@@ -350,7 +371,9 @@ static_assert(sizeof(Sky) == 208);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(DrawParameters) == 24);
 static_assert(sizeof(Placement) == 60);
-static_assert(sizeof(TraceParameters) == 32);
+static_assert(sizeof(TraceParameters) == 40);
+static_assert(sizeof(PathStart) == 92);
+static_assert(sizeof(PathStartArguments) == 16);
 static_assert(sizeof(Counters) == 28);
 static_assert(sizeof(ScreenParameters) == 24);
 static_assert(sizeof(OverlayVertex) == 20);

@@ -146,11 +146,12 @@ void PassCommands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 
 void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
     const auto same = [&](const BufferUse& use) {
-        return use.buffer.id == arguments.id && use.use == ResourceUse::indirect;
+        return use.buffer.id == arguments.id &&
+               (use.use == ResourceUse::indirect || use.use == ResourceUse::storage);
     };
     check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name,
           "' dispatches what buffer '", pass_graph_.list_buffers()[arguments.id].name,
-          "' says but does not declare it as indirect");
+          "' says but does not declare it as indirect or storage");
     write_bound_descriptors();
     add_counted_work(CountedWorkKind::dispatches);
     vkCmdDispatchIndirect(commands_, frame_recorder_.vulkan_buffer(arguments), offset);
@@ -159,8 +160,9 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
 void PassCommands::storage_barrier() {
     gpu::record_memory_barrier(
         commands_, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
-        {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-         VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT});
+        {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+         VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT |
+             VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
 }
 
 void PassCommands::copy_image(ImageHandle from, ImageHandle to) {

@@ -82,7 +82,7 @@ public:
     void set_scissor(const PixelRectangle& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
-    /// pass declares as indirect.
+    /// pass declares as indirect, or as storage if the pass itself writes the counts.
     void dispatch_indirect(BufferHandle arguments, std::uint64_t offset = 0);
     /// Dispatches work groups that trace rays: all at once, or in ranges where they exceed what a
     /// piece of the frame may still hold. `dispatch` gets the first group of the range and the
@@ -102,7 +102,8 @@ public:
     /// Returns a word of a buffer that the pass declares, as the passes and dispatches before left
     /// it. The host waits for them, so call it only if the frame is in pieces anyway.
     std::uint32_t read_word(BufferHandle buffer, std::uint64_t offset);
-    /// Makes the writes of earlier dispatches of this pass visible to later ones.
+    /// Makes the writes of earlier dispatches of this pass visible to later ones, and to the counts
+    /// of indirect ones.
     void storage_barrier();
     /// Copies an image to an image of the same size and format, in all layers of the handles. The
     /// pass must declare both images.

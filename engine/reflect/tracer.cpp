@@ -1,16 +1,10 @@
-// Whitted ray tracing in a compute shader, over a BVH that needs no ray-tracing extension. Each
-// sample is one dispatch, or several in pieces of the frame, and the picture adds the samples up.
-// The reason is a software driver that ends all loops of an invocation after 65,535 iterations. One
-// sample of a deep path stays below this limit.
+// Whitted ray tracing in a compute shader, over a BVH that needs no ray-tracing extension.
 #include "reflect/tracer.hpp"
 
-#include "core/content_hash.hpp"
+#include "reflect/samples.hpp"
 #include "render/draw.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <random>
+#include <optional>
 
 namespace catoptric::reflect {
 
@@ -20,54 +14,6 @@ using graph::ResourceUse;
 
 /// Offset of a ray's origin in the seed report, in world units.
 constexpr double kSeedReportRayOffset = 1e-3;
-/// Pixels of a work group: 8x8 of a picture, or 64 of a list (kPixelsPerListGroup in
-/// shaders/lib/trace_list.glsl).
-constexpr std::uint32_t kPixelsPerWorkGroup = 64;
-
-/// Returns the positions of the samples in the pixel. These are the centre for one sample, and a
-/// regular grid for n*n. Other counts get one jittered point in each of n cells of the smallest
-/// grid that holds them.
-std::vector<vec2> make_sample_offsets(int count, std::uint64_t seed) {
-    const int edge = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
-    const bool regular = edge * edge == count;
-    std::mt19937_64 random(seed);
-    std::vector<vec2> offsets;
-    for (int i = 0; i < count; ++i) {
-        const auto jitter = [&] {
-            return regular ? 0.5f : static_cast<float>(random() >> 40) * 0x1p-24f;
-        };
-        const float y = static_cast<float>(i / edge) + jitter(),
-                    x = static_cast<float>(i % edge) + jitter();
-        offsets.push_back(vec2(x, y) / static_cast<float>(edge));
-    }
-    return offsets;
-}
-
-/// Most rays to the environment from one surface in one dispatch, because the software driver
-/// limits the loops of a dispatch.
-constexpr std::uint32_t kMaxEnvironmentRaysPerDispatch = 4;
-
-/// How the rays to the environment are spread over dispatches.
-struct EnvironmentRaySchedule {
-    std::uint32_t dispatches = 1; ///< for each ray of each sample
-    std::uint32_t rays = 0;       ///< from one surface in one dispatch; 0: objects do not hide it
-};
-
-/// Returns a schedule with at least as many rays for each sample as the scene asks for. Light
-/// probes and paths find the environment's light themselves.
-EnvironmentRaySchedule schedule_environment_rays(const TracerSettings& tracer,
-                                                 const render::GpuScene& scene) {
-    const std::uint32_t wanted = scene.environment_shadow_rays(), rays = std::max(tracer.rays, 1u);
-    if (wanted == 0 || tracer.paths || tracer.lighting.probes ||
-        tracer.shadow == TracerSettings::TracedShadow::none)
-        return {};
-    const auto divide_and_round_up = [](std::uint32_t a, std::uint32_t b) {
-        return (a + b - 1) / b;
-    };
-    const std::uint32_t dispatches = divide_and_round_up(wanted,
-                                                         rays * kMaxEnvironmentRaysPerDispatch);
-    return {dispatches, divide_and_round_up(wanted, rays * dispatches)};
-}
 
 render::SphereIntersectionMode sphere_mode_of_tracer(const TracerSettings& tracer) {
     return tracer.exact_spheres ? render::SphereIntersectionMode::exact
@@ -90,11 +36,6 @@ bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
-/// Returns the number of work groups of 8x8 pixels.
-std::uint32_t count_picture_work_groups(uvec2 size) {
-    return (size.x + 7) / 8 * ((size.y + 7) / 8);
-}
-
 /// Declares the pass that sets a tracer's counters to 0.
 graph::BufferHandle add_counters_with_reset(graph::Graph& graph, const std::string& prefix,
                                             const std::string& pass) {
@@ -113,10 +54,12 @@ bool reads_ambient_occlusion(const TracerSettings& tracer, bool listed) {
 }
 
 gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
-                                            const render::GpuScene& scene, bool listed) {
+                                            const render::GpuScene& scene, bool listed,
+                                            bool shares_camera_rays) {
     std::string build;
     for (const auto& [wanted, name] :
-         {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"}})
+         {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"},
+          std::pair{shares_camera_rays, "shared"}})
         if (wanted) build += (build.empty() ? "#" : "_") + std::string(name);
     gpu::ComputePipelineState state{
         "raytrace.comp" + build,
@@ -154,63 +97,6 @@ void declare_lighting_reads(graph::PassBuilder& pass, const TracerSettings& trac
     if (!does_ray_tracer_read_shadow_map(tracer)) read.shadow_map.reset();
     render::declare_shader_reads(pass, read, {});
 }
-
-/// Returns the seed of the lobes' directions. It depends on the number of rays, so that a row with
-/// few rays shares no ray with a reference of many.
-std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
-    ContentHash hash;
-    hash.add_value(seed).add_value(tracer.rays).add_value(tracer.samples);
-    if (tracer.seed != 0) hash.add_value(tracer.seed);
-    if (tracer.paths) hash.add_value(tracer.paths);
-    const std::uint64_t mixed = hash.current_hash();
-    return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
-}
-
-/// Returns the dispatches that each pixel takes part in: one per sample and ray, or more for rays
-/// to the environment.
-std::uint32_t count_dispatches(const TracerSettings& tracer, const render::GpuScene& scene) {
-    return static_cast<std::uint32_t>(tracer.samples) * std::max(tracer.rays, 1u) *
-           schedule_environment_rays(tracer, scene).dispatches;
-}
-
-/// Returns the most rays that this tracer sends from the pixels of a picture, counting those of a
-/// lobe, and one for a pixel without.
-std::uint64_t count_most_rays(const TracerSettings& tracer, const render::GpuScene& scene,
-                              uvec2 size) {
-    return std::uint64_t{size.x} * size.y * count_dispatches(tracer, scene);
-}
-
-/// Runs all dispatches, with barriers between them. `dispatch` gets the parameters of each.
-template <typename Dispatch>
-void dispatch_sample_passes(graph::PassCommands& commands, const TracerSettings& tracer,
-                            const render::GpuScene& scene, uvec2 size, std::uint64_t seed,
-                            Dispatch&& dispatch) {
-    const std::vector<vec2> offsets = make_sample_offsets(tracer.samples, seed);
-    const std::uint32_t count = count_dispatches(tracer, scene),
-                        rays = count / static_cast<std::uint32_t>(offsets.size());
-    const std::uint32_t lobe_seed = make_lobe_seed(tracer, seed);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (i > 0) commands.storage_barrier();
-        dispatch(shared::TraceParameters{offsets[i / rays], i, count, size, lobe_seed, 0});
-    }
-}
-
-/// Dispatches these work groups, one invocation for each pixel, in pieces of the frame if they are
-/// many. `parameters`: push constants.
-template <typename Parameters>
-void dispatch_work_groups(graph::PassCommands& commands, std::uint32_t groups,
-                          Parameters parameters) {
-    commands.split_rays(groups, kPixelsPerWorkGroup, [&](std::uint32_t first, uvec2 range) {
-        parameters.first_group = first;
-        commands.push_constants(parameters);
-        commands.dispatch(range.x, range.y);
-    });
-}
-
-/// The pixels to trace, the dispatch arguments in work groups, and counters.
-struct PixelsToTraceList {
-    graph::BufferHandle pixels, arguments, counters;
-};
 
 PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
                                                    const render::FrameInputs& inputs,
@@ -269,21 +155,19 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
         graph.add_image({inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y}),
         add_counters_with_reset(graph, inputs.prefix, "raytrace")};
     request_ray_tracing_data(inputs.scene, tracer);
+    const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, "");
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
     declare_lighting_reads(pass, tracer);
+    if (starts) declare_path_starts(pass, *starts);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
         .most_rays(count_most_rays(tracer, inputs.scene, size))
-        .record([=, &scene = inputs.scene, seed = inputs.seed](graph::PassCommands& commands) {
+        .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
             commands.bind_resource("picture", traced.hdr);
             commands.bind_resource("counters", traced.counters);
-            commands.bind_pipeline(make_tracer_state(tracer, scene, false));
-            dispatch_sample_passes(commands, tracer, scene, size, seed,
-                                   [&](const shared::TraceParameters& parameters) {
-                                       dispatch_work_groups(
-                                           commands, count_picture_work_groups(size), parameters);
-                                   });
+            trace_samples(commands, make_tracer_state(tracer, scene, false, starts.has_value()),
+                          tracer, inputs, nullptr, starts);
         });
     return traced;
 }
@@ -317,7 +201,7 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
                 uvec2 size;
                 std::uint32_t first_group;
             } parameters{size, 0};
-            dispatch_work_groups(commands, count_picture_work_groups(size), parameters);
+            dispatch_work_groups(commands, 0, count_picture_work_groups(size), parameters);
         });
     return images;
 }
@@ -330,40 +214,22 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
     const PixelsToTraceList list = add_pass_listing_pixels_to_trace(graph, inputs, suffix, number,
                                                                     tracer.first_raster, view);
     request_ray_tracing_data(inputs.scene, tracer);
+    const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, suffix);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
     declare_lighting_reads(pass, tracer);
+    if (starts) declare_path_starts(pass, *starts);
     pass.reads(list.arguments, ResourceUse::indirect)
         .reads(list.pixels, ResourceUse::storage_read)
         .writes(list.counters, ResourceUse::storage)
         .writes(view.hdr, ResourceUse::storage)
         .most_rays(count_most_rays(tracer, inputs.scene, inputs.size))
-        .record([=, &scene = inputs.scene, size = inputs.size, seed = inputs.seed,
-                 hdr = view.hdr](graph::PassCommands& commands) {
+        .record([=, &scene = inputs.scene, hdr = view.hdr](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
             commands.bind_resource("picture", hdr);
             commands.bind_resource("counters", list.counters);
             commands.bind_resource("List", list.pixels);
-            commands.bind_pipeline(make_tracer_state(tracer, scene, true));
-            // The host learns the number of listed pixels only if the frame must be in pieces.
-            const std::uint64_t most = count_most_rays(tracer, scene, size);
-            const bool is_split = most > commands.most_rays_of_piece();
-            if (!is_split) commands.add_rays(most);
-            const std::uint32_t listed = is_split ? commands.read_word(
-                                                        list.counters,
-                                                        offsetof(shared::Counters, listed))
-                                                  : 0;
-            dispatch_sample_passes(commands, tracer, scene, size, seed,
-                                   [&](const shared::TraceParameters& parameters) {
-                                       if (is_split) {
-                                           dispatch_work_groups(commands,
-                                                                (listed + kPixelsPerWorkGroup - 1) /
-                                                                    kPixelsPerWorkGroup,
-                                                                parameters);
-                                           return;
-                                       }
-                                       commands.push_constants(parameters);
-                                       commands.dispatch_indirect(list.arguments);
-                                   });
+            trace_samples(commands, make_tracer_state(tracer, scene, true, starts.has_value()),
+                          tracer, inputs, &list, starts);
         });
     return list.counters;
 }

@@ -11,8 +11,8 @@ struct TracerSettings {
 
     std::uint32_t depth = render::kReferenceBounces; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified
-    /// Rays from each rough surface, in directions drawn from its lobe; each starts with a camera
-    /// ray of its own. 0: rough surfaces reflect sharply.
+    /// Rays from the first rough surface that a camera ray meets, in directions drawn from its
+    /// lobe. 0: rough surfaces reflect sharply.
     std::uint32_t rays = 0;
     /// Whether a ray to a point drawn on a lamp goes with each ray of a lobe
     /// (shaders/lib/lamps.glsl).

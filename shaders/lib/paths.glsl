@@ -61,6 +61,11 @@ vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 
     return reflected + parts.diffuse * (share * cosine / kPi);
 }
 
+// Returns whether sample_reflection_direction draws random numbers that change its results.
+bool is_direction_random(Reflection parts, uint bounce) {
+    return draws_from_lobe() || traces_paths != 0u && (parts.diffuse != vec3(0) || bounce >= kBouncesBeforeRoulette);
+}
+
 // Draws the direction in which a ray leaves a surface at the path's `bounce`th reflection. `direction` is that of the
 // arriving ray. Multiplies the weight by what the surface reflects from there. Returns false, with the mirrored direction
 // and density 0, if a smooth part of the surface reflects the ray.

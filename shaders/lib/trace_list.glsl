@@ -9,3 +9,8 @@ uint words_per_list_entry(uint first_raster) { return first_raster != 0u ? 3u : 
 
 const uint kPixelsPerListGroup = 64u;     // listed pixels that one work group traces
 const uint kMaxListGroupsPerRow = 32768u; // most work groups in a row of the dispatch; every device allows 65535
+
+// Lists of the pixels whose paths go on from stored starts (lib/path_start.glsl).
+#define STARTS_BINDING 21
+#define START_LIST_BINDING 22
+#define START_ARGUMENTS_BINDING 23

@@ -238,7 +238,8 @@ uint intersect_rasterised_triangle(Ray ray, out TraceHit hit) {
 }
 
 // Finds the surface that the ray meets. `known` and `hit` are the result of intersect_rasterised_triangle, or kUnknownHit and any hit.
-bool trace_ray(Ray ray, uint skipped, uint known, TraceHit hit, out SurfacePoint p) {
+// Sets `hit` to the ray's hit.
+bool trace_ray(Ray ray, uint skipped, uint known, inout TraceHit hit, out SurfacePoint p) {
     vec3 low = trace_low;
     bool found = known == kKnownHit;
     if (known == kUnknownHit) found = find_closest_hit(ray, kLargestFloat, skipped | kBvhOneSided | skipped_triangle_flags(), hit);
@@ -464,14 +465,18 @@ Ray make_camera_ray(vec2 place, uvec2 size) {
                                    ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
 
+#include "lib/path_start.glsl"
+
 // Returns the radiance along a ray that has met `first` mirrors before. `met` is the number of the first mirror that
 // the ray meets, and the number of the second << kBitsPerMirrorHit. If the first surface reflects but is no mirror, the
 // first number is 0 and the second kHitSmoothDielectric or kHitRoughNonMirror. A ray with `first` 0 is a camera ray and
 // passes through objects hidden from the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
+// With finds_path_start, the radiance is that of the part which the paths share. With resumes_path, it is that of one path
+// after this part.
 vec3 trace_radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
-    met = 0u;
+    met = met_before;
     uint skipped = first == 0u ? kBvhHiddenFromCamera : 0u;
 #ifdef DOUBLES
     set_double_precision_ray(ray, trace_low);
@@ -481,13 +486,21 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     TraceHit hit;
     uint known = kUnknownHit;
     float ray_density = 0.0; // with which the path's ray was drawn; 0: a ray of the camera or of a smooth surface
-    if (first_raster != 0u && first == 0u) known = intersect_rasterised_triangle(ray, hit);
+    bool is_shaded = false; // whether the light of the next surface's shading counts elsewhere
+    if (resumes_path) {
+        resume_path(ray, hit, weight, bounce, is_shaded);
+        known = kKnownHit;
+    } else if (first_raster != 0u && first == 0u) {
+        known = intersect_rasterised_triangle(ray, hit);
+    }
     if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
         // A camera ray that passes a blended surface still counts as a camera ray.
         if (has_blending != 0u && first == 0u && bounce == 0u) skipped = kBvhHiddenFromCamera;
+        vec3 low = trace_low;
         bool found = trace_ray(ray, skipped, known, hit, point);
         known = kUnknownHit;
+        if (finds_path_start) keep_camera_hit(hit);
         bool is_to_lamp = samples_lamps != 0u && traces_to_lamp;
         if (is_to_lamp && !found) {
             resume_path_after_lamp_ray(ray);
@@ -501,6 +514,11 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         }
         Surface surface = evaluate_surface(point, ray.direction);
         bool is_coated = has_clear_coats != 0u && clear_coat.strength > 0.0, has_sharp_coat = is_coated && clear_coat.roughness <= kMaxSharpRoughness;
+        if (finds_path_start && is_shading_random(surface, is_coated)) {
+            keep_path_start(hit, ray, low, weight, bounce, false);
+            done = true;
+            continue;
+        }
         if (has_clear_coats != 0u && is_coated) {
             if (traces_lobes == 0u || is_to_lamp) cover_with_clear_coat(surface);
             else choose_layer_of_clear_coat(draw_layer_choice(bounce), surface);
@@ -513,7 +531,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         }
         if (samples_lamps != 0u) surface.emission *= counted_share_of_met_emission(point, ray.origin, ray_density);
         bool is_see_through = has_blending != 0u && details != 0u && is_blended(surface.detail) && surface_alpha(surface.detail, point.at) < kOpaqueAlpha;
-        if (has_blending != 0u && is_see_through) split_at_blended_surface(point, surface.detail, bounce, ray, weight);
+        if (has_blending != 0u && is_see_through && !is_shaded) split_at_blended_surface(point, surface.detail, bounce, ray, weight);
         bool is_recorded = bounce < first + 2u && met < kHitRoughNonMirror << kBitsPerMirrorHit;
         // Of the branches of a path, the first to meet a mirror is recorded. Behind a blended surface the pixel counts as what
         // it would be without that surface.
@@ -538,10 +556,16 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         // All surfaces share this one call, because the driver's compiler inlines each call with the whole BVH walk of its
         // shadow ray.
         if (environment_shadows != 0u) path_bounce = bounce - first;
-        if (has_glass != 0u && is_inside) result += weight * surface.emission;
+        if (is_shaded) is_shaded = false;
+        else if (has_glass != 0u && is_inside) result += weight * surface.emission;
         else if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, lit_normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || is_passed || traces_paths != 0u);
         if (has_glass != 0u && is_passed) {
             done = bounce == max_depth;
+            if (finds_path_start && !done && draws_from_glass_facets()) {
+                keep_path_start(hit, ray, low, weight, bounce, true);
+                done = true;
+                continue;
+            }
             if (!done) split_at_glass(point, surface.detail, bounce, ray, weight);
 #ifdef DOUBLES
             set_double_precision_ray(ray, trace_low);
@@ -560,6 +584,11 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         } else {
             vec3 direction, weight_before = weight, arriving = ray.direction;
             Reflection parts = split_reflection(surface, reflects, -dot(point.normal, arriving));
+            if (finds_path_start && is_direction_random(parts, bounce)) {
+                keep_path_start(hit, ray, low, weight, bounce, true);
+                done = true;
+                continue;
+            }
             bool is_drawn = sample_reflection_direction(point, parts, arriving, bounce, weight, direction, ray_density);
 #ifdef DOUBLES
             if (!is_drawn) direction = reflect_exact_ray();

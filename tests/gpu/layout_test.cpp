@@ -94,6 +94,8 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(TraceParameters, sample_count),
                                                            MEMBER(TraceParameters, size),
                                                            MEMBER(TraceParameters, seed),
+                                                           MEMBER(TraceParameters, path_count),
+                                                           MEMBER(TraceParameters, resumes),
                                                            MEMBER(TraceParameters, first_group),
                                                            MEMBER(Counters, primary_rays),
                                                            MEMBER(Counters, mirror_rays),
