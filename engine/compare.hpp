@@ -31,7 +31,7 @@ struct CompareRequest {
     std::string reference_file; ///< .exr of its halves, read if it exists and written; empty: none
     /// Most time for a reference with noise; 0: each half is one frame with all its rays.
     double reference_seconds = 60;
-    bool together = false;         ///< render all rows in one frame
+    bool together = false; ///< render all rows in one frame
     /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;
     std::optional<bool> repeats_first_round; ///< at the end, too; none: if the device is no cpu
@@ -44,16 +44,15 @@ struct CompareRequest {
     std::string images;               ///< see measure::Comparison::images
     std::vector<std::pair<std::string, std::string>> pictures; ///< more rows: name, picture file
     Watcher watcher;
-    /// Called with the unfinished comparison, whose `complete` is false, after each row of the
-    /// first round, after each later round, and after each part of a study. May be empty.
+    /// Called with the unfinished comparison after each row of the first round, each later round
+    /// and each part of a study. May be empty.
     std::function<void(const measure::Comparison&)> on_finished_row;
 };
 
 /// Renders every row and the reference, measures speed in rounds and error. A row with the knob
-/// `samples` is judged against the reference with as many samples. A run ends early by a signal, a
-/// lost device, missing memory or an exception of `on_finished_row`. The rows measured before the
-/// end are then returned with the cause in `stopped`. If there are no rows and the cause is no
-/// signal, the cause is thrown instead.
+/// `samples` is judged against the reference with as many. If a signal, a lost device, missing
+/// memory or an exception of `on_finished_row` ends the run, the rows so far are returned with the
+/// cause in `stopped`; without rows, a cause that is no signal is thrown.
 CATOPTRIC_API measure::Comparison compare(Engine& engine, const CompareRequest& request);
 
 /// Error over the mirrors that a limit is set for.
@@ -125,9 +124,8 @@ public:
     CATOPTRIC_API bool is_for_scene(const scene::Scene& scene) const;
     /// Returns the plan to render, for FrameSpec::techniques.
     CATOPTRIC_API const std::string& plan() const;
-    /// Renders two references, so that shaders are compiled and the time of an audit is known. The
-    /// first frame of the plan does so otherwise. Throws `usage` if a surface is rough and the
-    /// certificate's reference has no rays for it.
+    /// Renders two references, as the first frame does otherwise, to compile shaders and to learn
+    /// an audit's time. Throws `usage` if a surface is rough and the reference has no rays for it.
     CATOPTRIC_API void prepare(Session& session, const FrameSpec& spec);
     /// Counts a frame of the session, and audits it if it was drawn. Call it after each frame and
     /// before the next. `seconds`: a time that never falls. Not counted: the first 8 frames of a

@@ -127,15 +127,12 @@ struct Row : Errors {
     SampleSummary frame_ms;
     HostTimes host_parts; ///< each a median over frames
     bool moves = false;   ///< whether the scene moved, so that the host had work in each frame
-    /// Whether the row is judged by cpu_ms. True on a processor, where programs beside it lengthen
-    /// every other time. False if several rows share a frame.
+    /// Whether the row is judged by cpu_ms: on a processor, unless several rows share a frame.
     bool on_processor = false;
-    /// Returns the time from the beginning to the end of a frame: frame_ms if the scene moves,
-    /// because the host then works in each frame, and gpu_ms otherwise.
+    /// Returns frame_ms if the scene moves, because the host works in each frame, else gpu_ms.
     const SampleSummary& elapsed_ms() const { return moves ? frame_ms : gpu_ms; }
-    /// Returns the time by which the row is judged.
     const SampleSummary& time_ms() const { return on_processor ? cpu_ms : elapsed_ms(); }
-    /// Returns the name of the metric that time_ms() returns.
+    /// Returns the name of time_ms(), the time by which the row is judged.
     const char* time_metric() const {
         return on_processor ? "cpu_ms" : moves ? "frame_ms" : "gpu_ms";
     }

@@ -58,9 +58,8 @@ CATOPTRIC_API Mask read_mask(const std::filesystem::path& path, int width, int h
 /// Returns an OpenEXR file: 32-bit float R, G, B with each value bit-exact. The same picture always
 /// gives the same bytes, because the date in the header is fixed. `text`: attribute `comments`.
 CATOPTRIC_API std::string encode_exr(const Picture& picture, const std::string& text = {});
-/// Returns a PNG file with 8 bits a channel. Values must already be as displayed (see
-/// `to_display`). Others are clamped to [0,1] and NaN becomes 0. The same picture gives the same
-/// bytes.
+/// Returns a PNG file with 8 bits a channel of values as displayed (see `to_display`), clamped to
+/// [0,1]; NaN becomes 0. The same picture gives the same bytes.
 CATOPTRIC_API std::string encode_picture_png(const Picture& display);
 
 /// Write these files. A file is replaced as a whole or not at all.
@@ -74,9 +73,8 @@ CATOPTRIC_API void write_png(const Picture& display, const std::filesystem::path
 /// and equal pictures give exactly 0. Method: Andersson et al., "FLIP: A Difference Evaluator for
 /// Alternating Images", HPG 2020, as the authors' program (1.1 and later) implements it. 67 pixels
 /// per degree is a 4K screen 0.7 m wide seen from 0.7 m. Throws `bad_data` if the pictures differ
-/// in size or have no pixel, and `usage` unless `pixels_per_degree` is 1 to 1000. Works in double,
-/// in tiles, on all cores. Costs about 0.07 us (one core) and 4 bytes a pixel at 67 pixels per
-/// degree.
+/// in size or have no pixel, and `usage` unless `pixels_per_degree` is 1 to 1000. Works in double
+/// on all cores. Costs about 0.07 us (one core) and 4 bytes a pixel at 67 pixels per degree.
 CATOPTRIC_API std::vector<float> flip(const Picture& a_display, const Picture& b_display,
                                       double pixels_per_degree = 67);
 /// Returns the mean of a FLIP map over the pixels of the mask, or NaN if the mask has none.
@@ -84,8 +82,7 @@ CATOPTRIC_API double flip_mean(std::span<const float> flip_map, const Mask& mask
 
 /// Difference of two pictures over the pixels of a mask. All values but `flip` are computed on
 /// linear RGB after exposure (`apply_exposure` of measure/display.hpp), with both pictures clamped
-/// to [0,1]. If no pixel of the mask is finite, each metric is NaN (null in JSON) and the place of
-/// the maximum is (-1, -1). The metrics are not 0 then, because 0 would mean "no error".
+/// to [0,1]. If no pixel of the mask is finite, each metric is NaN, and the maximum is at (-1, -1).
 struct Difference {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -111,10 +108,9 @@ struct Difference {
     std::vector<double> others;
 };
 
-/// Returns the difference of two pictures over the pixels of `mask`. An empty mask means all
-/// pixels. `flip_map` is `flip` of the two whole pictures as displayed. The caller computes the map
-/// once, and each mask takes its mean. The result is symmetric in `a` and `b`. Throws `bad_data` if
-/// pictures, mask or map differ in size.
+/// Returns the difference of two pictures over the pixels of `mask`; empty: all. `flip_map`: `flip`
+/// of the two whole pictures as displayed, computed once for all masks. Symmetric in `a` and `b`.
+/// Throws `bad_data` if pictures, mask or map differ in size.
 CATOPTRIC_API Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                                     std::span<const float> flip_map);
 

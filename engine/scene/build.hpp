@@ -75,9 +75,8 @@ inline Edit set_material(std::size_t material, Material value) {
 }
 inline Edit remove(std::size_t object) { return RemovalEdit{object}; }
 
-/// Applies an edit. Throws `Failure::usage` for an index out of range, or for a transform that is
-/// not finite, affine and invertible, and as check_scene does for a material. The scene is then
-/// unchanged.
+/// Applies an edit. Throws `Failure::usage` for an index out of range or a transform that is not
+/// finite, affine and invertible, and as check_scene for a material; the scene is then unchanged.
 CATOPTRIC_API void apply_edit(Scene& scene, const Edit& edit);
 
 } // namespace catoptric::scene

@@ -15,9 +15,8 @@
 #include <variant>
 #include <vector>
 
-/// Scenes as plain data in world units, in double precision until they are rebased for the device.
-/// World space is right-handed. Units are those of the file. A time before or after all keys of a
-/// motion takes the first or last key.
+/// Scenes as plain data in doubles. World space is right-handed, in units of the file. A time
+/// before or after all keys of a motion takes the first or last key.
 namespace catoptric::scene {
 
 /// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
@@ -39,8 +38,7 @@ struct Track {
 };
 using TranslationTrack = Track<dvec3>; ///< positions or scales
 
-/// World-space translation through keys: world_from_keys * (position - rest), relative to the
-/// object's place at rest. Objects that follow the same keys share them.
+/// World-space translation from the place at rest: world_from_keys * (position - rest).
 struct Keyframes {
     std::shared_ptr<const TranslationTrack> keys; ///< none, or keys without times: stands still
     dmat3 world_from_keys{1};
@@ -51,9 +49,8 @@ struct Keyframes {
 
 struct NodeRig; // hierarchy of moving nodes that a loader makes; internal
 
-/// Attachment to a node of a rig. The transform is world_from_node * node_from_object. It replaces
-/// the transform at rest, which is the transform of the first instant. For a camera, it carries
-/// eye, target and up from their values at rest.
+/// Attachment to a node of a rig: world_from_node * node_from_object replaces the transform at
+/// rest, that of the first instant. For a camera, it carries eye, target and up.
 struct RigAttachment {
     std::shared_ptr<const NodeRig> rig; ///< none: stands still
     std::size_t node = 0;
@@ -75,14 +72,13 @@ struct Environment {
     double rotation_degrees = 0; ///< moves azimuth A to A + this; azimuth grows from -z to +x
 };
 
-/// Something in a scene file that is left out or approximated, or that was added to the scene. Ids
-/// are fixed words: "normal-texture", "rough-metal", "added-camera" ...
+/// Something in a scene file that is left out, approximated or added. Ids are fixed words:
+/// "normal-texture", "rough-metal", "added-camera" ...
 struct UnsupportedFeature {
     std::string id;
     std::uint64_t count = 0;
     std::string first; ///< first place, printable
-    /// Indices into Scene::materials of the materials with this feature; reports find its pixels by
-    /// them. Empty if the feature does not concern materials.
+    /// Indices into Scene::materials of the materials with this feature, if it concerns materials.
     std::vector<std::size_t> materials;
 };
 
@@ -113,8 +109,8 @@ struct Object {
     std::optional<Sphere> sphere; ///< set when the mesh stands for this sphere
     /// False: camera rays pass through the object, and all other rays meet it.
     bool seen_by_camera = true;
-    /// True for glass, and for what reflects enough for a mirror (classify.hpp), depending on the
-    /// angle. Material::mirror marks mirrors whose reflectance is the same at every angle.
+    /// True for glass, and for what reflects enough for a mirror at some angle (classify.hpp).
+    /// Material::mirror marks mirrors whose reflectance is the same at every angle.
     bool mirror = false;
 };
 
@@ -162,17 +158,12 @@ struct Scene {
     std::vector<std::filesystem::path> files;
 };
 
-/// Throws `Failure::bad_data`, with the place and what was found, unless every index names an
-/// entry, each mesh has a unit normal for each position, each texture has its image, each motion
-/// has its keys, and all numbers are finite and in the ranges given above. Scenes of files pass.
-/// Sessions, comparisons and savers check each scene that they get; the other functions of this
-/// folder trust it. A scene may be empty. Costs O(vertices + triangles + texels of the
-/// environment).
+/// Throws `Failure::bad_data`, with the place, unless all indices, list lengths and numbers are as
+/// the types above say. Sessions, comparisons, savers and edits check a scene; the rest trusts it.
 CATOPTRIC_API void check_scene(const Scene& scene);
 
-/// Returns the scene `seconds` after its start. Every motion is applied to transforms, exact
-/// spheres, cameras and lights without a surface, and none is left. Pure. Throws `Failure::usage`
-/// for a time that is not finite.
+/// Returns the scene `seconds` after its start, with every motion applied and none left. Pure.
+/// Throws `Failure::usage` for a time that is not finite.
 CATOPTRIC_API Scene scene_at_time(const Scene& scene, double seconds);
 /// Returns whether the object is a mirror: numbered, captured, counted.
 CATOPTRIC_API bool is_mirror(const Scene& scene, const Object& object);
@@ -180,8 +171,7 @@ CATOPTRIC_API bool is_mirror(const Scene& scene, const Object& object);
 /// is entry n-1.
 CATOPTRIC_API std::vector<std::size_t> mirrors(const Scene& scene);
 
-/// Returns the world-space bounds, at rest, of one object's triangles or of all objects. They are
-/// empty if there are no triangles.
+/// Returns the world-space bounds, at rest, of the triangles of one object or all; maybe empty.
 CATOPTRIC_API Bounds<double> bounds(const Scene& scene, const Object& object);
 CATOPTRIC_API Bounds<double> bounds(const Scene& scene);
 

@@ -21,14 +21,12 @@ struct EngineOptions {
     /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
     /// engine throws `bad_data` or `missing_input` unless it is a file for this device and driver.
     std::filesystem::path profile = {};
-    /// Folder in which the profile of this device and driver is looked up if `profile` is empty. If
-    /// the profile cannot be used, DeviceInfo::warning says why. If this path is empty too, no
-    /// profile is used.
+    /// Folder of profiles by device and driver, read if `profile` is empty; empty: none. If the
+    /// profile cannot be used, DeviceInfo::warning says why.
     std::filesystem::path profiles = {};
     /// Variants to use instead of a profile.
     VariantNames variants = {};
-    /// Folder that keeps compiled pipelines and specialised shaders (about 128 MiB) from process
-    /// to process. Empty: they are not kept on disk.
+    /// Folder that keeps compiled pipelines and shaders (about 128 MiB); empty: none is kept.
     std::filesystem::path cache = {};
 };
 

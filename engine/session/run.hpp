@@ -49,8 +49,7 @@ struct Watcher {
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
     /// Called after each frame with its number from 1, and the largest possible number of frames.
     std::function<void(int, int)> on_frame;
-    /// Called between the pieces of a frame that traces many rays, with the rays so far and the
-    /// most rays that the frame can have.
+    /// Called between pieces of a frame that traces many rays: rays so far, most rays of the frame.
     std::function<void(std::uint64_t, std::uint64_t)> on_piece;
     /// Points to the number of the signal that asks the work to stop; 0: no signal has arrived. The
     /// caller owns the number and may write it in a signal handler.

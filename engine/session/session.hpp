@@ -40,15 +40,13 @@ struct FrameSpec {
     std::uint64_t seed = 1; ///< seed of sample patterns that are not a regular grid
     PassTimingMode timing = PassTimingMode::isolated;
     RenderedWork model = RenderedWork::everything;
-    /// Largest number of mirrors whose captures a frame draws again, per technique; 0: all. Needs
-    /// RenderedWork::required. The other captures keep their contents. Each of them is drawn in one
-    /// of the next ceil(captured mirrors / most_captures) frames. Mirrors that come into view are
-    /// drawn in addition. A frame with `keeps_history` draws all captures. Each frame waits for the
-    /// one before.
+    /// Most mirrors whose captures a frame draws again, per technique; 0: all. Needs
+    /// RenderedWork::required. The others are drawn in one of the next ceil(captured mirrors /
+    /// most_captures) frames; mirrors that come into view are drawn in addition. A frame with
+    /// `keeps_history` draws all. Each frame waits for the one before.
     std::uint32_t most_captures = 0;
-    /// Limit like `most_captures`, in milliseconds of device time for captures; 0: no limit. The
-    /// first frame draws all captures. Later frames draw as many as fit by the session's
-    /// measurements, at least one. Therefore pictures depend on the speed of the device.
+    /// Limit like `most_captures`, in milliseconds of device time; 0: none. The first frame draws
+    /// all captures. Later frames draw as many as fit by the session's measurements, at least one.
     double budget_ms = 0;
     bool with_lookup = false; ///< fill TechniqueResult::lookup, which costs time
     /// A frame that keeps the history unchanged: the next frame has the history that this one had.
@@ -70,8 +68,8 @@ struct FrameTimes {
     double record_ms = 0; ///< filling the command buffer
     /// From submit until the device has finished the frame, without recording and read-back.
     double wall_ms = 0;
-    /// Time that the host waited for the device: for a place among the frames in flight, and for
-    /// the end of this frame. Waiting is no work and is part of no other figure.
+    /// Time that the host waited for a place among the frames in flight, and for the end of this
+    /// frame. It is part of no other figure.
     double wait_ms = 0;
     double cpu_ms = 0; ///< processor time of the whole process for the frame; 0: not measured
     HostTimes host;
@@ -88,8 +86,7 @@ struct CaptureBudget {
     std::uint32_t waiting = 0; ///< mirrors whose captures had to wait for a later frame
     std::uint32_t longest = 0; ///< number of frames for which the oldest capture has waited
 
-    /// Returns the number of frames within which each waiting capture is drawn, as long as `most`
-    /// does not change.
+    /// Returns the frames within which each waiting capture is drawn if `most` does not change.
     std::uint32_t frames_per_cycle() const { return most > 0 ? (mirrors + most - 1) / most : 1; }
 };
 
@@ -108,11 +105,9 @@ struct TechniqueResult {
     std::uint64_t memory_bytes = 0; ///< size of the whole frame's images
     measure::Picture hdr;           ///< linear radiance
     measure::Picture display;       ///< displayed picture, in multiples of 1/255
-    /// Number of captured texels that are brighter than 65504, the largest half, and cut off there.
-    /// Only with `with_lookup`, for techniques whose captures hold halves.
+    /// Captured texels brighter than 65504, the largest half. Only `with_lookup`, with halves.
     std::optional<std::size_t> saturated;
-    /// Direction in which each mirror pixel looked into a capture (shaders/lib/mirror.glsl). Only
-    /// with `with_lookup`, for techniques that search.
+    /// Where each mirror pixel looked into a capture (shaders/lib/mirror.glsl). Only `with_lookup`.
     std::vector<vec4> lookup;
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
     std::optional<RayCounts> rays;   ///< ray tracing only
@@ -131,11 +126,9 @@ public:
     CATOPTRIC_API const FrameTimes& times() const;
     /// Returns the number of techniques.
     CATOPTRIC_API std::size_t size() const;
-    /// Returns the outcome of the capture limit, if the technique keeps captures and FrameSpec sets
-    /// a limit.
+    /// Returns the outcome of the capture limit, if there is one and the technique keeps captures.
     CATOPTRIC_API const std::optional<CaptureBudget>& capture_budget(std::size_t part = 0) const;
-    /// Returns how many mirrors, over all techniques, have captures that still wait to be drawn
-    /// again. If some captures wait, the picture can differ from the picture without a limit.
+    /// Returns how many mirrors, over all techniques, have captures that wait to be drawn again.
     CATOPTRIC_API std::uint32_t waiting() const;
     /// Returns linear radiance, the cheapest result to read.
     CATOPTRIC_API measure::Picture hdr(std::size_t part = 0) const;
@@ -169,10 +162,10 @@ public:
     /// model than the frame before begins without history. Throws `usage` for an invalid
     /// specification.
     CATOPTRIC_API Frame frame(const FrameSpec& spec);
-    /// Edits the scene; the next frame shows the edit. History stays unless the edit changes the
-    /// scene's units on the device (render::make_scene_units). The units change if the scene
-    /// becomes much larger or smaller, or if objects that determine its origin move (an outermost
-    /// object, small mirrors). Throws `usage` for an object or material that does not exist.
+    /// Edits the scene; the next frame shows the edit. History stays unless the edit removes an
+    /// object or changes the scene's units on the device (render::make_scene_units), because the
+    /// scene becomes much larger or smaller, or an outermost object or small mirrors move. Throws
+    /// as scene::apply_edit does.
     CATOPTRIC_API void change(const scene::Edit& edit);
     /// Makes a cut: the next frame begins without history.
     CATOPTRIC_API void forget();
