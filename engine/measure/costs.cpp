@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/judge.hpp"
+#include "measure/statistics.hpp"
 #include "measure/work.hpp"
 
 #include <algorithm>
@@ -120,6 +121,16 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& cou
         time.high += millions * (unit.range.is_known() ? unit.range.high : unit.ns);
     }
     return time;
+}
+
+Interval find_prediction_error(const DeviceCosts& costs) {
+    constexpr double kTail = .05;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; costs.fit && i < costs.fit->samples.size(); ++i)
+        if (costs.fit->left_out_ms[i] > 0)
+            ratios.push_back(costs.fit->samples[i].ms / costs.fit->left_out_ms[i]);
+    if (ratios.empty()) return {};
+    return {compute_percentile(ratios, kTail), compute_percentile(ratios, 1 - kTail)};
 }
 
 PredictedParetoFront

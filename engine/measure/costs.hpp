@@ -50,7 +50,8 @@ struct DeviceCosts {
     UnitCostOrigin origin = UnitCostOrigin::given;
     std::string note; ///< what the reader must know of the figures; may be empty
     std::vector<WorkUnitCost> units;
-    std::optional<UnitCostFitQuality> fit; ///< quality of the fit, if this program fitted the costs
+    /// Quality of the fit, if this program fitted the costs. Read from a file, it has no counts.
+    std::optional<UnitCostFitQuality> fit;
 };
 
 /// Time that costs predict for a frame, milliseconds, with the smallest and largest costs of their
@@ -59,6 +60,9 @@ struct PredictedTime {
     double ms = 0, low = 0, high = 0;
 };
 PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& counts);
+/// Returns the interval of measured by predicted time in which 90 % of the rows of the fit lie.
+/// Unknown without a fit.
+Interval find_prediction_error(const DeviceCosts& costs);
 
 /// The rows that no other row beats on a device, by predicted time and by FLIP over the mirrors.
 struct PredictedParetoFront {

@@ -122,6 +122,19 @@ Json read_costs_json(const std::filesystem::path& file, const char* what) {
     return parse_json<Json>(file.string(), read_json_text(file, what, kMaxCostFileBytes));
 }
 
+/// Returns the measured and the predicted times of the rows of a fit.
+measure::UnitCostFitQuality read_fit(const CostJsonValue& value) {
+    measure::UnitCostFitQuality fit;
+    for (const CostJsonValue& row : value.find_member("left_out").list_elements()) {
+        fit.samples.push_back({row.find_member("row").read_text(),
+                               {},
+                               row.find_member("measured_ms").read_number(kLeastMs, kMsText)});
+        fit.left_out_ms.push_back(
+            row.find_member("predicted_ms").read_number(0, "milliseconds of at least 0"));
+    }
+    return fit;
+}
+
 measure::DeviceCosts read_costs_document(const Json& json, const std::string& file) {
     const CostJsonValue document{json, file + ":"};
     check_json_schema(document, kCostsSchema, "costs of a device");
@@ -138,6 +151,8 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
               kCountedWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
         costs.units.push_back(unit);
     }
+    if (const CostJsonValue fit = document.find_member("fit"); !fit.json.is_null())
+        costs.fit = read_fit(fit);
     return costs;
 }
 

@@ -32,9 +32,17 @@ struct JudgedPlan {
     /// 95 % interval of a measured time; of a predicted time, the times by the least and the
     /// largest cost of each kind of work.
     measure::Interval ms_range;
-    std::vector<double> errors; ///< mirror_error_of_view of each view
-    double largest_error = 0;   ///< largest of `errors`
+    std::vector<double> errors; ///< mirror_error_of_view of each drawn view
+    double largest_error = 0;   ///< largest of `errors`; without any, the error in the own view
+    /// Why it was not chosen, or "chosen", or that it comes nearest: a clause.
+    std::string why = {};
 };
+
+/// Returns the time of a plan in milliseconds with its range, such as "3.1 [2.9 - 3.4]".
+std::string format_milliseconds_with_range(const JudgedPlan& plan);
+
+/// Whether a time keeps a limit. A predicted time may keep it at best.
+enum class TimeVerdict : std::uint8_t { keeps, may_keep, breaks };
 
 /// The result of testing a plan on the proof views.
 struct PlanProof {
@@ -47,9 +55,12 @@ struct PlanProof {
     /// (measure::upper_tolerance_limit).
     double error_bound = 0;
     bool keeps_error = false; ///< the share is proved, or there is no limit of error
-    bool keeps_time = false;  ///< the upper end of the time's interval keeps the limit of time, or
-                              ///< there is no limit
-    bool holds() const { return keeps_error && keeps_time; }
+    /// A measured time keeps the limit if the upper end of its interval does. Without a limit, any
+    /// time keeps it.
+    TimeVerdict time = TimeVerdict::breaks;
+    bool holds() const { return keeps_error && time == TimeVerdict::keeps; }
+    /// Returns whether the plan may be chosen.
+    bool may_hold() const { return keeps_error && time != TimeVerdict::breaks; }
     std::string device;     ///< whose times decide, with " (predicted)" if costs predict them
     std::string scene_hash; ///< hash of the scene whose views were drawn
     double exposure = 0;    ///< stops
@@ -57,24 +68,26 @@ struct PlanProof {
 };
 
 struct PlanChoice {
-    std::vector<JudgedPlan> candidates; ///< over the training views
-    std::vector<std::string> dropped;   ///< candidates left out after the first view
+    std::vector<JudgedPlan> candidates; ///< all, and the mix of techniques if one was tried
     /// Plans in the order of their test, from the slowest. The order is fixed before the proof's
     /// views are drawn. A plan counts only if all before it keep the limit of error, so none of the
     /// tests lowers the confidence of another (fixed-sequence testing; Maurer, Hothorn, Lehmacher,
     /// Multiple Comparisons in Drug Clinical Trials and Preclinical Assays, 1995). The list ends
     /// with the first plan that does not keep the limit of error.
     std::vector<PlanProof> proofs;
-    std::optional<std::size_t> chosen; ///< index into `proofs`: the last plan that holds
-    std::string failure;               ///< why no plan was chosen, a sentence; empty if one was
+    std::optional<std::size_t> chosen;  ///< index into `proofs`: the last plan that may hold
+    std::optional<std::size_t> nearest; ///< index into `proofs` if no plan was chosen
+    std::string failure;                ///< why no plan was chosen, a sentence; empty if one was
 };
 
-/// Chooses a plan in four steps. First, all candidates are measured in the comparison's own view,
+/// Chooses a plan in five steps. First, all candidates are measured in the comparison's own view,
 /// and a candidate is dropped if another is faster and errs less by a wide margin. Second, the
-/// remaining candidates are drawn in the training views. Third, a mix of techniques by mirror is
-/// computed from their errors (measure::find_fastest_technique_mix). Fourth, up to
-/// four plans and the mix are tested on fresh views (measure/proof_order.hpp). Throws `usage` for
-/// limits out of range, and what `compare` throws. Each step with drawn views takes one comparison.
+/// remaining candidates are drawn in the first training views. Third, a mix of techniques by mirror
+/// is computed from their errors (measure::find_fastest_technique_mix). Fourth, the plans that keep
+/// the limits, and the mix, are drawn in the other training views. Fifth, up to four plans and the
+/// mix are tested on fresh views (measure/proof_order.hpp). If no plan keeps the limits in the
+/// training views, the nearest plan is tested alone. Throws `usage` for limits out of range, and
+/// what `compare` throws. Each step with drawn views takes one comparison.
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& request);
 
 /// Returns a comparison of plans with the reference, in the comparison's own view and in `views`

@@ -48,12 +48,25 @@ Json make_judged_plan_json(const JudgedPlan& plan) {
             {"errors", report::make_number_list_json(plan.errors)}};
 }
 
+Json make_candidate_json(const JudgedPlan& plan) {
+    Json json = make_judged_plan_json(plan);
+    json["why"] = plan.why;
+    return json;
+}
+
+/// Returns true, false, or "may" for a predicted time.
+Json make_time_verdict_json(TimeVerdict verdict) {
+    if (verdict == TimeVerdict::may_keep) return "may";
+    return verdict == TimeVerdict::keeps;
+}
+
 Json make_proof_json(const PlanProof& proof) {
     Json json = make_judged_plan_json(proof.plan);
     json["views"] = proof.plan.errors.size(), json["failures"] = proof.failures;
     json["share_bound"] = report::make_number_json(proof.share_bound);
     json["error_bound"] = report::make_number_json(proof.error_bound);
-    json["keeps_error"] = proof.keeps_error, json["keeps_time"] = proof.keeps_time;
+    json["keeps_error"] = proof.keeps_error;
+    json["keeps_time"] = make_time_verdict_json(proof.time);
     return json;
 }
 
@@ -66,15 +79,34 @@ Json make_noise_json(const std::optional<NoiseOfViews>& noise) {
             {"views_above_wanted", noise->views_above}};
 }
 
+/// The limits that a certificate states.
+struct StatedLimits {
+    std::optional<double> max_error, max_ms;
+    std::size_t failures = 0;
+};
+
+StatedLimits state_requested_limits(const ChooseRequest& request, const PlanProof& proof) {
+    return {request.max_error, request.max_ms, proof.failures};
+}
+
+/// Returns the limits that a plan keeps. A certificate without a limit of error states the error
+/// that the share of views does not exceed.
+StatedLimits state_kept_limits(const ChooseRequest& request, const PlanProof& proof) {
+    StatedLimits limits = state_requested_limits(request, proof);
+    if (!proof.keeps_error) limits.max_error.reset(), limits.failures = 0;
+    if (proof.time == TimeVerdict::breaks) limits.max_ms.reset();
+    return limits;
+}
+
 Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
-                           const std::string& scene) {
+                           const StatedLimits& limits, const std::string& scene) {
     return {{"quantity", error_quantity_name(request.quantity)},
-            {"max_error", report::make_number_json(request.max_error)},
-            {"max_ms", report::make_number_json(request.max_ms)},
+            {"max_error", report::make_number_json(limits.max_error)},
+            {"max_ms", report::make_number_json(limits.max_ms)},
             {"share", request.share},
             {"confidence", request.confidence},
             {"views", proof.plan.errors.size()},
-            {"failures", proof.failures},
+            {"failures", limits.failures},
             {"share_bound", report::make_number_json(proof.share_bound)},
             {"error_bound", report::make_number_json(proof.error_bound)},
             {"ms", report::make_number_json(proof.plan.ms)},
@@ -97,23 +129,15 @@ Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
             {"commit", commit()}};
 }
 
-} // namespace
-
-std::string format_milliseconds_with_range(const JudgedPlan& plan) {
-    std::string text = fmt::format("{:.3g}", plan.ms);
-    if (plan.ms_range.low < plan.ms_range.high)
-        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
-    return text;
-}
-
-std::string describe_proof(const ChooseRequest& request, const PlanProof& proof) {
+std::string describe_proof(const ChooseRequest& request, const PlanProof& proof,
+                           const StatedLimits& limits) {
     const char* quantity = error_quantity_name(request.quantity);
     // The certificate claims no larger share than requested, because only the requested share was
     // tested.
     const double share = std::min(proof.share_bound, request.share);
-    const std::string statement = request.max_error
+    const std::string statement = limits.max_error
                                       ? fmt::format("at least {:.4g} % of views have {} <= {:g}",
-                                                    100 * share, quantity, *request.max_error)
+                                                    100 * share, quantity, *limits.max_error)
                                       : fmt::format("at least {:g} % of views have {} <= {:.4g}",
                                                     100 * request.share, quantity,
                                                     proof.error_bound);
@@ -121,8 +145,28 @@ std::string describe_proof(const ChooseRequest& request, const PlanProof& proof)
         "{}: {} ms on {}; {}, with {:g} % confidence ({} views of {}x{}, {} failures){}",
         proof.plan.text, format_milliseconds_with_range(proof.plan), proof.device, statement,
         100 * request.confidence, proof.plan.errors.size(), request.base.size.x,
-        request.base.size.y, proof.failures,
+        request.base.size.y, limits.failures,
         proof.noise ? "; " + describe_noise_of_views(*proof.noise) : "");
+}
+
+} // namespace
+
+std::string describe_proof(const ChooseRequest& request, const PlanProof& proof) {
+    return describe_proof(request, proof, state_requested_limits(request, proof));
+}
+
+std::string describe_nearest_proof(const ChooseRequest& request, const PlanProof& proof) {
+    return describe_proof(request, proof, state_kept_limits(request, proof));
+}
+
+std::string describe_verdict(const ChooseRequest& request, const PlanProof& proof) {
+    const bool is_unsure = request.max_ms && proof.time == TimeVerdict::may_keep;
+    if (!proof.may_hold()) return "does not hold";
+    if (!is_unsure) return "holds";
+    const measure::Interval& range = proof.plan.ms_range;
+    return range.is_known()
+               ? fmt::format("may hold, {:.3g} to {:.3g} ms", range.low, range.high)
+               : fmt::format("may hold, {:.3g} ms with an unknown error", proof.plan.ms);
 }
 
 Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
@@ -131,13 +175,19 @@ Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
     if (choice.chosen) {
         const PlanProof& proof = choice.proofs[*choice.chosen];
         document["plan"] = make_plan_rules_json(proof.plan.text);
-        document["certificate"] = make_certificate_json(request, proof, scene);
+        document["certificate"] = make_certificate_json(
+            request, proof, state_requested_limits(request, proof), scene);
     } else {
-        document["plan"] = nullptr, document["why"] = choice.failure;
+        const PlanProof& proof = choice.proofs.at(choice.nearest.value());
+        document["plan"] = make_plan_rules_json(proof.plan.text);
+        document["nearest"] = {{"why", choice.failure},
+                               {"max_error", report::make_number_json(request.max_error)},
+                               {"max_ms", report::make_number_json(request.max_ms)}};
+        document["certificate"] = make_certificate_json(request, proof,
+                                                        state_kept_limits(request, proof), scene);
     }
     document["proofs"] = report::make_list_json(choice.proofs, make_proof_json);
-    document["candidates"] = report::make_list_json(choice.candidates, make_judged_plan_json);
-    document["dropped"] = choice.dropped;
+    document["candidates"] = report::make_list_json(choice.candidates, make_candidate_json);
     return document;
 }
 
@@ -145,8 +195,8 @@ Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan
                            const PlanProof& proof, const std::string& scene) {
     Json document{{"schema", "catoptric/plan/1"}, {"plan", make_plan_rules_json(plan)}};
     // The figures of a plan that is not proved are written under another name, without a statement.
-    document[proof.holds() ? "certificate" : "not_proved"] = make_certificate_json(request, proof,
-                                                                                   scene);
+    document[proof.may_hold() ? "certificate" : "not_proved"] = make_certificate_json(
+        request, proof, state_requested_limits(request, proof), scene);
     document["proofs"] = Json::array({make_proof_json(proof)});
     return document;
 }
@@ -163,8 +213,8 @@ ChosenPlan choose(Engine& engine, const ChooseRequest& request) {
 ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::string& plan) {
     scene::check_scene(request.base.scene);
     const PlanProof proof = prove_plan(engine, request, plan);
-    return {.plan = proof.holds() ? plan : "",
-            .failure = proof.holds() ? "" : "does not hold: " + describe_proof(request, proof),
+    return {.plan = proof.may_hold() ? plan : "",
+            .failure = proof.may_hold() ? "" : "does not hold: " + describe_proof(request, proof),
             .json = report::serialise_json(
                 make_proved_plan_json(request, plan, proof, request.base.scene.name))};
 }

@@ -8,7 +8,8 @@
 // Functions that write the file of a chosen plan, schema "catoptric/plan/1" (docs/choose.md).
 namespace catoptric::app {
 
-/// Returns the file of a choice. Without a chosen plan, `plan` is null, and `why` is the reason.
+/// Returns the file of a choice. Without a chosen plan, the file has the nearest plan with a
+/// certificate of what it proves, and `nearest` has the limits that it breaks, and the reason.
 /// `scene` is how the user names the scene.
 report::Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
                               const std::string& scene);
@@ -19,7 +20,9 @@ report::Json make_proved_plan_json(const ChooseRequest& request, const std::stri
                                    const PlanProof& proof, const std::string& scene);
 /// Returns one sentence with the result of testing a plan on the proof views.
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof);
-/// Returns the time of a plan in milliseconds with its range, such as "3.1 [2.9 - 3.4]".
-std::string format_milliseconds_with_range(const JudgedPlan& plan);
+/// Returns one sentence with what the nearest plan proves instead of the requested limits.
+std::string describe_nearest_proof(const ChooseRequest& request, const PlanProof& proof);
+/// Returns "holds", "does not hold", or "may hold" with the range of a predicted time.
+std::string describe_verdict(const ChooseRequest& request, const PlanProof& proof);
 
 } // namespace catoptric::app

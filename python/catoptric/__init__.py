@@ -180,7 +180,7 @@ class ChosenPlan:
         plan: A text for ``Session.frame`` and ``compare``, such as "1=reuse 2,3=secant". None: no plan keeps the limits.
         failure: Why no plan keeps the limits, a sentence. None if one does.
         document: The contents of plan.json, as ``catoptric choose`` writes them: rules ("plan"), "certificate",
-            "proofs", "candidates" and "dropped".
+            "proofs" and "candidates". If no plan keeps the limits, it holds the nearest plan with what that plan proves.
     """
     plan: str | None
     failure: str | None
@@ -189,11 +189,8 @@ class ChosenPlan:
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes plan.json, which ``catoptric render --plan`` reads and ``catoptric choose --certify`` proves again.
 
-        Raises:
-            UsageError: There is no plan.
+        If no plan keeps the limits, the file holds the nearest plan with what that plan proves.
         """
-        if self.plan is None:
-            raise UsageError(f"{os.fspath(path)}: wanted a plan to write, found none: {self.failure}")
         new = f"{os.fspath(path)}.{os.getpid()}.new"  # so that an older file stays until this one is complete
         try:
             with open(new, "w", encoding="ascii") as file:
@@ -208,7 +205,7 @@ class ChosenPlan:
 
 def choose(scene: Scene | str, techniques: typing.Iterable[str] | None = None, *, max_flip: float | None = None,
            max_rmse: float | None = None, max_ms: float | None = None, share: float = .95, confidence: float = .95,
-           training_views: int = 12, cameras_per_instant: int = 3, proof_views: int = 0, proof_seed: int = 2,
+           training_views: int = 0, cameras_per_instant: int = 3, proof_views: int = 0, proof_seed: int = 2,
            costs: str | os.PathLike[str] = "", size: tuple[int, int] = (512, 512), frames: int = 20, warmup: int = 8,
            camera: Camera | None = None, time: float = 0.0, exposure: float | None = None,
            ambient: float | None = None, seed: int = 1, model: str = "everything", reference: str = "",
@@ -225,7 +222,8 @@ def choose(scene: Scene | str, techniques: typing.Iterable[str] | None = None, *
         max_ms: Limit of the time of a frame, milliseconds. Alone: the plan with the least error is chosen.
         share: Share of views that must keep the limit, between 0 and 1.
         confidence: Confidence of the statement, between 0 and 1.
-        training_views: Number of views in which candidates are judged, at least 6.
+        training_views: Number of views in which candidates are judged, at least 6. 0: as many as show a breach of
+            ``share`` with ``confidence``.
         cameras_per_instant: Number of neighbouring training views of one instant, which share captures.
         proof_views: Number of fresh views. 0: as few as can prove the share (59 for 95 % with 95 % confidence).
         proof_seed: The seed of the fresh views, another than ``seed``.

@@ -23,6 +23,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace catoptric::cli {
@@ -36,9 +38,10 @@ constexpr const char* kChooseExamples = R"(Examples:
   catoptric choose room.glb --certify plan.json --proof-seed 7
 
 Candidates are judged in drawn views, and techniques are mixed by mirror. Up to five plans that are likely to hold are
-then proved on fresh views, the slowest first. plan.json holds the last plan that holds, with its certificate: "at least this share of drawn
-views keeps the limit, with this confidence". With --max-ms alone, the certificate states the error that this share
-keeps. The exit code is 1 if no plan keeps the limits.)";
+then proved on fresh views, the slowest first. plan.json holds the last plan that holds, with its certificate: "at least
+this share of drawn views keeps the limit, with this confidence". With --max-ms alone, the certificate states the error
+that this share keeps. Times predicted by --costs may hold at best. If no plan keeps the limits, plan.json holds the
+nearest plan with what it proves, and the exit code is 1.)";
 
 struct ChooseOptions {
     CommonOptions common;
@@ -112,6 +115,8 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
             request.quantity = app::ErrorQuantity::rmse;
     }
     if (!request.max_ms) request.max_ms = number("max_ms", 0, 1e6);
+    // A plan that keeps no requested limit states the error that it keeps.
+    if (!request.max_error && !request.max_ms) request.max_error = number("error_bound", 0, 1);
     check(request.max_error || request.max_ms, Failure::usage, file,
           ": has no certificate with a limit; wanted --max-error or --max-ms");
     if (!options.is_share_given) request.share = number("share", .5, .9999).value_or(request.share);
@@ -134,12 +139,24 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
 std::string make_candidate_table(const app::ChooseRequest& request, const app::PlanChoice& choice) {
     std::vector<std::vector<std::string>> rows{
         {"candidate", request.costs.empty() ? "ms [95 %]" : "ms [range]",
-         fmt::format("largest {} in {} views", app::error_quantity_name(request.quantity),
-                     request.training_views)}};
+         fmt::format("largest {}", app::error_quantity_name(request.quantity)), "views", "result"}};
     for (const app::JudgedPlan& plan : choice.candidates)
-        rows.push_back({plan.text, app::format_milliseconds_with_range(plan),
-                        fmt::format("{:.5f}", plan.largest_error)});
+        rows.push_back(
+            {plan.text, app::format_milliseconds_with_range(plan),
+             std::isnan(plan.largest_error) ? "-" : fmt::format("{:.5f}", plan.largest_error),
+             fmt::format("{}", std::max<std::size_t>(1, plan.errors.size())), plan.why});
     return align_columns(rows);
+}
+
+/// Returns the table of candidates, a line for each proof, and the choice or the nearest plan.
+std::string describe_choice(const app::ChooseRequest& request, const app::PlanChoice& choice) {
+    std::string text = make_candidate_table(request, choice);
+    for (const app::PlanProof& proof : choice.proofs)
+        text += app::describe_verdict(request, proof) + ": " + app::describe_proof(request, proof) +
+                "\n";
+    if (choice.chosen) return text + "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n";
+    return text + "no plan: " + choice.failure + "\nnearest: " +
+           app::describe_nearest_proof(request, choice.proofs.at(choice.nearest.value())) + "\n";
 }
 
 app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options,
@@ -200,15 +217,14 @@ int certify_plan_and_print_result(const ChooseOptions& options, const app::Choos
     report::Json document = app::make_proved_plan_json(request, plan, proof, options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
-    if (!options.output.empty() && proof.holds())
+    if (!options.output.empty() && proof.may_hold())
         write_file(options.output, report::serialise_json(document));
     if (options.common.device.validate) engine.check_validation();
-    print_result(options.common.output_options.json
-                     ? report::serialise_json(document)
-                     : std::string(proof.holds() ? "holds: " : "does not hold: ") +
-                           app::describe_proof(request, proof) + "\n" +
-                           make_path_distance_line(distance));
-    return proof.holds() ? 0 : 1;
+    print_result(options.common.output_options.json ? report::serialise_json(document)
+                                                    : app::describe_verdict(request, proof) + ": " +
+                                                          app::describe_proof(request, proof) +
+                                                          "\n" + make_path_distance_line(distance));
+    return proof.may_hold() ? 0 : 1;
 }
 
 /// Throws `usage` if the file of the chosen plan would replace a file that the program reads.
@@ -254,21 +270,12 @@ int run_choose(const ChooseOptions& options) {
     report::Json document = app::make_choice_json(request, choice, options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
-    if (choice.chosen) write_file(options.output, report::serialise_json(document));
-    if (options.common.output_options.json) {
-        print_result(report::serialise_json(document));
-    } else {
-        std::string text = make_candidate_table(request, choice) +
-                           make_path_distance_line(distance);
-        for (const app::PlanProof& proof : choice.proofs)
-            text += std::string(proof.holds() ? "holds: " : "does not hold: ") +
-                    app::describe_proof(request, proof) + "\n";
-        print_result(text + (choice.chosen
-                                 ? "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n"
-                                 : "no plan: " + choice.failure + "\n"));
-    }
-    if (choice.chosen)
-        print_note_unless_quiet(options.common.output_options, "written: " + options.output);
+    write_file(options.output, report::serialise_json(document));
+    print_result(options.common.output_options.json ? report::serialise_json(document)
+                                                    : describe_choice(request, choice));
+    print_note_unless_quiet(options.common.output_options,
+                            (choice.chosen ? "written: " : "written, the nearest plan: ") +
+                                options.output);
     if (options.common.device.validate) engine.check_validation();
     return choice.chosen ? 0 : 1;
 }
@@ -321,11 +328,14 @@ void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
                     limits.cameras_per_instant = static_cast<int>(
                         parse_integer("--cameras-per-instant", text, 1, 10'000));
                 });
-    verb.option("--training-views", "N", "views on which plans are found, at least 6 (12)",
-                [&limits](const std::string& text) {
-                    limits.training_views = static_cast<int>(
-                        parse_integer("--training-views", text, 6, 10'000));
-                });
+    verb.option(
+        "--training-views", "N",
+        "views on which plans are found, at least 6 (as many as show a breach of the share, 59 "
+        "for 95 %)",
+        [&limits](const std::string& text) {
+            limits.training_views = static_cast<int>(
+                parse_integer("--training-views", text, 6, 10'000));
+        });
     verb.option("--proof-views", "N",
                 "fresh views on which plans are proved, at least as many as can prove the share "
                 "(59 for 95 % with 95 % confidence)",

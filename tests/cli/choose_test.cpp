@@ -85,19 +85,43 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
               0);
 }
 
-TEST_F(Choose, PlanThatCannotKeepTheLimitIsNamedAndTheOldFileStays) {
-    write_input_file("plan.json", "old");
-    Words words{"-o", "plan.json", "--max-error", "flip=0", "--techniques", "reuse:face=16"};
-    const test::ProcessResult none = run_choose(words);
+TEST_F(Choose, NearestPlanIsWrittenWithWhatItProvesIfNoPlanKeepsTheLimit) {
+    const test::ProcessResult none = run_choose(
+        {"-o", "plan.json", "--max-error", "flip=0", "--techniques", "reuse:face=16"});
     EXPECT_EQ(none.exit_code, 1) << none.err;
     EXPECT_THAT(none.out,
                 HasSubstr("no plan: no candidate keeps flip <= 0 in the 6 training views; "
                           "the best that is reachable is reuse:face=16, at most "));
+    EXPECT_THAT(none.out, HasSubstr("flip above 0 in 6 of 6 training views; comes nearest\n"));
+    EXPECT_THAT(none.err, HasSubstr("written, the nearest plan: plan.json"));
+    const json plan = read_plan();
+    EXPECT_EQ(plan["nearest"]["max_error"], 0);
+    EXPECT_EQ(plan["certificate"]["max_error"], json());
+    const std::vector<double> errors = measure_plan_errors(6, plan["certificate"]["proof_seed"]);
+    EXPECT_NEAR(plan["certificate"]["error_bound"], std::ranges::max(errors), 1e-6);
+    // The bound is a limit that --certify proves again.
+    const test::ProcessResult again = run_choose({"--certify", "plan.json"});
+    EXPECT_THAT(again.out, HasSubstr("plan:plan.json: ")) << again.err;
+    EXPECT_THAT(again.out, HasSubstr(" of views have flip <= 0."));
+
     const test::ProcessResult slow = choose_between_two_techniques({"--max-ms", "0"});
     EXPECT_EQ(slow.exit_code, 1);
     EXPECT_THAT(slow.out, HasSubstr("no plan: no candidate takes at most 0 ms; the best that is "
                                     "reachable is "));
-    EXPECT_EQ(read_file_at_path(folder / "plan.json"), "old");
+    EXPECT_THAT(slow.out, HasSubstr("\nnearest: "));
+    EXPECT_EQ(read_plan()["nearest"]["max_ms"], 0);
+}
+
+TEST_F(Choose, PredictedTimeMayHold) {
+    write_input_file("card.json",
+                     R"({"schema": "catoptric/costs/1", "device": "card", "origin": "given",
+        "costs": [{"work": "frames", "ns": 3e6, "range": [1.2e6, 1.3e7]}]})");
+    const test::ProcessResult ended = choose_between_two_techniques(
+        {"--max-ms", "4", "--costs", "card.json"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("may hold, 1.2 to 13 ms: "));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("\nholds: ")));
+    EXPECT_EQ(read_plan()["proofs"][0]["keeps_time"], "may");
 }
 
 TEST_F(Choose, LimitOfTimeAsksForTheLeastErrorAndProvesItsBound) {

@@ -164,6 +164,20 @@ TEST(Costs, FileIsReadBack) {
     }
 }
 
+/// A fit states how far its predictions are off, and its file tells readers.
+TEST(Costs, FileTellsTheErrorOfItsFit) {
+    EXPECT_FALSE(measure::find_prediction_error(make_device_costs()).is_known());
+    std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(60, .1);
+    const measure::DeviceCosts fitted = measure::fit_unit_costs("d", std::move(samples),
+                                                                kFittedWorkKinds);
+    const measure::Interval error = measure::find_prediction_error(
+        report::read_device_costs(report::to_json(fitted), "costs.json"));
+    EXPECT_GT(error.low, .8);
+    EXPECT_LT(error.low, 1);
+    EXPECT_GT(error.high, 1);
+    EXPECT_LT(error.high, 1.2);
+}
+
 std::string costs_error_text(const std::string& text) {
     return test::catch_error_text(Failure::bad_data,
                                   [&] { report::read_device_costs(text, "c.json"); });

@@ -1,0 +1,224 @@
+#include "study/choose_judge.hpp"
+
+#include "core/error.hpp"
+#include "measure/certificate.hpp"
+#include "measure/halves.hpp"
+#include "measure/interval.hpp"
+#include "measure/judge.hpp"
+#include "report/costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Returns the time of a plan that costs predict, with the range of the unit costs, or of a fit's
+/// errors. The range is unknown if the file of the costs has neither.
+measure::Interval find_predicted_range(const measure::DeviceCosts& costs,
+                                       const measure::PredictedTime& time) {
+    if (time.low < time.high) return {time.low, time.high};
+    const measure::Interval ratios = measure::find_prediction_error(costs);
+    if (!ratios.is_known()) return {};
+    return {time.ms * ratios.low, time.ms * ratios.high};
+}
+
+/// Returns whether one plan takes less time than another. The interval of a measured time must end
+/// before the other interval. Predicted times are compared without their ranges, because both
+/// ranges have the same unknown unit costs.
+bool does_plan_take_less_time(const ResolvedChooseRequest& request, const JudgedPlan& a,
+                              const JudgedPlan& b) {
+    const bool known = !request.device_costs && a.ms_range.is_known() && b.ms_range.is_known();
+    return known ? a.ms_range.high < b.ms_range.low : a.ms < b.ms;
+}
+
+std::string describe_broken_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    return fmt::format("{} above {:g} in {} of {} training views",
+                       error_quantity_name(request.quantity), request.max_error.value_or(0),
+                       count_views_above_limit(request, plan), plan.errors.size());
+}
+
+/// Returns whether no further measurement is likely to bring the time below its limit.
+bool is_surely_too_slow(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    const bool known = !request.device_costs && plan.ms_range.is_known();
+    return request.max_ms && (known ? plan.ms_range.low : plan.ms) > *request.max_ms;
+}
+
+/// Returns the factor by which a value exceeds a limit: infinite above a limit of 0.
+double excess(double value, double limit) {
+    return limit > 0 ? value / limit : value > 0 ? INFINITY : 0;
+}
+
+double find_excess_of_plan(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    double factor = 0;
+    if (request.max_error) factor = excess(plan.largest_error, *request.max_error);
+    if (request.max_ms) factor = std::max(factor, excess(plan.ms, *request.max_ms));
+    return factor;
+}
+
+} // namespace
+
+ResolvedChooseRequest::ResolvedChooseRequest(const ChooseRequest& request, PlanComparer comparer)
+    : ChooseRequest(request), compare_plans(std::move(comparer)) {
+    if (!costs.empty()) device_costs = report::read_costs_file(costs);
+}
+
+std::string format_milliseconds_with_range(const JudgedPlan& plan) {
+    std::string text = fmt::format("{:.3g}", plan.ms);
+    if (plan.ms_range.low < plan.ms_range.high)
+        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
+    return text;
+}
+
+int count_fewest_proof_views(const ChooseRequest& request) {
+    return static_cast<int>(std::max(measure::count_views_needed_for_certificate(
+                                         find_share_to_prove(request), request.confidence, 0),
+                                     measure::kMinIntervalSamples));
+}
+
+int count_proof_views(const ChooseRequest& request) {
+    return request.proof_views > 0 ? request.proof_views : count_fewest_proof_views(request);
+}
+
+int count_training_views(const ChooseRequest& request) {
+    return request.training_views > 0 ? request.training_views : count_fewest_proof_views(request);
+}
+
+std::uint64_t seed_of_further_training_views(const ChooseRequest& request) {
+    constexpr std::uint64_t kAboveTypedSeeds = std::uint64_t{1} << 40;
+    return request.base.seed + kAboveTypedSeeds;
+}
+
+double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error) {
+    return quantity == ErrorQuantity::flip ? measure::find_flip_bound(error)
+                                           : measure::find_rmse_bound(error);
+}
+
+std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
+                                          const measure::Comparison& comparison,
+                                          const std::vector<std::string>& texts) {
+    std::vector<measure::PredictedTime> predicted;
+    if (request.device_costs)
+        predicted =
+            measure::find_predicted_pareto_front(*request.device_costs, comparison.rows).times;
+    std::vector<JudgedPlan> plans;
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const measure::Row& row = comparison.rows[i];
+        JudgedPlan plan{.text = texts[i],
+                        .ms = row.time_ms().median,
+                        .ms_range = row.time_ms().ci95,
+                        .errors = {}};
+        if (request.device_costs) {
+            plan.ms = predicted[i].ms;
+            plan.ms_range = find_predicted_range(*request.device_costs, predicted[i]);
+        }
+        for (const measure::Errors& errors : row.views)
+            plan.errors.push_back(mirror_error_of_view(request.quantity, errors.error));
+        plan.largest_error = plan.errors.empty()
+                                 ? error_value_of_difference(request.quantity, row.error)
+                                 : std::ranges::max(plan.errors);
+        plans.push_back(std::move(plan));
+    }
+    return plans;
+}
+
+TimeVerdict judge_time(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    if (!request.max_ms) return TimeVerdict::keeps;
+    if (request.device_costs)
+        return plan.ms <= *request.max_ms ? TimeVerdict::may_keep : TimeVerdict::breaks;
+    const double ms = plan.ms_range.is_known() ? plan.ms_range.high : plan.ms;
+    return ms <= *request.max_ms ? TimeVerdict::keeps : TimeVerdict::breaks;
+}
+
+std::size_t count_views_above_limit(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    if (!request.max_error) return 0;
+    return static_cast<std::size_t>(std::ranges::count_if(
+        plan.errors, [&](double error) { return !(error <= *request.max_error); }));
+}
+
+bool keeps_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    return count_views_above_limit(request, plan) == 0;
+}
+
+std::string describe_broken_time(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+    return fmt::format("{} {} ms, above {:g}", request.device_costs ? "predicted" : "takes",
+                       format_milliseconds_with_range(plan), request.max_ms.value_or(0));
+}
+
+void drop_clearly_beaten_plans(const ResolvedChooseRequest& request,
+                               const measure::Comparison& comparison,
+                               std::vector<JudgedPlan>& plans) {
+    constexpr double kMargin = 1.5; // ratio of times and errors in the own view that counts as a
+                                    // wide margin
+    for (std::size_t i = 0; i < plans.size(); ++i)
+        if (!measure::is_row_eligible_for_ranking(comparison.rows[i]) ||
+            std::isnan(plans[i].largest_error)) {
+            plans[i].largest_error = NAN;
+            plans[i].why = "shows no reflections that can be judged";
+        }
+    for (JudgedPlan& plan : plans) {
+        if (!plan.why.empty()) continue;
+        const auto better = std::ranges::find_if(plans, [&](const JudgedPlan& other) {
+            return plan.ms > kMargin * other.ms &&
+                   plan.largest_error > kMargin * other.largest_error;
+        });
+        if (better != plans.end())
+            plan.why = fmt::format(
+                "{} is {:.3g} times as fast and has a smaller {} in the own view", better->text,
+                plan.ms / better->ms, error_quantity_name(request.quantity));
+        // With a limit of error, a technique that is too slow alone may still draw a mirror of a
+        // mix.
+        else if (!request.max_error && is_surely_too_slow(request, plan))
+            plan.why = describe_broken_time(request, plan);
+    }
+}
+
+std::vector<JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& request,
+                                             std::vector<JudgedPlan>& plans) {
+    std::vector<JudgedPlan*> kept;
+    for (JudgedPlan& plan : plans) {
+        if (!plan.why.empty()) continue;
+        if (!keeps_error(request, plan))
+            plan.why = describe_broken_error(request, plan);
+        else if (judge_time(request, plan) == TimeVerdict::breaks)
+            plan.why = describe_broken_time(request, plan);
+        else
+            kept.push_back(&plan);
+    }
+    std::ranges::stable_sort(kept, [](const JudgedPlan* a, const JudgedPlan* b) {
+        return a->largest_error != b->largest_error ? a->largest_error < b->largest_error
+                                                    : a->ms < b->ms;
+    });
+    std::vector<JudgedPlan*> unbeaten;
+    for (JudgedPlan* plan : kept) { // plans earlier in the list err less
+        const auto surer = std::ranges::find_if(unbeaten, [&](const JudgedPlan* other) {
+            return !does_plan_take_less_time(request, *plan, *other);
+        });
+        if (surer == unbeaten.end())
+            unbeaten.push_back(plan);
+        else
+            plan->why = fmt::format("{} errs no more and takes no more time", (*surer)->text);
+    }
+    return unbeaten;
+}
+
+JudgedPlan* find_nearest_plan(const ResolvedChooseRequest& request,
+                              std::vector<JudgedPlan>& plans) {
+    std::size_t views = 0;
+    for (const JudgedPlan& plan : plans) views = std::max(views, plan.errors.size());
+    const auto measure_distance = [&](const JudgedPlan& plan) {
+        return std::pair(find_excess_of_plan(request, plan),
+                         request.max_error ? plan.largest_error : plan.ms);
+    };
+    JudgedPlan* nearest = nullptr;
+    for (JudgedPlan& plan : plans)
+        if (plan.errors.size() == views && !std::isnan(plan.largest_error) &&
+            (nearest == nullptr || measure_distance(plan) < measure_distance(*nearest)))
+            nearest = &plan;
+    return nearest;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,160 @@
+#include "study/choose_search.hpp"
+
+#include "measure/certificate.hpp"
+#include "measure/proof_order.hpp"
+#include "study/choose_mix.hpp"
+#include "study/choose_noise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Returns the most failures among the proof views with which a proof succeeds.
+std::size_t find_most_failures_of_proof(const ResolvedChooseRequest& request, std::size_t views) {
+    std::size_t failures = 0;
+    while (failures < views &&
+           measure::count_views_needed_for_certificate(find_share_to_prove(request),
+                                                       request.confidence, failures + 1) <= views)
+        ++failures;
+    return failures;
+}
+
+/// Returns those of the plans that are worth a proof, in the order of their proofs. If a plan's
+/// proof fails, the plan before it is chosen.
+std::vector<JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
+                                          const std::vector<JudgedPlan*>& plans,
+                                          std::size_t max_count) {
+    // Without it, a few views with similar errors make a proof look certain. Chosen by replaying
+    // recorded views of courtyard, room and cornell-mirrors-closed (tests/long/choose_test.cpp).
+    constexpr double kAddedDeviation = .5;
+    // Having no plan is as bad as a plan that takes this many times as long.
+    constexpr double kNoPlanFactor = 10;
+    const auto views = static_cast<std::size_t>(count_proof_views(request));
+    const std::size_t failures = find_most_failures_of_proof(request, views);
+    std::vector<measure::ProofCandidate> candidates;
+    for (JudgedPlan* plan : plans)
+        candidates.push_back({std::max(plan->ms, 1e-9), measure::estimate_probability_of_proof(
+                                                            plan->errors, *request.max_error, views,
+                                                            failures, kAddedDeviation)});
+    std::vector<JudgedPlan*> chain;
+    for (const std::size_t i : measure::find_best_proof_order(candidates, max_count, kNoPlanFactor))
+        chain.push_back(plans[i]);
+    if (chain.empty()) chain.push_back(plans.front());
+    return chain;
+}
+
+std::vector<std::string> list_plan_texts(const std::vector<JudgedPlan*>& plans) {
+    std::vector<std::string> texts;
+    for (const JudgedPlan* plan : plans) texts.push_back(plan->text);
+    return texts;
+}
+
+std::vector<JudgedPlan*> list_plans_without_reason(std::vector<JudgedPlan>& candidates) {
+    std::vector<JudgedPlan*> plans;
+    for (JudgedPlan& plan : candidates)
+        if (plan.why.empty()) plans.push_back(&plan);
+    return plans;
+}
+
+/// Draws plans in further views. Adds the errors to those of earlier views, and takes over the new
+/// times.
+measure::Comparison draw_views_of_plans(const ResolvedChooseRequest& request,
+                                        const std::vector<JudgedPlan*>& plans, int views,
+                                        std::uint64_t seed) {
+    const std::vector<std::string> texts = list_plan_texts(plans);
+    measure::Comparison drawn = request.compare_plans(texts, views, seed,
+                                                      request.cameras_per_instant);
+    const std::vector<JudgedPlan> judged = list_judged_plans(request, drawn, texts);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        JudgedPlan& plan = *plans[i];
+        plan.ms = judged[i].ms, plan.ms_range = judged[i].ms_range;
+        plan.errors.insert(plan.errors.end(), judged[i].errors.begin(), judged[i].errors.end());
+        plan.largest_error = std::ranges::max(plan.errors);
+    }
+    return drawn;
+}
+
+/// Adds the mix of techniques to the candidates if it is faster than all plans that keep the
+/// limits. `first`: the comparison in the first training views of `judged`.
+void add_mixed_plan(const ResolvedChooseRequest& request, const measure::Comparison& first,
+                    const std::vector<JudgedPlan>& judged, const std::vector<JudgedPlan*>& unbeaten,
+                    std::vector<JudgedPlan>& candidates) {
+    const std::string mixed = find_fastest_mixed_plan(request, first, judged);
+    if (mixed.empty()) return;
+    const JudgedPlan& cheapest = **std::ranges::min_element(
+        unbeaten, {}, [](const JudgedPlan* plan) { return plan->ms; });
+    request.tell_step("measuring the mix " + mixed + " beside " + cheapest.text);
+    JudgedPlan mix{.text = mixed, .errors = {}};
+    if (!is_second_plan_faster(request, cheapest.text, mix))
+        mix.why = fmt::format("the mix is not faster than {}", cheapest.text);
+    candidates.push_back(std::move(mix));
+}
+
+/// Returns the plans to prove among those that no other plan beats, the mix of techniques last.
+std::vector<std::string> order_proofs(const ResolvedChooseRequest& request,
+                                      std::vector<JudgedPlan*> unbeaten, JudgedPlan* mix) {
+    constexpr std::size_t kMaxProvedPlans = 4; // without the mix of techniques
+    if (mix != nullptr) std::erase(unbeaten, mix);
+    std::vector<JudgedPlan*> chain;
+    if (!request.max_error) // with a limit of time alone, the plan with the least error is wanted
+        chain = {unbeaten.front()};
+    else if (!unbeaten.empty())
+        chain = find_best_proofs(request, unbeaten, kMaxProvedPlans);
+    for (JudgedPlan* plan : unbeaten)
+        if (std::ranges::find(chain, plan) == chain.end())
+            plan->why = request.max_error ? "not proved: other proofs promise more"
+                                          : fmt::format("{} has a smaller {}", chain.front()->text,
+                                                        error_quantity_name(request.quantity));
+    if (mix != nullptr) chain.push_back(mix);
+    return list_plan_texts(chain);
+}
+
+} // namespace
+
+std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& request,
+                                             std::vector<JudgedPlan>& candidates,
+                                             std::optional<NoiseOfViews>& noise) {
+    const std::vector<std::string>& texts = request.base.techniques;
+    request.tell_step(fmt::format("measuring {} candidates in one view", texts.size()));
+    const measure::Comparison own = request.compare_plans(texts, 0, request.base.seed, 1);
+    candidates = list_judged_plans(request, own, texts);
+    candidates.reserve(candidates.size() + 1); // for the mix; pointers stay valid
+    drop_clearly_beaten_plans(request, own, candidates);
+    const std::vector<JudgedPlan*> kept = list_plans_without_reason(candidates);
+    if (kept.empty()) return {};
+    const int views = count_training_views(request),
+              first_views = std::min(views, kFirstTrainingViews);
+    request.tell_step(
+        fmt::format("judging {} candidates in {} training views", kept.size(), first_views));
+    const measure::Comparison first = draw_views_of_plans(request, kept, first_views,
+                                                          request.base.seed);
+    noise = find_reference_noise_of_views(request, first);
+    std::vector<JudgedPlan> judged;
+    for (const JudgedPlan* plan : kept) judged.push_back(*plan);
+    std::vector<JudgedPlan*> unbeaten = list_unbeaten_plans(request, candidates);
+    if (unbeaten.empty()) return {};
+    const JudgedPlan* last = &candidates.back();
+    add_mixed_plan(request, first, judged, unbeaten, candidates);
+    JudgedPlan* mix = &candidates.back() != last && candidates.back().why.empty()
+                          ? &candidates.back()
+                          : nullptr;
+    if (views > first_views) {
+        request.tell_step(fmt::format("judging {} candidates in {} more training views",
+                                      unbeaten.size() + (mix != nullptr ? 1 : 0),
+                                      views - first_views));
+        noise = find_reference_noise_of_views(
+            request,
+            draw_views_of_plans(request, list_plans_without_reason(candidates), views - first_views,
+                                seed_of_further_training_views(request)));
+        unbeaten = list_unbeaten_plans(request, candidates);
+        if (unbeaten.empty()) return {};
+        if (mix != nullptr && !mix->why.empty()) mix = nullptr;
+    }
+    return order_proofs(request, std::move(unbeaten), mix);
+}
+
+} // namespace catoptric::app
