@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """Compares `auto` with rows of one technique each, in drawn views of six built-in and six drawn scenes.
 
-auto.py [--first N] [--views N] [--size WxH] [--rounds N] [--frames N] [--rows T ...] [--again] CATOPTRIC OUT [SCENE...]
+auto.py [--first N] [--views N] [--size WxH] [--rough A] [--rounds N] [--frames N] [--rows T ...] [--again]
+        CATOPTRIC OUT [SCENE...]
+SCENE is the name of a scene, or a file.
 Writes OUT/auto.json (every figure) and OUT/auto.md (a line for each scene). Prints the views in which a row beats
 `auto`, in one of three ways:
   faster: the row's processor time is less than that of `auto` / 1.15, and its FLIP is no larger.
   better: the row's FLIP is less than that of `auto` / 1.1, and its processor time is no larger.
-  traces more: `auto` traces more rays from mirrors than `hybrid`, by more than 1 %. Single pixels differ, because
-  `auto` draws what captures show of small mirrors in a simpler way.
+  traces more: `auto` searches captures and traces more rays from mirrors than `hybrid`, by more than 1 %. Single
+  pixels differ, because `auto` draws what captures show of small mirrors in a simpler way.
+With --rough, the mirrors whose material is named "mirror" get this roughness, and rows with rays of their lobes are
+added.
 The exit code is 1 if a row beats `auto`. Results in OUT/auto.json are kept; --again measures them again.
 
 Each view is measured in two steps. The first step measures the FLIP of every row from one frame. The second step
@@ -24,7 +28,9 @@ sys.dont_write_bytecode = True
 import scenes
 
 SHIPPED = ["cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat", "gallery", "room"]
-ROWS = ["auto", "reuse", "parallax", "proxy", "secant", "march", "pyramid", "layered", "hybrid", "planar"]
+ROWS = ["auto", "reuse", "parallax", "proxy", "secant", "march", "pyramid", "layered", "hybrid", "planar",
+        "raytrace:depth=4", "raytrace:depth=8", "raytrace:depth=4,first=raster", "raytrace:depth=8,first=raster"]
+ROUGH_ROWS = [f"raytrace:depth=4,rays={rays}{first}" for rays in (1, 4, 16) for first in ("", ",first=raster")]
 FASTER, BETTER = 1.15, 1.1
 
 
@@ -33,7 +39,7 @@ def measured(arguments, name, scene, view, rows, timing):
     mirrors, and the technique that draws each mirror."""
     folder = os.path.join(arguments.out, "compare")
     run = subprocess.run([arguments.program, "compare", scene, "-o", folder, "--size", arguments.size, "--camera", "seeded",
-                          "--seed", str(view), *timing, "--quiet", "--json", "--techniques", *rows],
+                          "--seed", str(view), *timing, *arguments.scene_options, "--quiet", "--json", "--techniques", *rows],
                          capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"auto: {name}, view {view}: {run.stderr}")
@@ -82,7 +88,8 @@ def beaten(found):
             worse.append(("faster", name, ours["ms"] / row["ms"]))
         if row["timed"] and row["ms"] <= ours["ms"] and row["flip"] * BETTER < ours["flip"]:
             worse.append(("better", name, ours["flip"] / max(row["flip"], 1e-9)))
-        if name == "hybrid" and ours["traced"] > 1.01 * row["traced"]:
+        searches = all(technique != "raytrace" for technique, _ in ours.get("drawn", []))
+        if name == "hybrid" and searches and ours["traced"] > 1.01 * row["traced"]:
             worse.append(("traces more", name, ours["traced"] / max(row["traced"], 1e-9)))
     return worse
 
@@ -107,11 +114,16 @@ def main():
     parser.add_argument("--rounds", type=int, default=6)
     parser.add_argument("--frames", type=int, help="measured, of each row; two a round if not given")
     parser.add_argument("--rows", nargs="+", default=ROWS)
+    parser.add_argument("--rough", type=float, help="roughness of the mirrors")
     parser.add_argument("--again", action="store_true")
     parser.add_argument("program")
     parser.add_argument("out")
     parser.add_argument("scene", nargs="*")
     arguments = parser.parse_args()
+    arguments.scene_options = []
+    if arguments.rough:
+        arguments.scene_options = ["--mirror", f"mirror,roughness={arguments.rough}", "--reference-seconds", "10"]
+        arguments.rows = [*arguments.rows, *ROUGH_ROWS]
     files = {**{name: name for name in SHIPPED}, **scenes.write(os.path.join(arguments.out, "scenes"))}
     chosen = arguments.scene or list(files)
     store = os.path.join(arguments.out, "auto.json")
@@ -122,7 +134,7 @@ def main():
         numbers = range(arguments.first, arguments.views + 1)
         for view in numbers:
             found = views.setdefault(str(view), {})
-            if measure(arguments, name, files[name], view, arguments.rows, found):
+            if measure(arguments, name, files.get(name, name), view, arguments.rows, found):
                 with open(store, "w") as file:
                     json.dump(known, file, indent=1)
             for how, row, much in beaten(found):

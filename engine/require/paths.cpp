@@ -6,6 +6,7 @@
 #include "scene/transform.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -39,29 +40,66 @@ public:
             /// For each mirror on the path, whether its capture does not show what the ray meets
             /// next.
             is_hidden;
+        /// Nodes that each ray visits: the ray from the eye, the rays that leave surfaces sharply,
+        /// and then those that leave rough surfaces.
+        std::vector<std::size_t> nodes;
+        std::size_t sharp = 0; ///< rays that leave surfaces sharply
     };
-    TracedMirrorPath follow_ray_through_mirrors(f32::Ray ray) const {
+    /// Follows a ray from mirror to mirror, and then through other surfaces that reflect sharply.
+    /// Rays that leave rough surfaces are followed if `follows_rough` is true, as if these
+    /// reflected sharply.
+    TracedMirrorPath follow_ray_through_mirrors(f32::Ray ray, bool follows_rough) const {
         TracedMirrorPath path;
-        auto hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance,
-                                                bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
+        auto hit = find_hit(ray, bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, path);
         while (hit && mirror_number_of_object_[hit->object] > 0 &&
                path.mirrors.size() < kMaxMirrorsPerPath) {
             const std::uint32_t mirror = mirror_number_of_object_[hit->object] - 1;
             path.mirrors.push_back(mirror);
             ray = reflect_ray(ray, *hit);
-            hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, bvh::kOneSidedFlag);
+            hit = find_hit(ray, bvh::kOneSidedFlag, path);
             path.is_hidden.push_back(!does_capture_show_hit(mirror, ray, hit));
+        }
+        path.sharp = path.mirrors.size();
+        bool is_sharp = true;
+        while (hit && path.nodes.size() <= kMaxMirrorsPerPath) {
+            const SurfaceReflection kind = reflection_of_object_[hit->object];
+            is_sharp = is_sharp && kind == SurfaceReflection::sharp;
+            if (kind == SurfaceReflection::none || (!is_sharp && !follows_rough)) break;
+            ray = reflect_ray(ray, *hit);
+            hit = find_hit(ray, bvh::kOneSidedFlag, path);
+            path.sharp += is_sharp ? 1 : 0;
         }
         return path;
     }
 
 private:
+    enum class SurfaceReflection : std::uint8_t { none, sharp, rough };
+
+    /// Returns how the ray tracer reflects rays at an object, if lobes are traced. Textures of the
+    /// roughness are ignored.
+    static SurfaceReflection find_reflection(const scene::Material& material, bool is_mirror) {
+        if (!scene::has_specular_part(material))
+            return is_mirror ? SurfaceReflection::sharp : SurfaceReflection::none;
+        return material.roughness <= shared::kMaxSharpRoughness ? SurfaceReflection::sharp
+                                                                : SurfaceReflection::rough;
+    }
+
+    std::optional<bvh::RayHit<float>> find_hit(const f32::Ray& ray, std::uint32_t skipped,
+                                               TracedMirrorPath& path) const {
+        bvh::BvhTraversalCounters steps;
+        auto hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, skipped, &steps);
+        path.nodes.push_back(steps.nodes);
+        return hit;
+    }
+
     void add_triangles_of_object(const RequiredWorkModelInput& question, std::size_t index,
                                  std::vector<bvh::Triangle>& triangles) {
         const scene::Object& object = question.now.objects[index];
         const scene::Mesh& mesh = question.now.meshes[object.mesh];
         const scene::Material& material = question.now.materials[object.material];
         const bool is_mirror = mirror_number_of_object_[index] > 0;
+        const SurfaceReflection reflection = find_reflection(material, is_mirror);
+        reflection_of_object_.push_back(reflection);
         const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
                                     (!is_mirror && scene::is_one_sided(material)
                                          ? bvh::kOneSidedFlag
@@ -75,7 +113,7 @@ private:
         for (const uvec3& t : mesh.triangles) {
             triangles.push_back(
                 {place(t.x), place(t.y), place(t.z), static_cast<std::uint32_t>(index), flags});
-            if (!is_mirror) continue;
+            if (reflection == SurfaceReflection::none) continue;
             normals_.resize(3 * triangles.size(), vec3(0));
             for (int k = 0; k < 3; ++k)
                 normals_[3 * (triangles.size() - 1) + static_cast<std::size_t>(k)] = vec3(
@@ -122,7 +160,8 @@ private:
     std::vector<vec3> centres_; ///< centres of the mirrors' captures
     std::vector<std::uint32_t>
         mirror_number_of_object_; ///< mirror number of each object, from 1; 0: no mirror
-    std::vector<vec3> normals_;   ///< three per triangle, up to the last mirror's triangles
+    std::vector<SurfaceReflection> reflection_of_object_;
+    std::vector<vec3> normals_; ///< three per triangle, up to the last reflecting triangle
     bvh::Bvh tree_;
 };
 
@@ -133,6 +172,43 @@ uvec2 choose_path_ray_grid(uvec2 size) {
                  scale = std::min(1.0, std::sqrt(static_cast<double>(kMaxMirrorPaths) / pixels));
     return max(uvec2(1), uvec2(dvec2(size) * scale));
 }
+
+/// Sums up the rays of a picture, of which groups of kLanesOfRays neighbours walk together.
+class RaySums {
+public:
+    /// `step`: pixels from one path to the next. A group then has fewer paths.
+    RaySums(MirrorPathCounts& paths, double step)
+        : paths_(paths),
+          paths_of_group_(static_cast<std::uint32_t>(std::max(1.0, kLanesOfRays / step))) {}
+
+    /// Adds the rays of the next pixel: the camera's, those that leave surfaces sharply, and those
+    /// that leave rough surfaces, which stand for kRowsPerRoughRow rows.
+    void add_path(const std::vector<std::size_t>& nodes, std::size_t sharp) {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const bool is_rough = i > sharp;
+            WalkedRays& counts = is_rough ? paths_.rough : i > 0 ? paths_.sharp : paths_.camera;
+            const double weight = is_rough ? kRowsPerRoughRow : 1;
+            counts.rays += weight;
+            counts.nodes += weight * static_cast<double>(nodes[i]);
+            if (!is_rough) most_nodes_.at(i) = std::max(most_nodes_.at(i), nodes[i]);
+        }
+        paths_.longest = std::max(paths_.longest, sharp);
+        if (++count_ == paths_of_group_) end_group();
+    }
+    void end_group() {
+        const double groups = 1.0 * paths_of_group_ / kLanesOfRays; // that this group stands for
+        for (std::size_t i = 0; i < most_nodes_.size(); ++i)
+            (i > 0 ? paths_.sharp : paths_.camera).node_lanes += groups * static_cast<double>(
+                                                                              most_nodes_[i]);
+        most_nodes_ = {};
+        count_ = 0;
+    }
+
+private:
+    MirrorPathCounts& paths_;
+    std::array<std::size_t, kMaxMirrorsPerPath + 1> most_nodes_{}; ///< of each ray in the group
+    std::uint32_t paths_of_group_ = kLanesOfRays, count_ = 0;
+};
 
 } // namespace
 
@@ -154,14 +230,17 @@ MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question) {
     MirrorPathCounts paths{.first = std::vector<std::size_t>(mirrors),
                            .reached = std::vector<std::size_t>(mirrors),
                            .hidden = std::vector<std::size_t>(mirrors)};
-    for (std::uint32_t y = 0; y < grid.y; ++y)
+    RaySums sums(paths, 1.0 * question.size.x / grid.x);
+    for (std::uint32_t y = 0; y < grid.y; ++y) {
         for (std::uint32_t x = 0; x < grid.x; ++x, ++paths.count) {
             const dvec2 at = (dvec2(x, y) + .5) / dvec2(grid) * 2.0 - 1.0;
             const dvec3 aside = half * (aspect * at.x * right - at.y * up);
             const f32::Ray ray = is_parallel
                                      ? f32::Ray{vec3(aside), vec3(forward), 0}
                                      : f32::Ray{vec3(0), vec3(normalize(forward + aside)), 0};
-            auto [met, is_hidden] = stage.follow_ray_through_mirrors(ray);
+            auto [met, is_hidden, nodes,
+                  sharp] = stage.follow_ray_through_mirrors(ray, y % kRowsPerRoughRow == 0);
+            sums.add_path(nodes, sharp);
             if (met.empty()) continue;
             ++paths.first[met.front()];
             paths.hidden[met.front()] += std::ranges::find(is_hidden, true) != is_hidden.end();
@@ -173,6 +252,8 @@ MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question) {
             met.erase(std::ranges::unique(met).begin(), met.end());
             for (const std::uint32_t mirror : met) ++paths.reached[mirror];
         }
+        sums.end_group();
+    }
     return paths;
 }
 

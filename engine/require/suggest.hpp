@@ -2,6 +2,7 @@
 
 #include "require/model.hpp"
 #include "require/paths.hpp"
+#include "require/unit_costs.hpp"
 
 #include <string>
 #include <vector>
@@ -17,31 +18,29 @@ inline constexpr std::uint32_t kSmallCaptureFaceEdge = 64, kUsualFaceEdge = 256;
 /// A mirror with a larger share of bent surface than this is not drawn by `planar`.
 inline constexpr double kMaxCurvedAreaShare = .1;
 
-/// Cost model of a picture, in drawn pixels: weights of passes and pixels. Measured on llvmpipe;
-/// docs/require.md has the figures.
-struct PictureCostTable {
-    double pass = 2000;   ///< cost of a pass, whatever its size
-    double triangle = 1;  ///< cost of a triangle of the scene, in each pass
-    double pixel = 1;     ///< cost of a pixel drawn in a capture or view
-    double searched = 15; ///< cost of a pixel that a search looks up
-    double bounds = .12;  ///< additional cost per capture pixel that `hybrid` searches
-    /// Per pixel that `hybrid` traces, because the capture does not show the surface.
-    double traced = 40;
-    double whole = 15; ///< cost of a pixel of a picture that is traced as a whole
-};
+/// A plan with this mean FLIP counts as much as an exact plan that takes twice the time.
+inline constexpr double kErrorOfDoubleTime = .005;
+
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
 struct TechniqueErrorTable {
     double planar = .003, search = .03, reuse = .3;
-    double unknown = .5; ///< surface outside the mirror's capture, if nothing is traced
-    double black = .5;   ///< flat mirrors seen through more mirrors than are drawn
+    /// Rough mirrors, searched and by four rays of the lobe (docs/rough.md).
+    double rough_search = .08, rough_rays = .055;
+    double raster = .0015; ///< `first=raster`, whose shadows come from maps
+    double unknown = .5;   ///< surface outside the mirror's capture, if nothing is traced
+    double black = .5;     ///< flat mirrors seen through more mirrors than are drawn
 };
 
 /// One assignment of techniques to all mirrors.
 struct PlanCandidate {
     std::string name;                    ///< the techniques in use: "planar, hybrid"
     std::vector<std::string> techniques; ///< entry n-1 belongs to mirror n
-    double cost = 0;                     ///< drawn pixels per frame
+    double ms = 0;                       ///< predicted time of a frame that draws everything
     double error = 0;                    ///< estimated FLIP, mean over all mirror pixels
+    std::string plan = {};               ///< text for reflect::parse_plan
+
+    /// Returns the number by which plans are compared: the time that an exact plan may take.
+    double score() const { return ms * (1 + error / kErrorOfDoubleTime); }
 };
 
 struct PlanSuggestion {
@@ -53,19 +52,20 @@ struct PlanSuggestion {
 /// Suggests a plan from what the pixels show (MirrorPathCounts) and from shapes
 /// (scene::find_flat_faces). Mirrors that are hardly seen get `reuse` with small faces.
 ///
-/// Two candidates are compared for the other mirrors: `planar` for flat mirrors with a search for
-/// curved mirrors, and a search for all mirrors. The search of a mirror is `hybrid`. It is `march`
-/// if tracing what captures do not show (MirrorPathCounts::hidden) would reduce the mirror's
-/// estimated error by less than a tenth.
+/// Four candidates are compared: `planar` for flat mirrors with a search for the others, a search
+/// for all mirrors, and if a mirror is seen also `raytrace` and `raytrace:first=raster`. The search
+/// of a mirror is `hybrid`. It is `march` if tracing what captures do not show
+/// (MirrorPathCounts::hidden) would reduce the mirror's estimated error by less than a tenth. If a
+/// seen mirror is rough, rays are drawn from lobes.
 ///
-/// Glass is traced: by `hybrid`, or by `raytrace` without captures if no other mirror is seen and
-/// the estimated cost is less.
-///
-/// The candidate with the smaller estimated error wins. If the errors differ by less than a tenth,
-/// the cheaper candidate wins.
-PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question);
+/// The candidate with the least PlanCandidate::score wins. Its time is the sum of estimated counts
+/// (FrameWork) times the unit costs. The same picture and costs always give the same plan.
+PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question,
+                                      const UnitCosts& costs = default_unit_costs());
 
-/// Returns the candidates with cost and error, one line each, for the user.
-std::string format_plan_candidates(const std::vector<PlanCandidate>& candidates);
+/// Returns the candidates with time, error and the rule of the choice, for the user. `costs`:
+/// UnitCostsOfDevice::note.
+std::string format_plan_candidates(const std::vector<PlanCandidate>& candidates,
+                                   const std::string& costs);
 
 } // namespace catoptric::require

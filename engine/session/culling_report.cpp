@@ -38,13 +38,13 @@ std::optional<measure::UnsupportedFeatureFacts> find_undrawn_reflections(const R
         gap->id, gap->count, gap->first, compute_pixel_share(seen, request.scene, gap->materials)};
 }
 
-RequiredWorkReport find_required_work(const Request& request) {
+RequiredWorkReport find_required_work(const Request& request, const require::UnitCosts& costs) {
     RequiredWorkReport required{
         .now = scene::scene_at_time(request.scene, request.time), .model = {}, .suggestion = {}};
     const scene::Camera camera = scene::camera_at_time(request.camera, request.time);
     const require::RequiredWorkModelInput question{required.now, camera, request.size};
     required.model = require::make_required_model(question);
-    required.suggestion = require::suggest_technique_plan(question);
+    required.suggestion = require::suggest_technique_plan(question, costs);
     return required;
 }
 
@@ -70,9 +70,9 @@ constexpr const char* kUndrawnReflectionsRemedy =
 
 } // namespace
 
-std::string format_culling_as_text(const Request& request,
+std::string format_culling_as_text(const Request& request, const require::UnitCostsOfDevice& costs,
                                    const std::optional<CaptureBudget>& capture_budget) {
-    const auto [now, model, suggestion] = find_required_work(request);
+    const auto [now, model, suggestion] = find_required_work(request, *costs.costs);
     const std::vector<std::string> names = list_mirror_names(now);
     std::string text = require::describe_model(model, now);
     if (const auto gap = find_undrawn_reflections(request))
@@ -86,21 +86,24 @@ std::string format_culling_as_text(const Request& request,
     for (std::size_t i = 0; i < names.size(); ++i)
         text += "  mirror " + std::to_string(i + 1) + " " + quote_text_with_escapes(names[i]) +
                 ": " + suggestion.reasons[i] + "\n";
-    return text + require::format_plan_candidates(suggestion.candidates);
+    return text + require::format_plan_candidates(suggestion.candidates, costs.note);
 }
 
-std::string format_culling_as_json(const Request& request,
+std::string format_culling_as_json(const Request& request, const require::UnitCostsOfDevice& costs,
                                    const std::optional<CaptureBudget>& capture_budget) {
-    const RequiredWorkReport required = app::find_required_work(request);
+    const RequiredWorkReport required = app::find_required_work(request, *costs.costs);
     const std::vector<std::string> names = list_mirror_names(required.now);
     OrderedJson document{
-        {"schema", "catoptric/why/1"},       {"mirrors", OrderedJson::array()},
-        {"lights", OrderedJson::array()},    {"left_out", OrderedJson::array()},
-        {"not_drawn", OrderedJson::array()}, {"suggested", required.suggestion.plan},
-        {"candidates", OrderedJson::array()}};
+        {"schema", "catoptric/why/1"},        {"mirrors", OrderedJson::array()},
+        {"lights", OrderedJson::array()},     {"left_out", OrderedJson::array()},
+        {"not_drawn", OrderedJson::array()},  {"suggested", required.suggestion.plan},
+        {"candidates", OrderedJson::array()}, {"unit_costs", costs.note}};
     for (const require::PlanCandidate& candidate : required.suggestion.candidates)
-        document["candidates"].push_back(
-            {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
+        document["candidates"].push_back({{"name", candidate.name},
+                                          {"plan", candidate.plan},
+                                          {"ms", candidate.ms},
+                                          {"flip", candidate.error},
+                                          {"score", candidate.score()}});
     for (std::size_t i = 0; i < names.size(); ++i)
         document["mirrors"].push_back(describe_mirror_as_json(required, names[i], i));
     for (std::size_t i = 0; i < required.model.lights.size(); ++i)

@@ -7,14 +7,19 @@
 
 namespace catoptric::app {
 
+require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device) {
+    return require::find_unit_costs(device.name, device.driver, device.type == "cpu");
+}
+
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
-                                         const FrameSpec& spec) {
+                                         const FrameSpec& spec, const DeviceInfo& device) {
     if (!plan.is_auto) return plan;
     const scene::SceneAtTime at_time(scene, spec.time);
     const scene::Scene& now = *at_time;
     const scene::Camera camera = scene::camera_at_time(spec.camera, spec.time);
     const require::PlanSuggestion suggestion = require::suggest_technique_plan(
-        {.now = now, .camera = camera, .size = spec.size});
+        {.now = now, .camera = camera, .size = spec.size},
+        *find_unit_costs_of_device(device).costs);
     reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);
     plan.reasons = suggestion.reasons;

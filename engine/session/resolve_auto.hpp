@@ -1,15 +1,20 @@
 #pragma once
 
 #include "reflect/plan.hpp"
+#include "require/unit_costs.hpp"
+#include "session/engine.hpp"
 #include "session/session.hpp"
 
 /// Resolves the technique `auto`.
 namespace catoptric::app {
 
+/// Returns the unit costs by which `auto` compares plans for a device.
+require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device);
+
 /// Replaces a plan with `is_auto` by the plan that require::suggest_technique_plan chooses for this
-/// picture, with a reason for each mirror. Returns any other plan unchanged. `scene`: at rest.
-/// Costs what require::suggest_technique_plan does.
+/// picture and device, with a reason for each mirror. Returns any other plan unchanged. `scene`: at
+/// rest. Costs what require::suggest_technique_plan does.
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
-                                         const FrameSpec& spec);
+                                         const FrameSpec& spec, const DeviceInfo& device);
 
 } // namespace catoptric::app

@@ -115,7 +115,7 @@ Session::Impl::parse_and_cache_technique_plans(const FrameSpec& spec) {
     if (plans.empty() || texts != spec.techniques) {
         plans = parse_technique_plans(spec.techniques);
         for (reflect::TechniquePlan& plan : plans)
-            plan = resolve_auto_plan(std::move(plan), scene, spec);
+            plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.info);
         texts = spec.techniques;
         models.clear();
     }

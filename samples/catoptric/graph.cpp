@@ -5,6 +5,7 @@
 #include "parse.hpp"
 #include "session/access.hpp"
 #include "session/culling_report.hpp"
+#include "session/resolve_auto.hpp"
 #include "session/session.hpp"
 #include "technique_option.hpp"
 #include "verbs.hpp"
@@ -49,11 +50,26 @@ app::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
     return format;
 }
 
+/// Returns the unit costs of the device that draws, or the default ones if the machine has none.
+require::UnitCostsOfDevice find_unit_costs_for_why(const DeviceOptions& options) {
+    if (!options.name.empty())
+        return app::find_unit_costs_of_device(app::Engine(make_engine_options(options)).device());
+    try {
+        if (const std::vector<app::DeviceInfo> list = app::devices(); !list.empty())
+            return app::find_unit_costs_of_device(list.front());
+    } catch (const NoDevice&) {
+    }
+    require::UnitCostsOfDevice costs;
+    costs.note = std::string(costs.costs->file) + ", because this machine has no device";
+    return costs;
+}
+
 void print_culling_report(const app::Request& request, app::GraphPlanFormat format,
+                          const require::UnitCostsOfDevice& costs,
                           const std::optional<app::CaptureBudget>& capture_budget) {
     print_result(format == app::GraphPlanFormat::json
-                     ? app::format_culling_as_json(request, capture_budget)
-                     : app::format_culling_as_text(request, capture_budget));
+                     ? app::format_culling_as_json(request, costs, capture_budget)
+                     : app::format_culling_as_text(request, costs, capture_budget));
 }
 
 int run_graph(const GraphOptions& options) {
@@ -68,14 +84,16 @@ int run_graph(const GraphOptions& options) {
     request.techniques = {options.technique};
     check_outputs_differ_from_inputs({kStdoutPath}, request.scene.files);
     if (options.why && !is_limited) {
-        print_culling_report(request, format, std::nullopt);
+        print_culling_report(request, format, find_unit_costs_for_why(options.common.device),
+                             std::nullopt);
         return 0;
     }
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.output_options);
     if (options.why) {
         request.model = app::RenderedWork::required;
-        print_culling_report(request, format, app::measure_capture_budget(engine, request));
+        print_culling_report(request, format, app::find_unit_costs_of_device(engine.device()),
+                             app::measure_capture_budget(engine, request));
         return 0;
     }
     app::Session session(engine, request.scene);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 
 namespace {
 
@@ -122,6 +123,26 @@ TEST_F(Choose, PredictedTimeMayHold) {
     EXPECT_THAT(ended.out, HasSubstr("may hold, 1.2 to 13 ms: "));
     EXPECT_THAT(ended.out, testing::Not(HasSubstr("\nholds: ")));
     EXPECT_EQ(read_plan()["proofs"][0]["keeps_time"], "may");
+}
+
+/// In each phase, an interrupted run ends and leaves the old file.
+TEST_F(Choose, InterruptedRunKeepsTheOldFile) {
+    for (const char* phase : {"measuring 2 candidates", "judging 2 candidates", "proving "}) {
+        write_input_file("plan.json", "old");
+        test::ProcessStartOptions process = make_process_start(
+            {"choose",           "flat",   "--size",       "16x16",
+             "--frames",         "40",     "--warmup",     "1",
+             "--share",          ".5",     "--confidence", ".9",
+             "--training-views", "6",      "-o",           "plan.json",
+             "--max-error",      "flip=1", "--techniques", "reuse:face=16",
+             "raytrace:depth=4"});
+        process.signal = SIGINT;
+        process.signal_at = phase;
+        const test::ProcessResult ended = test::run_process(process);
+        EXPECT_EQ(ended.exit_code, 130) << phase << ended.err;
+        EXPECT_EQ(ended.out, "") << phase;
+        EXPECT_EQ(read_file_at_path(folder / "plan.json"), "old") << phase;
+    }
 }
 
 TEST_F(Choose, LimitOfTimeAsksForTheLeastErrorAndProvesItsBound) {

@@ -349,9 +349,16 @@ TEST_F(CommandLineTest, GraphWhyListsTheCapturesThatAPictureRequires) {
                                          "+X -X +Y -Y -Z, no other mirror in it"));
     EXPECT_THAT(text, testing::HasSubstr("face +Z of the capture of mirror 1 'mirror'"));
     EXPECT_THAT(text, testing::HasSubstr("changes: no pixel"));
-    EXPECT_THAT(text, testing::HasSubstr("suggested --plan \"planar\""));
+    EXPECT_THAT(text, testing::HasSubstr("suggested --plan \""));
+    // The candidates are listed with their predicted times, and the rule of the choice.
+    for (const char* candidate : {"planar", "raytrace:depth=4", "raytrace:depth=4,first=raster"})
+        EXPECT_THAT(text, testing::HasSubstr("\n  " + std::string(candidate) + ": predicted "));
+    EXPECT_THAT(text,
+                testing::ContainsRegex("\n  why: least score, .*; unit costs: [a-z0-9.-]+, "));
     const json document = json::parse(run_cli({"graph", "flat", "--why", "--json"}).out);
     EXPECT_EQ(document["schema"], "catoptric/why/1");
+    EXPECT_EQ(document["candidates"][0]["plan"], document["suggested"]);
+    EXPECT_LE(document["candidates"][0]["score"], document["candidates"][1]["score"]);
     EXPECT_EQ(document["mirrors"][0]["faces"].size(), 5u);
     EXPECT_EQ(document["left_out"][0]["error"], 0);
     const test::ProcessResult dot = run_cli({"graph", "flat", "--why", "--format", "dot"});

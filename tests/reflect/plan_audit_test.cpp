@@ -331,18 +331,20 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
 
 class LibraryAudit : public test::InFolder {
 protected:
-    /// Writes a file of two plans as `choose` writes it. The second plan is the chosen one.
+    /// Writes a file of two plans as `choose` writes it. The second plan is the chosen one, whose
+    /// time was predicted.
     std::filesystem::path write_file_of_two_plans(double limit,
                                                   const std::string& scene_hash = "") const {
-        const auto proof = [](const std::string& plan) {
-            return R"({"technique": ")" + plan + R"(", "keeps_error": true, "keeps_time": true})";
+        const auto proof = [](const std::string& plan, const std::string& keeps_time) {
+            return R"({"technique": ")" + plan + R"(", "keeps_error": true, "keeps_time": )" +
+                   keeps_time + "}";
         };
         const std::filesystem::path file = folder / "plan.json";
         write_file(file, R"({"certificate": {"quantity": "flip", "share": 0.95,)"
                          R"( "confidence": 0.95, "max_error": )" +
                              std::to_string(limit) + R"(, "scene_hash": ")" + scene_hash +
-                             R"("}, "proofs": [)" + proof(kRunningPlan) + ", " +
-                             proof("reuse:face=16") + "]}");
+                             R"("}, "proofs": [)" + proof(kRunningPlan, "true") + ", " +
+                             proof("reuse:face=16", R"("may")") + "]}");
         return file;
     }
 };

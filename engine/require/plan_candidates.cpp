@@ -1,0 +1,287 @@
+#include "require/plan_candidates.hpp"
+
+#include "scene/flat_mirror.hpp"
+#include "scene/material_facts.hpp"
+#include "scene/rough_reflectors.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace catoptric::require {
+
+namespace {
+
+constexpr TechniqueErrorTable kTechniqueErrorTable;
+/// Tracing what a capture does not show must reduce the mirror's estimated error by this factor.
+constexpr double kMinErrorGain = 1.1;
+/// If some mirror is traced, each mirror with hidden reflected points and at least this share of
+/// all mirror pixels is traced as well.
+constexpr double kLargeMirrorShare = .1;
+constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
+constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested
+constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
+// Bounces and rays of traced plans. Fewer rays have a larger rmse than captures (docs/rough.md).
+constexpr std::size_t kMinRayDepth = 4, kUsualRayDepth = 8;
+constexpr double kLobeRays = 4;
+constexpr double kIncoherentLanes = 1 / 3.5; // visits of a subgroup for each node of scattered rays
+
+/// Returns how many mirrors for which `of` is true the path meets before any other mirror.
+std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
+                                  const std::vector<bool>& of) {
+    return static_cast<std::size_t>(
+        std::ranges::find_if(path, [&](std::uint32_t mirror) { return !of[mirror]; }) -
+        path.begin());
+}
+
+bool is_mirror_flat(const RequiredWorkModelInput& question, const scene::Object& object) {
+    const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
+    // The errors of the candidates are those of sharp mirrors. A blurred view has a larger error.
+    return !flats.is_rough &&
+           flats.flat_area_share(scene::compute_flat_tolerance(question.camera, question.size)) >=
+               1 - kMaxCurvedAreaShare;
+}
+
+/// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
+int count_bounces_between_flat_mirrors(const MirrorCostInputs& known) {
+    for (int bounces = kMinPlanarBounces; bounces < kMaxSuggestedBounces; ++bounces) {
+        double more = 0;
+        for (const auto& [path, count] : known.paths.through)
+            if (path.size() == static_cast<std::size_t>(bounces) + 1 &&
+                count_leading_mirrors(path, known.is_flat) == path.size())
+                more += static_cast<double>(count);
+        if (more <= kMaxBlackPixelShare * known.on_mirrors) return bounces;
+    }
+    return kMaxSuggestedBounces;
+}
+
+/// The ways to draw a mirror.
+enum class MirrorDrawMethod { planes, hybrid, march, small };
+
+/// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
+/// more than a tenth.
+bool should_trace_mirror(const MirrorCostInputs& known, std::size_t mirror) {
+    if (known.is_glass[mirror]) return true; // captures only approximate what passes the body
+    const auto first = static_cast<double>(known.paths.first[mirror]),
+               hidden = static_cast<double>(known.paths.hidden[mirror]);
+    return hidden * (kTechniqueErrorTable.unknown - kTechniqueErrorTable.search) >
+           (kMinErrorGain - 1) * kTechniqueErrorTable.search * first;
+}
+
+double find_search_error(const MirrorCostInputs& known, std::size_t mirror) {
+    return known.is_rough[mirror] ? kTechniqueErrorTable.rough_search : kTechniqueErrorTable.search;
+}
+
+/// Adds work and error of a mirror that is seen in flat mirrors with mirrored views. `path` lists
+/// the mirrors that `count` rays meet; this mirror is the last. A mirrored view looks into the
+/// mirror's capture but traces nothing, so it can only guess what the capture does not show.
+void add_mirror_in_flat_mirrors(PlanCandidate& candidate, FrameWork& work,
+                                const MirrorCostInputs& known,
+                                const std::vector<std::uint32_t>& path, std::size_t count,
+                                MirrorDrawMethod way) {
+    const bool is_searched = way != MirrorDrawMethod::small;
+    if (is_searched) work.add_search(known.estimate_pixels_of_mirror_paths(count));
+    const double error = is_searched ? find_search_error(known, path.back())
+                                     : kTechniqueErrorTable.reuse;
+    candidate.error += static_cast<double>(count) * (error - kTechniqueErrorTable.planar);
+    const auto found = known.paths.hidden_after.find(path);
+    if (is_searched && found != known.paths.hidden_after.end())
+        candidate.error += static_cast<double>(found->second) *
+                           (kTechniqueErrorTable.unknown - error);
+}
+
+/// Adds the work and the error of one mirror's own pixels, without mirrored views.
+void add_mirror(PlanCandidate& candidate, FrameWork& work, const MirrorCostInputs& known,
+                std::size_t mirror, MirrorDrawMethod way) {
+    const std::size_t first = known.paths.first[mirror], hidden = known.paths.hidden[mirror];
+    const bool is_searched = way == MirrorDrawMethod::hybrid || way == MirrorDrawMethod::march;
+    if (is_searched)
+        work.add_search(known.estimate_pixels_of_mirror_paths(first));
+    else if (way == MirrorDrawMethod::small)
+        work.add_lookup(known.estimate_pixels_of_mirror_paths(first));
+    if (way == MirrorDrawMethod::hybrid) {
+        const WalkedRays& sharp = known.paths.sharp;
+        const double rays = known.estimate_pixels_of_mirror_paths(known.is_glass[mirror] ? first
+                                                                                         : hidden),
+                     ray_nodes = rays * sharp.nodes / std::max(1.0, sharp.rays);
+        work.add_rays(
+            {CountedWorkKind::mirror_rays, rays, ray_nodes, ray_nodes * kIncoherentLanes});
+    }
+    const double error = way == MirrorDrawMethod::planes ? kTechniqueErrorTable.planar
+                         : is_searched                   ? find_search_error(known, mirror)
+                                                         : kTechniqueErrorTable.reuse;
+    candidate.error += static_cast<double>(first) * error;
+    if (way == MirrorDrawMethod::march)
+        candidate.error += static_cast<double>(hidden) * (kTechniqueErrorTable.unknown - error);
+}
+
+/// Sets the time and the error of the candidate's techniques. `face` is the edge in texels of the
+/// captures of mirrors drawn by `planar`; 0: no captures.
+void compute_cost_and_error(PlanCandidate& candidate, const MirrorCostInputs& known,
+                            const UnitCosts& costs, const std::vector<MirrorDrawMethod>& ways,
+                            std::uint32_t face) {
+    FrameWork work(known.picture);
+    work.add_view();
+    std::vector<bool> by_planes;
+    for (const MirrorDrawMethod way : ways) by_planes.push_back(way == MirrorDrawMethod::planes);
+    for (std::size_t i = 0; i < known.mirror_count() && face > 0; ++i)
+        work.add_capture(by_planes[i]                         ? face
+                         : ways[i] == MirrorDrawMethod::small ? kSmallCaptureFaceEdge
+                                                              : kUsualFaceEdge,
+                         ways[i] == MirrorDrawMethod::hybrid, known.is_rough[i]);
+    if (std::ranges::find(ways, MirrorDrawMethod::hybrid) != ways.end()) work.add_list();
+    for (std::size_t i = 0; i < known.mirror_count(); ++i)
+        add_mirror(candidate, work, known, i, ways[i]);
+    for (const auto& [path, count] : known.paths.through) {
+        const auto bounces = static_cast<std::size_t>(known.bounces);
+        const std::size_t planes = count_leading_mirrors(path, by_planes);
+        if (planes > 0 && planes + 1 == path.size() && planes <= bounces)
+            add_mirror_in_flat_mirrors(candidate, work, known, path, count, ways[path.back()]);
+        if (planes != path.size()) continue;
+        if (path.size() <= bounces)
+            work.add_mirrored_view(known.estimate_pixels_of_mirror_paths(count));
+        if (path.size() == bounces + 1)
+            candidate.error += static_cast<double>(count) *
+                               (kTechniqueErrorTable.black - kTechniqueErrorTable.planar);
+    }
+    candidate.error /= known.on_mirrors;
+    candidate.ms = predict_ms(work.work(), costs);
+}
+
+/// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
+/// hybrid".
+std::string candidate_technique_names(const std::vector<MirrorDrawMethod>& ways) {
+    std::string name;
+    for (const auto& [way, word] : {std::pair(MirrorDrawMethod::planes, "planar"),
+                                    std::pair(MirrorDrawMethod::hybrid, "hybrid"),
+                                    std::pair(MirrorDrawMethod::march, "march")})
+        if (std::ranges::find(ways, way) != ways.end())
+            name += (name.empty() ? "" : ", ") + std::string(word);
+    return name.empty() ? "reuse" : name;
+}
+
+/// Returns whether some seen mirror is one of these.
+bool has_seen_mirror(const MirrorCostInputs& known, const std::vector<bool>& of) {
+    for (std::size_t i = 0; i < known.mirror_count(); ++i)
+        if (known.is_seen[i] && of[i]) return true;
+    return false;
+}
+
+/// Returns the technique that traces all mirrors.
+std::string write_traced_technique(const MirrorCostInputs& known, bool has_lobes,
+                                   bool is_rasterised) {
+    std::string text = "raytrace";
+    const char* between = ":";
+    const auto add = [&](const std::string& setting) { text += between + setting, between = ","; };
+    // A view may move and then show longer paths, so the depth is no less than usual.
+    const std::size_t depth = has_lobes ? kMinRayDepth
+                              : has_seen_mirror(known, known.is_glass)
+                                  ? kUsualRayDepth
+                                  : std::clamp(known.paths.longest, kMinRayDepth, kUsualRayDepth);
+    if (depth != kUsualRayDepth) add("depth=" + std::to_string(depth));
+    if (has_lobes) add("rays=" + std::to_string(static_cast<int>(kLobeRays)));
+    if (is_rasterised) add("first=raster");
+    return text;
+}
+
+} // namespace
+
+MirrorCostInputs gather_mirror_cost_inputs(const RequiredWorkModelInput& question) {
+    MirrorCostInputs known{.paths = trace_mirror_paths(question)};
+    for (const std::size_t object : scene::mirrors(question.now)) {
+        known.is_flat.push_back(is_mirror_flat(question, question.now.objects[object]));
+        known.is_glass.push_back(
+            scene::is_glass(question.now.materials[question.now.objects[object].material]));
+        known.is_rough.push_back(
+            scene::may_reflect_by_lobe(question.now, question.now.objects[object]));
+    }
+    known.picture = count_picture(question, known.paths);
+    known.on_mirrors = static_cast<double>(
+        std::max<std::size_t>(1, known.paths.count_paths_on_mirrors()));
+    for (const std::size_t reached : known.paths.reached)
+        known.is_seen.push_back(static_cast<double>(reached) >
+                                kHardlySeenPixelShare * known.on_mirrors);
+    // Without any visible mirror, treat all as visible.
+    if (std::ranges::none_of(known.is_seen, std::identity()))
+        known.is_seen.assign(known.mirror_count(), true);
+    known.bounces = count_bounces_between_flat_mirrors(known);
+    return known;
+}
+
+PlanCandidate make_captured_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
+                                      bool planes) {
+    std::vector<MirrorDrawMethod> ways(known.mirror_count(), MirrorDrawMethod::small);
+    bool is_searched = false; // whether any mirror's capture is searched
+    for (std::size_t i = 0; i < known.mirror_count(); ++i) {
+        if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
+        ways[i] = should_trace_mirror(known, i) ? MirrorDrawMethod::hybrid
+                                                : MirrorDrawMethod::march;
+        is_searched = true;
+    }
+    if (std::ranges::find(ways, MirrorDrawMethod::hybrid) != ways.end())
+        for (std::size_t i = 0; i < known.mirror_count(); ++i)
+            if (ways[i] == MirrorDrawMethod::march && known.paths.hidden[i] > 0 &&
+                static_cast<double>(known.paths.first[i]) >= kLargeMirrorShare * known.on_mirrors)
+                ways[i] = MirrorDrawMethod::hybrid;
+    bool has_captures = false;
+    for (std::size_t i = 0; i < known.mirror_count(); ++i) {
+        // If no mirror is searched, a mirrored view costs less than a capture.
+        if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched))
+            ways[i] = MirrorDrawMethod::planes;
+        has_captures = has_captures || ways[i] != MirrorDrawMethod::planes;
+    }
+    std::string planar = "planar";
+    const char* between = ":";
+    const auto add = [&](const std::string& setting) {
+        planar += between + setting, between = ",";
+    };
+    if (known.bounces != kMinPlanarBounces) add("bounces=" + std::to_string(known.bounces));
+    if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallCaptureFaceEdge));
+    PlanCandidate candidate{.name = candidate_technique_names(ways)};
+    for (const MirrorDrawMethod way : ways)
+        candidate.techniques.push_back(way == MirrorDrawMethod::planes   ? planar
+                                       : way == MirrorDrawMethod::hybrid ? "hybrid"
+                                       : way == MirrorDrawMethod::march
+                                           ? "march"
+                                           : "reuse:face=" + std::to_string(kSmallCaptureFaceEdge));
+    compute_cost_and_error(candidate, known, costs, ways,
+                           !has_captures ? 0
+                           : is_searched ? kUsualFaceEdge
+                                         : kSmallCaptureFaceEdge);
+    return candidate;
+}
+
+PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
+                                    bool is_rasterised) {
+    const bool has_lobes = has_seen_mirror(known, known.is_rough);
+    PlanCandidate candidate{.name = write_traced_technique(known, has_lobes, is_rasterised)};
+    candidate.techniques.assign(known.mirror_count(), candidate.name);
+    FrameWork work(known.picture);
+    const WalkedRays &camera = known.paths.camera, &sharp = known.paths.sharp,
+                     &rough = known.paths.rough;
+    const double scale = known.picture.pixels_per_path;
+    if (is_rasterised) {
+        work.add_view();
+        work.add_list();
+    } else {
+        work.add_traced_picture();
+        work.add_rays({CountedWorkKind::camera_rays, scale * camera.rays, scale * camera.nodes,
+                       scale * camera.node_lanes});
+    }
+    const double times = scale * (has_lobes ? kLobeRays : 1);
+    work.add_rays(
+        {CountedWorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
+         times * (is_rasterised || has_lobes ? sharp.nodes * kIncoherentLanes : sharp.node_lanes)});
+    if (has_lobes)
+        work.add_rays({CountedWorkKind::mirror_rays, times * rough.rays, times * rough.nodes,
+                       times * rough.nodes * kIncoherentLanes});
+    candidate.ms = predict_ms(work.work(), costs);
+    for (std::size_t i = 0; i < known.mirror_count(); ++i)
+        if (known.is_rough[i])
+            candidate.error += static_cast<double>(known.paths.first[i]) *
+                               kTechniqueErrorTable.rough_rays / known.on_mirrors;
+    if (is_rasterised) candidate.error += kTechniqueErrorTable.raster;
+    return candidate;
+}
+
+} // namespace catoptric::require

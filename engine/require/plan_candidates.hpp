@@ -1,0 +1,38 @@
+#pragma once
+
+#include "require/plan_work.hpp"
+#include "require/suggest.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+// The candidates that `auto` compares, with their estimated times and errors.
+namespace catoptric::require {
+
+/// Facts about a picture's mirrors that the choice depends on.
+struct MirrorCostInputs {
+    MirrorPathCounts paths;
+    PictureCounts picture;
+    std::vector<bool> is_flat, is_seen, is_glass, is_rough; ///< one entry per mirror
+    double on_mirrors = 0; ///< paths whose first hit is a mirror; at least 1
+    int bounces = 2;       ///< knob `bounces` of `planar`
+
+    std::size_t mirror_count() const { return is_flat.size(); }
+    /// Returns how many pixels of the picture this number of paths stands for.
+    double estimate_pixels_of_mirror_paths(std::size_t paths_through) const {
+        return picture.pixels_per_path * static_cast<double>(paths_through);
+    }
+};
+
+MirrorCostInputs gather_mirror_cost_inputs(const RequiredWorkModelInput& question);
+
+/// Returns a candidate with rasterised mirrors. Flat mirrors get `planar` if `planes` is set.
+/// Hardly seen mirrors get small captures, and all others get searches.
+PlanCandidate make_captured_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
+                                      bool planes);
+/// Returns a candidate that traces all mirrors, and the whole picture unless `is_rasterised`.
+PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
+                                    bool is_rasterised);
+
+} // namespace catoptric::require

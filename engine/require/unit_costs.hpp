@@ -1,0 +1,48 @@
+#pragma once
+
+#include "core/work.hpp"
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+/// The unit costs of docs/costs, which the program contains. `auto` compares plans by them.
+namespace catoptric::require {
+
+/// A number for each kind of work: estimated counts, or costs.
+struct WorkValues {
+    std::array<double, kCountedWorkKindCount> values{};
+
+    double& operator[](CountedWorkKind kind) { return values[static_cast<std::size_t>(kind)]; }
+    double operator[](CountedWorkKind kind) const { return values[static_cast<std::size_t>(kind)]; }
+};
+
+struct UnitCosts {
+    std::string_view file;   ///< name of the file in docs/costs, without its extension
+    std::string_view device; ///< as the file names it
+    std::string_view origin; ///< "fitted", "literature" or "given"
+    WorkValues ns;           ///< nanoseconds of one unit; 0: unknown, takes no time
+};
+
+/// Returns the costs of all files, ordered by name.
+std::span<const UnitCosts> list_unit_costs();
+/// Returns the costs of the software driver on which this project measures.
+const UnitCosts& default_unit_costs();
+
+/// Unit costs by which plans for a device are compared.
+struct UnitCostsOfDevice {
+    const UnitCosts* costs = &default_unit_costs();
+    std::string note; ///< which costs these are: "llvmpipe-22.3, fitted on this device"
+};
+
+/// Returns the costs of a device. A device without a file gets those of the most similar one: a
+/// processor those of llvmpipe with the nearest version of Mesa, a card those from the literature
+/// for the newest card. `name` and `driver` are those of app::DeviceInfo.
+UnitCostsOfDevice find_unit_costs(std::string_view name, std::string_view driver,
+                                  bool is_processor);
+
+/// Returns the time that the costs predict for counts, milliseconds.
+double predict_ms(const WorkValues& counts, const UnitCosts& costs);
+
+} // namespace catoptric::require
