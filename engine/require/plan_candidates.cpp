@@ -21,9 +21,8 @@ constexpr double kLargeMirrorShare = .1;
 constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
 constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested
 constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
-// Bounces and rays of traced plans. Fewer rays have a larger rmse than captures (docs/rough.md).
+// Bounces of traced plans.
 constexpr std::size_t kMinRayDepth = 4, kUsualRayDepth = 8;
-constexpr double kLobeRays = 4;
 constexpr double kIncoherentLanes = 1 / 3.5; // visits of a subgroup for each node of scattered rays
 
 /// Returns how many mirrors for which `of` is true the path meets before any other mirror.
@@ -168,20 +167,57 @@ bool has_seen_mirror(const MirrorCostInputs& known, const std::vector<bool>& of)
 }
 
 /// Returns the technique that traces all mirrors.
-std::string write_traced_technique(const MirrorCostInputs& known, bool has_lobes,
+std::string write_traced_technique(const MirrorCostInputs& known, int lobe_rays,
                                    bool is_rasterised) {
     std::string text = "raytrace";
     const char* between = ":";
     const auto add = [&](const std::string& setting) { text += between + setting, between = ","; };
     // A view may move and then show longer paths, so the depth is no less than usual.
-    const std::size_t depth = has_lobes ? kMinRayDepth
+    const std::size_t depth = lobe_rays > 0 ? kMinRayDepth
                               : has_seen_mirror(known, known.is_glass)
                                   ? kUsualRayDepth
                                   : std::clamp(known.paths.longest, kMinRayDepth, kUsualRayDepth);
     if (depth != kUsualRayDepth) add("depth=" + std::to_string(depth));
-    if (has_lobes) add("rays=" + std::to_string(static_cast<int>(kLobeRays)));
+    if (lobe_rays > 0) add("rays=" + std::to_string(lobe_rays));
     if (is_rasterised) add("first=raster");
     return text;
+}
+
+/// Returns a candidate that traces all mirrors, and the whole picture unless `is_rasterised`.
+/// `lobe_rays`: rays of each pixel that are drawn from lobes; 0: rough mirrors reflect sharply.
+PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
+                                    int lobe_rays, bool is_rasterised) {
+    const bool has_lobes = lobe_rays > 0;
+    PlanCandidate candidate{.name = write_traced_technique(known, lobe_rays, is_rasterised)};
+    candidate.techniques.assign(known.mirror_count(), candidate.name);
+    FrameWork work(known.picture);
+    const WalkedRays &camera = known.paths.camera, &sharp = known.paths.sharp,
+                     &rough = known.paths.rough;
+    const double scale = known.picture.pixels_per_path;
+    if (is_rasterised) {
+        work.add_view();
+        work.add_list();
+    } else {
+        work.add_traced_picture();
+        work.add_rays({CountedWorkKind::camera_rays, scale * camera.rays, scale * camera.nodes,
+                       scale * camera.node_lanes});
+    }
+    const double times = scale * std::max(1, lobe_rays);
+    work.add_rays(
+        {CountedWorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
+         times * (is_rasterised || has_lobes ? sharp.nodes * kIncoherentLanes : sharp.node_lanes)});
+    if (has_lobes)
+        work.add_rays({CountedWorkKind::mirror_rays, times * rough.rays, times * rough.nodes,
+                       times * rough.nodes * kIncoherentLanes});
+    candidate.ms = predict_ms(work.work(), costs);
+    for (std::size_t i = 0; i < known.mirror_count(); ++i)
+        if (known.is_rough[i])
+            candidate.error += static_cast<double>(known.paths.first[i]) *
+                               (lobe_rays > 1 ? kTechniqueErrorTable.four_rough_rays
+                                              : kTechniqueErrorTable.one_rough_ray) /
+                               known.on_mirrors;
+    if (is_rasterised) candidate.error += kTechniqueErrorTable.raster;
+    return candidate;
 }
 
 } // namespace
@@ -251,37 +287,15 @@ PlanCandidate make_captured_candidate(const MirrorCostInputs& known, const UnitC
     return candidate;
 }
 
-PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
-                                    bool is_rasterised) {
-    const bool has_lobes = has_seen_mirror(known, known.is_rough);
-    PlanCandidate candidate{.name = write_traced_technique(known, has_lobes, is_rasterised)};
-    candidate.techniques.assign(known.mirror_count(), candidate.name);
-    FrameWork work(known.picture);
-    const WalkedRays &camera = known.paths.camera, &sharp = known.paths.sharp,
-                     &rough = known.paths.rough;
-    const double scale = known.picture.pixels_per_path;
-    if (is_rasterised) {
-        work.add_view();
-        work.add_list();
-    } else {
-        work.add_traced_picture();
-        work.add_rays({CountedWorkKind::camera_rays, scale * camera.rays, scale * camera.nodes,
-                       scale * camera.node_lanes});
-    }
-    const double times = scale * (has_lobes ? kLobeRays : 1);
-    work.add_rays(
-        {CountedWorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
-         times * (is_rasterised || has_lobes ? sharp.nodes * kIncoherentLanes : sharp.node_lanes)});
-    if (has_lobes)
-        work.add_rays({CountedWorkKind::mirror_rays, times * rough.rays, times * rough.nodes,
-                       times * rough.nodes * kIncoherentLanes});
-    candidate.ms = predict_ms(work.work(), costs);
-    for (std::size_t i = 0; i < known.mirror_count(); ++i)
-        if (known.is_rough[i])
-            candidate.error += static_cast<double>(known.paths.first[i]) *
-                               kTechniqueErrorTable.rough_rays / known.on_mirrors;
-    if (is_rasterised) candidate.error += kTechniqueErrorTable.raster;
-    return candidate;
+std::vector<PlanCandidate> make_traced_candidates(const MirrorCostInputs& known,
+                                                  const UnitCosts& costs) {
+    std::vector<int> lobe_rays{0};
+    if (has_seen_mirror(known, known.is_rough)) lobe_rays = {1, 4};
+    std::vector<PlanCandidate> candidates;
+    for (const int rays : lobe_rays)
+        for (const bool is_rasterised : {false, true})
+            candidates.push_back(make_traced_candidate(known, costs, rays, is_rasterised));
+    return candidates;
 }
 
 } // namespace catoptric::require

@@ -31,8 +31,9 @@ MirrorCostInputs gather_mirror_cost_inputs(const RequiredWorkModelInput& questio
 /// Hardly seen mirrors get small captures, and all others get searches.
 PlanCandidate make_captured_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
                                       bool planes);
-/// Returns a candidate that traces all mirrors, and the whole picture unless `is_rasterised`.
-PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
-                                    bool is_rasterised);
+/// Returns candidates that trace all mirrors, with and without a rasterised first hit. If a seen
+/// mirror is rough, each has one ray or four rays of the lobe.
+std::vector<PlanCandidate> make_traced_candidates(const MirrorCostInputs& known,
+                                                  const UnitCosts& costs);
 
 } // namespace catoptric::require

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -103,8 +104,7 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question,
         searched.techniques != candidates.front().techniques)
         candidates.push_back(std::move(searched));
     if (known.paths.count_paths_on_mirrors() > 0)
-        for (const bool is_rasterised : {false, true})
-            candidates.push_back(make_traced_candidate(known, costs, is_rasterised));
+        std::ranges::move(make_traced_candidates(known, costs), std::back_inserter(candidates));
     std::ranges::stable_sort(candidates, {}, &PlanCandidate::score);
     for (PlanCandidate& candidate : candidates) candidate.plan = write_plan_of_candidate(candidate);
     suggestion.plan = candidates.front().plan;

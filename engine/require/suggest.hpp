@@ -24,8 +24,9 @@ inline constexpr double kErrorOfDoubleTime = .005;
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
 struct TechniqueErrorTable {
     double planar = .003, search = .03, reuse = .3;
-    /// Rough mirrors, searched and by four rays of the lobe (docs/rough.md).
-    double rough_search = .08, rough_rays = .055;
+    /// Rough mirrors, searched and by one ray or four rays of the lobe (docs/rough.md). The FLIP of
+    /// one ray is half as large, but its rmse is larger than that of a search, so it counts more.
+    double rough_search = .12, one_rough_ray = .15, four_rough_rays = .045;
     double raster = .0015; ///< `first=raster`, whose shadows come from maps
     double unknown = .5;   ///< surface outside the mirror's capture, if nothing is traced
     double black = .5;     ///< flat mirrors seen through more mirrors than are drawn
@@ -56,7 +57,7 @@ struct PlanSuggestion {
 /// for all mirrors, and if a mirror is seen also `raytrace` and `raytrace:first=raster`. The search
 /// of a mirror is `hybrid`. It is `march` if tracing what captures do not show
 /// (MirrorPathCounts::hidden) would reduce the mirror's estimated error by less than a tenth. If a
-/// seen mirror is rough, rays are drawn from lobes.
+/// seen mirror is rough, one ray or four rays of each pixel are drawn from lobes.
 ///
 /// The candidate with the least PlanCandidate::score wins. Its time is the sum of estimated counts
 /// (FrameWork) times the unit costs. The same picture and costs always give the same plan.

@@ -47,6 +47,10 @@ std::vector<JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
     return chain;
 }
 
+std::string count_candidates(std::size_t count) {
+    return fmt::format("{} candidate{}", count, count == 1 ? "" : "s");
+}
+
 std::vector<std::string> list_plan_texts(const std::vector<JudgedPlan*>& plans) {
     std::vector<std::string> texts;
     for (const JudgedPlan* plan : plans) texts.push_back(plan->text);
@@ -119,7 +123,7 @@ std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& reques
                                              std::vector<JudgedPlan>& candidates,
                                              std::optional<NoiseOfViews>& noise) {
     const std::vector<std::string>& texts = request.base.techniques;
-    request.tell_step(fmt::format("measuring {} candidates in one view", texts.size()));
+    request.tell_step(fmt::format("measuring {} in one view", count_candidates(texts.size())));
     const measure::Comparison own = request.compare_plans(texts, 0, request.base.seed, 1);
     candidates = list_judged_plans(request, own, texts);
     candidates.reserve(candidates.size() + 1); // for the mix; pointers stay valid
@@ -129,7 +133,7 @@ std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& reques
     const int views = count_training_views(request),
               first_views = std::min(views, kFirstTrainingViews);
     request.tell_step(
-        fmt::format("judging {} candidates in {} training views", kept.size(), first_views));
+        fmt::format("judging {} in {} training views", count_candidates(kept.size()), first_views));
     const measure::Comparison first = draw_views_of_plans(request, kept, first_views,
                                                           request.base.seed);
     noise = find_reference_noise_of_views(request, first);
@@ -143,8 +147,8 @@ std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& reques
                           ? &candidates.back()
                           : nullptr;
     if (views > first_views) {
-        request.tell_step(fmt::format("judging {} candidates in {} more training views",
-                                      unbeaten.size() + (mix != nullptr ? 1 : 0),
+        request.tell_step(fmt::format("judging {} in {} more training views",
+                                      count_candidates(unbeaten.size() + (mix != nullptr ? 1 : 0)),
                                       views - first_views));
         noise = find_reference_noise_of_views(
             request,

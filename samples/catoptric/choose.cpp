@@ -145,7 +145,7 @@ std::string make_candidate_table(const app::ChooseRequest& request, const app::P
             {plan.text, app::format_milliseconds_with_range(plan),
              std::isnan(plan.largest_error) ? "-" : fmt::format("{:.5f}", plan.largest_error),
              fmt::format("{}", std::max<std::size_t>(1, plan.errors.size())), plan.why});
-    return align_columns(rows);
+    return align_columns(rows, rows.front().size() - 1);
 }
 
 /// Returns the table of candidates, a line for each proof, and the choice or the nearest plan.

@@ -127,7 +127,7 @@ TEST_F(Choose, PredictedTimeMayHold) {
 
 /// In each phase, an interrupted run ends and leaves the old file.
 TEST_F(Choose, InterruptedRunKeepsTheOldFile) {
-    for (const char* phase : {"measuring 2 candidates", "judging 2 candidates", "proving "}) {
+    for (const char* phase : {"measuring 2 candidates", "judging 1 candidate ", "proving "}) {
         write_input_file("plan.json", "old");
         test::ProcessStartOptions process = make_process_start(
             {"choose",           "flat",   "--size",       "16x16",
