@@ -68,11 +68,10 @@ struct ChooseRequest {
     std::optional<double> max_ms;    ///< limit of the time of a frame, milliseconds
     double share = .95;              ///< share of views that must keep the limit, between 0 and 1
     double confidence = .95;         ///< between 0 and 1
-    /// Views of the search, at least 6; 0: as many as show a breach of `share` with `confidence`.
-    int training_views = 0;
-    int cameras_per_instant = 3;  ///< training views that share an instant; proofs have one each
-    int proof_views = 0;          ///< views of the proof; 0: as few as can prove the share
-    std::uint64_t proof_seed = 2; ///< seed of the proof's views; must differ from base.seed
+    int training_views = 0;          ///< at least 6; 0: as many as show a breach of `share`
+    int cameras_per_instant = 3;     ///< training views that share an instant; proofs have one each
+    int proof_views = 0;             ///< views of the proof; 0: as few as can prove the share
+    std::uint64_t proof_seed = 2;    ///< seed of the proof's views; must differ from base.seed
     std::string costs; ///< file of another device's costs, to predict times; empty: measure here
     Watcher watcher;
     std::function<void(const std::string&)> tell; ///< gets a sentence at each step; may be empty
@@ -82,9 +81,7 @@ struct ChooseRequest {
 struct ChosenPlan {
     std::string plan;    ///< for FrameSpec::techniques, such as "1=reuse 2,3=secant"; empty: none
     std::string failure; ///< why no plan keeps the limits, a sentence; empty if one does
-    /// plan.json: rules, certificate, proofs and candidates (docs/choose.md). If no plan keeps the
-    /// limits, it holds the nearest plan with what that plan proves.
-    std::string json;
+    std::string json; ///< plan.json, of the nearest plan if none keeps the limits (docs/choose.md)
 };
 /// Chooses the cheapest plan that keeps a limit of error, or the closest within a limit of time,
 /// and proves it on fresh views. Costs a comparison with drawn views for each step. Throws `usage`

@@ -124,13 +124,13 @@ public:
     bool has_tinted_shadows() const { return material_details_.has_tinted_shadows(); }
     /// Returns whether some surface has more than one colour.
     bool has_varying_colours() const { return material_details_.has_varying_colours(); }
-    /// Returns whether rays can aim at points drawn on lamps. Valid from
-    /// `write_views_and_update_trees` on, in frames that requested lamp points.
     /// Returns whether rays may leave some surface in directions drawn from a lobe, or in its coat
     /// or base as drawn.
     bool has_lobes_or_coats() const {
         return material_details_.has_lobe_surfaces() || material_details_.any_clear_coat();
     }
+    /// Returns whether rays can aim at points drawn on lamps. Valid from
+    /// `write_views_and_update_trees` on, in frames that requested lamp points.
     bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return environment_.shader_environment_kind() != 0; }

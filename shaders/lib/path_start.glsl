@@ -25,16 +25,19 @@ void keep_camera_hit(TraceHit hit) {
     has_camera_hit = true;
 }
 
-// Stores a start of the pixel's paths. `low`: rounding error of the ray's origin.
-void store_path_start(TraceHit hit, Ray ray, vec3 low, vec3 weight, uint bounce, bool is_shaded) {
-    starts[start_place] = PathStart(hit.barycentric, hit.t, hit.triangle, hit.object, hit.place, hit.inside, ray.origin, ray.direction,
-                                    low, weight, bounce, uint(is_shaded), path_pixel);
+// The start that is stored at the end. The software driver executes a store lane by lane, also where no lane stores, so the
+// loop over surfaces must not hold one.
+PathStart path_start;
+
+PathStart make_path_start(TraceHit hit, Ray ray, vec3 low, vec3 weight, uint bounce, bool is_shaded) {
+    return PathStart(hit.barycentric, hit.t, hit.triangle, hit.object, hit.place, hit.inside, ray.origin, ray.direction,
+                     low, weight, bounce, uint(is_shaded), path_pixel);
 }
 
-// Ends a branch of the shared part at the surface that the ray has met.
+// Ends a branch of the shared part at the surface that the ray has met. `low`: rounding error of the ray's origin.
 void keep_path_start(TraceHit hit, Ray ray, vec3 low, vec3 weight, uint bounce, bool is_shaded) {
     ++start_count;
-    if (start_count == 1u) store_path_start(hit, ray, low, weight, bounce, is_shaded);
+    if (start_count == 1u) path_start = make_path_start(hit, ray, low, weight, bounce, is_shaded);
     else pending_count = 0u; // the shared part is traced again with each path
 }
 
@@ -43,11 +46,16 @@ bool has_path_start() { return finds_path_start && start_count > 0u; }
 
 // Stores where the pixel's paths start, after the shared part of the camera ray's paths was traced with these results.
 void store_end_of_shared_part(Ray camera_ray, inout vec3 radiance, inout uint met) {
-    if (start_count == 0u) store_no_path_start();
-    if (start_count <= 1u) return;
-    store_path_start(camera_hit, camera_ray, object_spaces != 0u ? camera_view.eye_low : vec3(0), vec3(1), 0u, false);
-    radiance = vec3(0);
-    met = 0u;
+    if (start_count == 0u) {
+        store_no_path_start();
+        return;
+    }
+    if ((has_glass != 0u || has_blending != 0u) && start_count > 1u) {
+        path_start = make_path_start(camera_hit, camera_ray, object_spaces != 0u ? camera_view.eye_low : vec3(0), vec3(1), 0u, false);
+        radiance = vec3(0);
+        met = 0u;
+    }
+    starts[start_place] = path_start;
 }
 
 // Reads the pixel's start, at the surface that the ray has met.
