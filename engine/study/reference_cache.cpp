@@ -280,7 +280,7 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
         const NoisyReference& noisy = *reference.noisy;
         const double floor = measure_noise_floor(samples, target.quantity);
         const bool is_coarse = find_lobe_rays(noisy.technique) * noisy.a.picture_count() < wanted;
-        return std::isnan(floor) || noisy.seconds + 2 * noisy.frame_seconds > seconds ||
+        return std::isnan(floor) || noisy.seconds + 2 * noisy.frame_seconds >= seconds ||
                !(is_coarse || floor > target.floor);
     };
     const auto report = [&](bool has_grown) {
@@ -295,7 +295,7 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
         const double left = seconds - reference.noisy->seconds;
         report(has_grown);
         if (refine_reference(reference, wanted, left)) continue;
-        if (reference.noisy->seconds + 2 * reference.noisy->frame_seconds > seconds ||
+        if (reference.noisy->seconds + 2 * reference.noisy->frame_seconds >= seconds ||
             !add_reference_frames(reference, base_.total(), seconds - reference.noisy->seconds))
             break;
     }

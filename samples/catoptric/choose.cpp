@@ -271,8 +271,9 @@ int run_choose(const ChooseOptions& options) {
     add_path_distance(document, distance);
     document["command"] = options.command;
     write_file(options.output, report::serialise_json(document));
-    print_result(options.common.output_options.json ? report::serialise_json(document)
-                                                    : describe_choice(request, choice));
+    print_result(options.common.output_options.json
+                     ? report::serialise_json(document)
+                     : describe_choice(request, choice) + make_path_distance_line(distance));
     print_note_unless_quiet(options.common.output_options,
                             (choice.chosen ? "written: " : "written, the nearest plan: ") +
                                 options.output);
