@@ -28,8 +28,8 @@ struct PathDistance {
 /// between: the mean of both halves is nearer to that picture than the halves are to each other.
 Interval find_path_distance_interval(const PathDistance& distance);
 
-/// Returns whether more paths would say little: the noise is at most a quarter of the distance, or at
-/// most .01.
+/// Returns whether more paths would say little: the noise is at most a quarter of the distance, or
+/// at most .01.
 bool is_path_distance_precise(const PathDistance& distance);
 
 } // namespace catoptric::measure

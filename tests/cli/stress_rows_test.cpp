@@ -1,5 +1,5 @@
-// Runs every row of `catoptric stress` in small pictures, because a row that nobody runs can crash for
-// days.
+// Runs every row of `catoptric stress` in small pictures, because a row that nobody runs can crash
+// for days.
 #include "cli/program.hpp"
 #include "stress/property.hpp"
 

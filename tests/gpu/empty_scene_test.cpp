@@ -33,8 +33,7 @@ app::FrameSpec make_empty_scene_spec(const std::string& technique, app::Rendered
 
 std::vector<std::string> list_techniques_and_auto() {
     std::vector<std::string> names{"auto"};
-    for (const app::TechniqueInfo& technique : app::techniques())
-        names.push_back(technique.name);
+    for (const app::TechniqueInfo& technique : app::techniques()) names.push_back(technique.name);
     return names;
 }
 
