@@ -69,7 +69,7 @@ void FramePieces::submit_and_wait() {
     submit.pSignalSemaphoreInfos = &end;
     pieces_device_.submit_uploads();
     const SteadyClock::time_point start = SteadyClock::now();
-    if (submitted_++ == 0) slot_->submitted = start;
+    ++submitted_;
     const std::string doing = "run piece " + std::to_string(submitted_) + " of " +
                               describe_submitted_frame(frame_, *shape_);
     pieces_device_.check_result_and_abandon_if_lost(

@@ -148,6 +148,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
                             : nullptr;
     record_frame(graph, shape, slot, index, timing, outside.wait);
     times.record_ms = elapsed_milliseconds(record_begin) - pieces_.wait_ms();
+    times.wall_ms = pieces_.wait_ms(); // without the recording between pieces
     times.wait_ms += pieces_.wait_ms(), wait_ms_ += pieces_.wait_ms();
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
@@ -200,7 +201,7 @@ void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRende
     submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
     submit.pSignalSemaphoreInfos = signals.data();
     runner_device_.submit_uploads();
-    if (pieces_.submitted() == 0) slot.submitted = SteadyClock::now();
+    slot.submitted = SteadyClock::now();
     const VkResult result = vkQueueSubmit2(runner_device_.vulkan_queue(), 1, &submit,
                                            VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
@@ -225,7 +226,7 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
         runner_device_.check_wait_or_abandon(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     const double waited = elapsed_milliseconds(begin);
-    slot.times.wall_ms = elapsed_milliseconds(slot.submitted);
+    slot.times.wall_ms += elapsed_milliseconds(slot.submitted);
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;

@@ -1,6 +1,7 @@
 // Writes how far a reference is from path tracing.
 #include "measure/path_distance.hpp"
 
+#include "core/text.hpp"
 #include "measure/judge.hpp"
 #include "report/json.hpp"
 #include "report/tables.hpp"
@@ -37,7 +38,7 @@ std::string describe_path_distance(const measure::PathDistance& distance,
     if (!distance.is_known())
         return fmt::format("How far the reference itself is from path tracing is not known: {}. To "
                            "find out: {}, with the same options for scene and camera.",
-                           distance.unknown, distance.command);
+                           distance.unknown, escape_control_characters(distance.command));
     const bool shows_mirror = !std::isnan(distance.flip);
     const measure::Interval interval = measure::find_path_distance_interval(distance);
     const std::string where = fmt::format(
@@ -52,7 +53,8 @@ std::string describe_path_distance(const measure::PathDistance& distance,
                        "path tracing ({}).{} To judge rows by path tracing: {}.",
                        format_fixed(shows_mirror ? distance.flip : distance.flip_all, 3),
                        format_fixed(interval.low, 3), format_fixed(interval.high, 3), where,
-                       describe_rows_with_less_flip(rows, less), distance.command);
+                       describe_rows_with_less_flip(rows, less),
+                       escape_control_characters(distance.command));
 }
 
 Json make_path_distance_json(const measure::PathDistance& distance) {
