@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "scene/unsupported_feature.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "compare.hpp"
 #include "core/error.hpp"
 #include "measure/certificate.hpp"
+#include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "session/watcher.hpp"
 #include "study/choose_judge.hpp"
