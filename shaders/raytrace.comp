@@ -8,10 +8,12 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/trace_list.glsl"
 #ifdef SHARES_CAMERA_RAYS
+#include "lib/constants.glsl"
 #include "shared.h"
 layout(set = 0, binding = STARTS_BINDING, scalar) buffer Starts { PathStart starts[]; };
 layout(set = 0, binding = START_LIST_BINDING, scalar) readonly buffer StartList { uint start_list[]; };
 layout(set = 0, binding = START_ARGUMENTS_BINDING, scalar) buffer StartArguments { PathStartArguments start_arguments; };
+layout(constant_id = RESUMES_PATHS_CONSTANT) const uint resumes_paths = 0u; // 1: traces paths from stored starts; 0: the shared part
 #endif
 #include "lib/ray_counts.glsl"
 
@@ -51,10 +53,7 @@ bool find_pixel_to_trace(uint place, out uvec2 pixel) {
 
 #ifdef SHARES_CAMERA_RAYS
 
-// Starts the dispatch of this part of the paths: the shared part, or one path from each stored start.
-void choose_part_of_paths(bool resumes, uint place) {
-    finds_path_start = !resumes;
-    resumes_path = resumes;
+void choose_path_start(uint place) {
     start_place = place % kMaxPathStarts;
     // The next dispatch lists the starts.
     if (finds_path_start && start_place == 0u) start_arguments = PathStartArguments(0u, 1u, 1u, 0u);
@@ -71,7 +70,7 @@ bool find_pixel_to_resume(uint place, out uvec2 pixel) {
 
 #else
 
-void choose_part_of_paths(bool resumes, uint place) {}
+void choose_path_start(uint place) {}
 bool find_pixel_to_resume(uint place, out uvec2 pixel) { return false; }
 
 #endif
@@ -79,7 +78,7 @@ bool find_pixel_to_resume(uint place, out uvec2 pixel) { return false; }
 void main() {
     TraceParameters asked = trace; // push constants are read before the lanes diverge
     uint place = (asked.first_group + find_assigned_work_group()) * kPixelsPerListGroup + gl_LocalInvocationIndex;
-    choose_part_of_paths(asked.resumes != 0u, place);
+    choose_path_start(place);
     uvec2 pixel;
     bool inside = resumes_path ? find_pixel_to_resume(place, pixel) : find_pixel_to_trace(place, pixel);
     if (inside) {

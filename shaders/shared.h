@@ -284,7 +284,6 @@ struct TraceParameters {
     uvec2 size;         // size of the picture, pixels
     uint seed;          // seed of the directions in which rays leave rough surfaces
     uint path_count;    // samples that share a camera ray (lib/path_start.glsl)
-    uint resumes;       // 1: the paths resume at stored starts
     uint first_group;   // first work group of this dispatch, which may be a range of all
 };
 
@@ -371,7 +370,7 @@ static_assert(sizeof(Sky) == 208);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(DrawParameters) == 24);
 static_assert(sizeof(Placement) == 60);
-static_assert(sizeof(TraceParameters) == 40);
+static_assert(sizeof(TraceParameters) == 36);
 static_assert(sizeof(PathStart) == 92);
 static_assert(sizeof(PathStartArguments) == 16);
 static_assert(sizeof(Counters) == 28);

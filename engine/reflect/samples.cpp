@@ -113,8 +113,10 @@ struct SampleTracing {
                 commands.read_word(starts.arguments, offsetof(shared::PathStartArguments, count)));
         else
             commands.add_rays(std::uint64_t{most} * kPixelsPerWorkGroup * parameters.path_count);
-        commands.bind_pipeline(state);
-        parameters.resumes = 1, parameters.first_group = 0;
+        gpu::ComputePipelineState resuming = state;
+        resuming.constants.emplace_back("resumes_paths", 1u);
+        commands.bind_pipeline(resuming);
+        parameters.first_group = 0;
         for (std::uint32_t i = 0; i < parameters.path_count; ++i, ++parameters.sample_index) {
             wait_for_last_dispatch();
             if (is_split) {
@@ -124,7 +126,6 @@ struct SampleTracing {
                 commands.dispatch_indirect(starts.arguments);
             }
         }
-        parameters.resumes = 0;
     }
 
     /// Traces the camera rays of each sample, and then the paths of these rays.
@@ -182,8 +183,11 @@ std::optional<PathStartBuffers> add_path_starts(graph::Graph& graph,
                                                 const render::FrameInputs& inputs,
                                                 const TracerSettings& tracer,
                                                 const std::string& suffix) {
-    // Points in double precision depend on rays that the starts do not hold.
-    if (tracer.doubles || count_paths_of_camera_ray(tracer, inputs.scene) == 1) return {};
+    // Points in double precision depend on rays that the starts do not hold. Where a raster pass
+    // draws the first surfaces, paths share too little to pay for two more dispatches.
+    if (tracer.doubles || tracer.first_raster ||
+        count_paths_of_camera_ray(tracer, inputs.scene) == 1)
+        return {};
     const std::string name = inputs.prefix + "starts" + suffix;
     const std::uint64_t count = std::min(
         count_picture_work_groups(inputs.size) * kPixelsPerWorkGroup, shared::kMaxPathStarts);

@@ -11,9 +11,8 @@ uint met_before = 0u; // mirrors that the shared part of the path has met, as tr
 
 #ifdef SHARES_CAMERA_RAYS
 
-// Both are the same for all lanes.
-bool finds_path_start = true; // whether the dispatch traces the shared part
-bool resumes_path = false;    // whether the dispatch traces paths from stored starts
+const bool resumes_path = resumes_paths != 0u; // whether the dispatch traces paths from stored starts
+const bool finds_path_start = !resumes_path;   // whether it traces the shared part
 uint start_place = 0u;        // index of the pixel's start
 uint start_count = 0u;        // branches of the shared part that end where something is drawn at random
 TraceHit camera_hit;

@@ -60,7 +60,7 @@ void main() {
     Placement p = placements[1];
     append_result_word(p.x), append_result_word(p.y), append_result_word(p.z), append_result_word(p.centre), append_result_word(p.centre_low);
     TraceParameters t = traces[1];
-    append_result_word(t.sample_offset), append_result_word(t.sample_index), append_result_word(t.sample_count), append_result_word(t.size), append_result_word(t.seed), append_result_word(t.path_count), append_result_word(t.resumes), append_result_word(t.first_group);
+    append_result_word(t.sample_offset), append_result_word(t.sample_index), append_result_word(t.sample_count), append_result_word(t.size), append_result_word(t.seed), append_result_word(t.path_count), append_result_word(t.first_group);
     Counters c = counters[1];
     append_result_word(c.primary_rays), append_result_word(c.mirror_rays), append_result_word(c.shadow_rays), append_result_word(c.longest_walk), append_result_word(c.exhausted);
     append_result_word(c.mirror_pixels), append_result_word(c.listed);

@@ -95,7 +95,6 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(TraceParameters, size),
                                                            MEMBER(TraceParameters, seed),
                                                            MEMBER(TraceParameters, path_count),
-                                                           MEMBER(TraceParameters, resumes),
                                                            MEMBER(TraceParameters, first_group),
                                                            MEMBER(Counters, primary_rays),
                                                            MEMBER(Counters, mirror_rays),

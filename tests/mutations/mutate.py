@@ -4,6 +4,7 @@
 mutate.py check            checks that each rule of rules.toml still fits the code; changes nothing
 mutate.py run [NAME...]    applies the rules, or those named (by name or stress row), one after the other; the test or
                            stress row of each must fail
+mutate.py run K/N          the same for the Kth of N parts of the rules
 mutate.py drawn ...        tests mutants that a tool draws at random; see drawn.py
 
 Exit codes: 0 all were noticed, 1 some were not, 2 nothing could be judged.
@@ -95,6 +96,8 @@ def main():
             return 2 if check(listed) else 0
         if verb != "run":
             checkout.fail(f"wanted check, run or drawn, found '{verb}'")
+        if part := re.fullmatch(r"(\d+)/(\d+)", " ".join(names)):
+            names, listed = [], rules.part(listed, *map(int, part.groups()))
         chosen = [rule for rule in listed.values() if not names or rule.name in names or rule.row in names]
         for name in names:
             if not any(name in (rule.name, rule.row) for rule in chosen):

@@ -66,6 +66,15 @@ class Rules(unittest.TestCase):
         here = os.path.dirname(os.path.abspath(__file__))
         self.assertLessEqual(len(rules.read(os.path.join(here, "rules.toml"))), 40)
 
+    def test_parts_hold_each_rule_once(self):
+        listed = {str(i): i for i in range(82)}
+        for count in (1, 3, 8, 100):
+            parts = [rules.part(listed, number, count) for number in range(1, count + 1)]
+            self.assertEqual([name for found in parts for name in found], list(listed))
+        for number in (0, 9):
+            with self.assertRaisesRegex(rules.RuleError, f"wanted a part from 1/8 to 8/8, found '{number}/8'"):
+                rules.part(listed, number, 8)
+
 
 class Drawn(unittest.TestCase):
     def test_folders_share_the_count_by_their_lines(self):

@@ -249,7 +249,7 @@ class Judged(unittest.TestCase):
 
 class Table(unittest.TestCase):
     TESTS = [fake("unit", "unit"), fake("cli/sweep", "cli"), fake("reflect/secant", "reflect"), fake("page", "page"),
-             fake("limits/reflect/secant", "limits-all"), fake("long/stress", "long"), fake("long/mutations", "long")]
+             fake("limits/reflect/secant", "limits-all"), fake("long/stress", "long"), fake("long/mutations_1", "long")]
 
     def test_paths_choose_their_labels(self):
         rows = [("docs/*", ""), ("engine/*", "unit | reflect"), ("samples/stress/*", "long/stress cli")]
@@ -262,7 +262,7 @@ class Table(unittest.TestCase):
 
     def test_no_change_runs_the_mutations(self):
         for path in ("engine/core/a.cpp", "shaders/a.frag", "tests/mutations/rules.toml", "dev", "CMakeLists.txt"):
-            self.assertNotIn("long/mutations", table.touched([path], self.TESTS), path)
+            self.assertNotIn("long/mutations_1", table.touched([path], self.TESTS), path)
 
     def test_an_untold_label_or_path_is_a_fault(self):
         rows = [("a/*", "unit cli | reflect"), ("b", "page limits-all long/stress")]
