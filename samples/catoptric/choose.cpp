@@ -33,7 +33,7 @@ namespace {
 
 constexpr const char* kChooseExamples = R"(Examples:
   catoptric choose room.glb --max-error flip=0.05 -o plan.json
-  catoptric choose room.glb --max-ms 4 --costs gtx-1080-ti -o plan.json
+  catoptric choose room.glb --max-ms 4 --costs gtx-1080-ti -o card.json
   catoptric render room.glb --plan plan.json -o look.png
   catoptric choose room.glb --certify plan.json --proof-seed 7
 

@@ -37,6 +37,14 @@ def read_tip(browser):
     return read_chart(browser, "return [...chart.tip.children].map(x => x.textContent)")
 
 
+TIME_NAMES = {"cpu_ms": "Processor time", "gpu_ms": "GPU time"}
+
+
+def judged_time(report, row):
+    """Returns the times by which the report orders rows: those of the processor where it draws the pictures."""
+    return row[report["judged_time"]]
+
+
 def round_number(value):
     return f"{float(f'{value:.4g}'):.10g}"
 
@@ -47,15 +55,16 @@ def test_chart(browser, report):
     for row in report["rows"]:
         actions = point_at_row(browser, row["label"])
         tip = read_tip(browser)
-        times, flip = row["gpu_ms"], row["error"]["flip"]
+        times, flip = judged_time(report, row), row["error"]["flip"]
         interval = f" ({' to '.join(round_number(x) for x in times['ci95'])})" if times["ci95"] else ""
-        wanted = [row["label"], f"GPU time of a frame, median, ms: {round_number(times['median'])}{interval}",
+        wanted = [row["label"],
+                  f"{TIME_NAMES[report['judged_time']]} of a frame, median, ms: {round_number(times['median'])}{interval}",
                   f"FLIP over the mirrors: {round_number(flip)}"]
         expect(tip[:3] == wanted, f"the pointer on a mark: wanted {wanted}, told {tip}")
         actions.click().perform()
         wait(browser, "return document.querySelectorAll('.comparer select')[1].selectedOptions[0].text", row["label"])
     box = browser.find_element(By.CSS_SELECTOR, ".plot .chart-box")
-    by_time = [row["label"] for row in sorted(report["rows"], key=lambda row: row["gpu_ms"]["median"])]
+    by_time = [row["label"] for row in sorted(report["rows"], key=lambda row: judged_time(report, row)["median"])]
     by_flip = [row["label"] for row in sorted(report["rows"], key=lambda row: row["error"]["flip"])]
     browser.execute_script("arguments[0].blur()", box)
     for key, labels in ((Keys.ARROW_RIGHT, by_time), (Keys.ARROW_UP, by_flip)):
@@ -97,7 +106,7 @@ def test_axes(browser, report):
             along = math.log10 if logarithmic else float
             for label, x, y in places:
                 row = next(row for row in report["rows"] if row["label"] == label)
-                for value, found, size, ends in ((row["gpu_ms"]["median"], x, width, ranges["x"]),
+                for value, found, size, ends in ((judged_time(report, row)["median"], x, width, ranges["x"]),
                                                  (read(row), height - y, height, ranges["y"])):
                     if logarithmic and value <= 0:
                         expect(0 < found < size * 0.2, f"{metric} of {label}: 0 stands at {found} of {size}")
@@ -195,7 +204,8 @@ def test_results_site(program, folder, report):
     browser = open_page(next(site.glob("scene-*.html")), comparer=False)
     wait(browser, "return document.querySelector('.plot .chart').chart.plot?.status", 1)
     places = read_chart(browser, "return chart.order.map((row, i) => [chart.data.rows[row].label, plot.data[0][i], plot.data[1][i]])")
-    wanted = sorted(([row["label"], row["gpu_ms"]["median"], row["error"]["flip"]] for row in report["rows"]), key=lambda x: x[1])
+    wanted = sorted(([row["label"], judged_time(report, row)["median"], row["error"]["flip"]] for row in report["rows"]),
+                    key=lambda x: x[1])
     expect(places == wanted, f"the chart of the site: wanted {wanted}, found {places}")
     point_at_row(browser, wanted[0][0]).click().perform()
     expect(read_tip(browser)[0] == wanted[0][0], f"the pointer on a mark of the site tells {read_tip(browser)}")
