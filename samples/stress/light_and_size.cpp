@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace catoptric::stress {
 
@@ -149,11 +149,12 @@ void judge_triangle_counts(StressTestBench& bench) {
         bench.add_measured_case("one triangle, " + technique + ": not seen",
                                 sum(one, "one triangle") > .1 ? 0 : 1, 0);
     }
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start =
+        std::clock(); // of the processor, because other programs slow a watch
     const app::TechniqueResult part = bench.render_technique(many, "raytrace", 1);
     bench.add_measured_case(
-        "1,048,576 triangles, raytrace: seconds from mesh to picture",
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
+        "1,048,576 triangles, raytrace: seconds of processor time from mesh to picture",
+        double(std::clock() - start) / CLOCKS_PER_SEC, 30);
     bench.add_nonfinite_pixel_case("1,048,576 triangles, raytrace", part);
     constexpr std::uint32_t kLeastEdgeForTenMillion = 128;
     if (glm::min(bench.picture_size().x, bench.picture_size().y) < kLeastEdgeForTenMillion)
@@ -183,8 +184,8 @@ const RegisteredStressProperty kPictureSizesProperty{
      "rendering 16384x16384, which is planned only"}};
 const RegisteredStressProperty kTriangleCountsProperty{
     {"Z2", "empty scene, one triangle, a million, ten million",
-     "background; finite; a million in 30 s; runs or names the limit", judge_triangle_counts,
-     "places_in_22_bits"}};
+     "background; finite; a million in 30 s of processor time; runs or names the limit",
+     judge_triangle_counts, "places_in_22_bits"}};
 
 } // namespace
 
