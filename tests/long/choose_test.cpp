@@ -80,22 +80,19 @@ std::vector<std::string> list_bank_plans(const scene::Scene& scene) {
 struct ViewBank {
     BankSize size;
     std::vector<std::string> plans;
-    measure::Comparison comparison;
+    measure::Comparison comparison;                  ///< a row for each plan, without its views
+    std::vector<std::vector<measure::Errors>> views; ///< by plan
+    std::vector<std::vector<double>> flips;          ///< by plan and view
 
-    const measure::Row& row_of_plan(const std::string& plan) const {
-        const auto found = std::ranges::find(plans, plan);
-        return comparison.rows.at(static_cast<std::size_t>(found - plans.begin()));
-    }
-    bool has_plan(const std::string& plan) const {
-        return std::ranges::find(plans, plan) != plans.end();
+    /// Returns the index of a plan; that of no plan if the bank lacks it.
+    std::size_t find_plan(const std::string& plan) const {
+        return static_cast<std::size_t>(std::ranges::find(plans, plan) - plans.begin());
     }
     /// Returns the share of the bank's views in which a plan keeps a limit of error.
     double true_share(const std::string& plan, double limit) const {
-        const std::vector<measure::Errors>& views = row_of_plan(plan).views;
-        const auto kept = std::ranges::count_if(views, [&](const measure::Errors& view) {
-            return app::mirror_error_of_view(app::ErrorQuantity::flip, view.error) <= limit;
-        });
-        return static_cast<double>(kept) / static_cast<double>(views.size());
+        const std::vector<double>& all = flips.at(find_plan(plan));
+        const auto kept = std::ranges::count_if(all, [&](double flip) { return flip <= limit; });
+        return static_cast<double>(kept) / static_cast<double>(all.size());
     }
 };
 
@@ -105,11 +102,9 @@ std::vector<double> list_limits(const ViewBank& bank, double share, double facto
     std::vector<double> errors;
     for (std::size_t i = 0; i < bank.plans.size(); ++i) {
         if (bank.plans[i].starts_with("raytrace")) continue;
-        std::vector<double> views;
-        for (const measure::Errors& view : bank.comparison.rows.at(i).views)
-            views.push_back(app::mirror_error_of_view(app::ErrorQuantity::flip, view.error));
-        std::ranges::sort(views);
-        errors.push_back(views.at(static_cast<std::size_t>(share * double(views.size() - 1))));
+        std::vector<double> flips = bank.flips.at(i);
+        std::ranges::sort(flips);
+        errors.push_back(flips.at(static_cast<std::size_t>(share * double(flips.size() - 1))));
     }
     std::ranges::sort(errors);
     std::vector<double> limits;
@@ -122,7 +117,8 @@ ViewBank record_view_bank(const char* name) {
     const scene::Scene scene = scene::load(name);
     const BankSize size = read_bank_size();
     const int views = size.instants * size.cameras_per_instant;
-    ViewBank bank{.size = size, .plans = list_bank_plans(scene), .comparison = {}};
+    ViewBank bank{
+        .size = size, .plans = list_bank_plans(scene), .comparison = {}, .views = {}, .flips = {}};
     app::CompareRequest request;
     request.base = test::make_test_request(scene, bank.plans, kTimedSize);
     request.base.warmup = 2;
@@ -136,18 +132,20 @@ ViewBank record_view_bank(const char* name) {
     EXPECT_FALSE(drawn.stopped);
     for (std::size_t i = 0; i < bank.plans.size(); ++i) {
         measure::Row& row = bank.comparison.rows.at(i);
-        row.views = std::move(drawn.rows.at(i).views);
-        EXPECT_EQ(row.views.size(), std::size_t(views)) << row.label;
+        bank.views.push_back(std::move(drawn.rows.at(i).views));
+        EXPECT_EQ(bank.views[i].size(), std::size_t(views)) << row.label;
+        std::vector<double>& flips = bank.flips.emplace_back();
+        for (const measure::Errors& view : bank.views[i])
+            flips.push_back(app::mirror_error_of_view(app::ErrorQuantity::flip, view.error));
         row.hdr = {}, row.display = {}, row.flip_map = {}; // not used, and large to copy
     }
     return bank;
 }
 
-/// Returns the comparison that `compare` would return for views drawn from the bank: independent
-/// instants, with `cameras_per_instant` different cameras each.
-measure::Comparison draw_views_from_bank(const ViewBank& bank,
-                                         const std::vector<std::string>& plans, int views,
-                                         std::uint64_t seed, int cameras_per_instant) {
+/// Draws views of the bank: independent instants, with `cameras_per_instant` different cameras
+/// each.
+std::vector<std::size_t> draw_views(const ViewBank& bank, int views, std::uint64_t seed,
+                                    int cameras_per_instant) {
     std::mt19937_64 random(seed);
     const auto cameras_of_instant = static_cast<std::size_t>(bank.size.cameras_per_instant);
     std::vector<std::size_t> drawn, cameras(cameras_of_instant);
@@ -161,18 +159,24 @@ measure::Comparison draw_views_from_bank(const ViewBank& bank,
         drawn.push_back(instant * cameras_of_instant +
                         cameras[static_cast<std::size_t>(view % cameras_per_instant)]);
     }
+    return drawn;
+}
+
+/// Returns the comparison that `compare` would return for views that draw_views() draws.
+measure::Comparison draw_views_from_bank(const ViewBank& bank,
+                                         const std::vector<std::string>& plans, int views,
+                                         std::uint64_t seed, int cameras_per_instant) {
+    const std::vector<std::size_t> drawn = draw_views(bank, views, seed, cameras_per_instant);
     measure::Comparison comparison;
     comparison.device = bank.comparison.device;
     comparison.scene = bank.comparison.scene;
     for (const std::string& plan : plans) {
         // A mix that the choice finds itself is not in the bank. It gets the work of the plan that
         // it is compared with, and is dropped because it is not faster.
-        const std::string& known = bank.has_plan(plan) ? plan : plans.front();
-        measure::Row row = bank.row_of_plan(known);
-        const std::vector<measure::Errors> all = std::move(row.views);
-        row.views.clear();
-        for (const std::size_t view : drawn) row.views.push_back(all[view]);
-        comparison.rows.push_back(std::move(row));
+        std::size_t known = bank.find_plan(plan);
+        if (known == bank.plans.size()) known = bank.find_plan(plans.front());
+        measure::Row& row = comparison.rows.emplace_back(bank.comparison.rows.at(known));
+        for (const std::size_t view : drawn) row.views.push_back(bank.views.at(known).at(view));
     }
     return comparison;
 }
@@ -253,17 +257,15 @@ void print_bank(const char* scene, const ViewBank& bank, const std::vector<doubl
 /// drawn views that is as certain can take less time. Returns NaN if no proof succeeds.
 double measure_oracle_regret(const ViewBank& bank, const DeviceTimes& device, int proof_views,
                              double limit, int number) {
-    const measure::Comparison proof = draw_views_from_bank(
-        bank, bank.plans, proof_views, 2 * static_cast<std::uint64_t>(number) + 2, 1);
+    const std::vector<std::size_t> drawn = draw_views(
+        bank, proof_views, 2 * static_cast<std::uint64_t>(number) + 2, 1);
     double least = std::numeric_limits<double>::infinity(), proved = least;
     for (std::size_t i = 0; i < bank.plans.size(); ++i) {
         if (bank.true_share(bank.plans[i], limit) < kShare) continue;
         const double ms = device.ms.at(bank.plans[i]);
         least = std::min(least, ms);
         const auto failures = std::ranges::count_if(
-            proof.rows[i].views, [&](const measure::Errors& view) {
-                return !(app::mirror_error_of_view(app::ErrorQuantity::flip, view.error) <= limit);
-            });
+            drawn, [&](std::size_t view) { return !(bank.flips[i][view] <= limit); });
         if (measure::lower_bound_of_passing_view_share(static_cast<std::size_t>(failures),
                                                        static_cast<std::size_t>(proof_views),
                                                        .95) >= kShare)
