@@ -2,7 +2,7 @@
 """Draws a scene of rough metals and dielectrics by Mitsuba and by catoptric, and checks that the pictures agree.
 
 mitsuba_test.py CATOPTRIC SAMPLES FOLDER, by ./dev test --label renderers. SAMPLES: samples/renderers. The variable
-CATOPTRIC_MITSUBA_PYTHON names a Python that has Mitsuba (/usr/bin/python3). Exit code 77: it has none.
+CATOPTRIC_MITSUBA_PYTHON names a Python that has Mitsuba (that of ./dev test). Exit code 77: it has none.
 """
 
 import json
@@ -122,7 +122,8 @@ def test_report(program, samples, folder):
 
 def main():
     program, samples, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-    python = os.environ.get("CATOPTRIC_MITSUBA_PYTHON", "/usr/bin/python3")
+    built = samples.parents[1] / "build/mitsuba/bin/python"
+    python = os.environ.setdefault("CATOPTRIC_MITSUBA_PYTHON", str(built) if built.exists() else "/usr/bin/python3")
     probe = "import mitsuba; mitsuba.set_variant('llvm_ad_rgb'); print(mitsuba.Float(1) + 1)"
     if subprocess.run([python, "-c", probe], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0:
         print(f"mitsuba: skipped: wanted Mitsuba with LLVM in {python}, found none; docs/renderers.md says how to install it")

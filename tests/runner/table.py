@@ -15,7 +15,7 @@ LABELS = {
     "docs": ("mkdocs", "chromium", "chromium-driver", "python3-selenium"),
     "fuzz": (),
     "renderers": ("chromium", "chromium-driver", "python3-selenium", "blender", "python3-numpy", "xvfb", "xauth",
-                  "npm"),
+                  "npm", "libllvm19", "python3-venv"),
     "limits-all": (),
     "long": ("clang-16", "libclang-rt-16-dev"),
 }
