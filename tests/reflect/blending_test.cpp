@@ -38,7 +38,9 @@ scene::Scene make_two_transparent_sheets() {
     return scene;
 }
 
-TEST(Blending, VeilsCoverWhatIsBehindThemInOrder) {
+class Blending : public test::BlendingTest {};
+
+TEST_F(Blending, VeilsCoverWhatIsBehindThemInOrder) {
     const vec3 wanted = .25f * vec3(.8f, 0, 0) +
                         .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
     for (const char* technique : {"naive:bounces=0", "secant", "hybrid:force=unknown", "raytrace",
@@ -80,7 +82,7 @@ scene::Scene make_room_with_transparent_sheets(std::uint64_t seed, bool has_mirr
     return scene;
 }
 
-TEST(Blending, RasterShowsWhatRaysShow) {
+TEST_F(Blending, RasterShowsWhatRaysShow) {
     const uvec2 size{64, 48};
     int off = 0, all = 0, other = 0;
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
@@ -107,7 +109,7 @@ TEST(Blending, RasterShowsWhatRaysShow) {
 }
 
 /// A capture shows a half-transparent sheet (a "veil") together with the surface behind it.
-TEST(Blending, CapturesShowVeils) {
+TEST_F(Blending, CapturesShowVeils) {
     const uvec2 size{64, 48};
     const scene::Scene scene = make_room_with_transparent_sheets(5, true);
     const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
@@ -125,7 +127,7 @@ TEST(Blending, CapturesShowVeils) {
 
 /// A half-transparent sheet (a "veil") must cover the sky, although the sky is drawn after all
 /// opaque surfaces.
-TEST(Blending, VeilsCoverTheSky) {
+TEST_F(Blending, VeilsCoverTheSky) {
     scene::Scene scene = make_two_transparent_sheets();
     scene.objects.pop_back(); // removes the wall
     auto sky = std::make_shared<scene::Environment>();
@@ -148,7 +150,7 @@ TEST(Blending, VeilsCoverTheSky) {
 
 /// Rays of `first=raster` start at the triangle that the rasteriser drew. This must not be a
 /// triangle of a half-transparent sheet (a "veil").
-TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
+TEST_F(Blending, TracedMirrorsBehindVeilsAreRight) {
     const uvec2 size{64, 48};
     scene::Scene scene = test::make_lit_room(2, 1);
     scene::Material veil = make_transparent_sheet_material("veil", {0, 0, 0}, .4f);
@@ -173,7 +175,7 @@ TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
 
 /// For an orthographic camera, the order of half-transparent sheets ("veils") does not depend on
 /// the camera's position.
-TEST(Blending, VeilsAreSortedInParallelViews) {
+TEST_F(Blending, VeilsAreSortedInParallelViews) {
     scene::Scene scene = make_two_transparent_sheets();
     const vec3 wanted = .25f * vec3(.8f, 0, 0) +
                         .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
@@ -191,7 +193,7 @@ TEST(Blending, VeilsAreSortedInParallelViews) {
 
 /// A mirrored view is clipped at the mirror's plane. The mirror must show a half-transparent sheet
 /// (a "veil") in front of it, and no sheet behind it.
-TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
+TEST_F(Blending, FlatMirrorsShowVeilsBeforeThem) {
     scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "flat", .mirror = true});
     test::add_quad(scene, "flat", mirror, {-1.6, -1.6, 1}, {-1.6, 1.6, 1}, {1.6, 1.6, 1},
@@ -221,7 +223,7 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
 
 /// Where a blended surface has an alpha of 1, it hides all objects behind it, in whatever order
 /// objects are drawn.
-TEST(Blending, AlphaOfOneIsOpaque) {
+TEST_F(Blending, AlphaOfOneIsOpaque) {
     scene::Scene scene = make_two_transparent_sheets();
     scene.materials[0].alpha = 1;
     for (const char* technique : {"naive:bounces=0", "raytrace"}) {

@@ -101,9 +101,11 @@ void expect_share(const scene::Scene& scene, const dvec3& wanted, const std::str
     }
 }
 
+class GlassShadow : public test::BlendingTest {};
+
 /// The middle of the picture lies under the diagonal of the pane. A shadow ray there meets two
 /// triangles of each surface, but each surface must count only once.
-TEST(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
+TEST_F(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
     const double thickness = .4;
     for (const dvec3& axis : {dvec3(0, -1, 0), dvec3(1, -1, 0), dvec3(.3, -1, .2)}) {
         scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::directional, {0, 9, 0},
@@ -129,7 +131,7 @@ TEST(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
 
 /// A thin sheet of glass is one surface without an inside, so it tints the light once and absorbs
 /// nothing.
-TEST(GlassShadow, SheetTakesTintAndFresnelOnce) {
+TEST_F(GlassShadow, SheetTakesTintAndFresnelOnce) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(
         scene, scene::quad("sheet", {-.5, 1, .5}, {.5, 1, .5}, {.5, 1, -.5}, {-.5, 1, -.5}), false);
@@ -138,7 +140,7 @@ TEST(GlassShadow, SheetTakesTintAndFresnelOnce) {
 
 /// Glass close to a light is not clipped by the near plane of the shadow map, because the near
 /// plane follows from the nearest object.
-TEST(GlassShadow, PaneNearTheLightCounts) {
+TEST_F(GlassShadow, PaneNearTheLightCounts) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(scene, make_closed_box({-.5, 1.89, -.5}, {.5, 1.99, .5}));
     const double passing = 1 - reflected_share_at_cosine(1);
@@ -149,7 +151,7 @@ TEST(GlassShadow, PaneNearTheLightCounts) {
 
 /// Light from a point inside a glass ball passes only half of the ball. The light on a board inside
 /// the ball does, too.
-TEST(GlassShadow, LightAndSurfaceInABody) {
+TEST_F(GlassShadow, LightAndSurfaceInABody) {
     const dvec3 half_way = kGlassTint * (1 - reflected_share_at_cosine(1));
     scene::Scene bulb = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(bulb, scene::ball("bulb", 5));
@@ -166,7 +168,7 @@ TEST(GlassShadow, LightAndSurfaceInABody) {
 }
 
 /// Shadow rays may hit the exact sphere instead of its mesh.
-TEST(GlassShadow, BallTakesTheChordThroughIt) {
+TEST_F(GlassShadow, BallTakesTheChordThroughIt) {
     for (const double beside : {0., .3}) {
         scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::directional, {0, 9, 0},
                                             {0, -1, 0});
@@ -188,7 +190,7 @@ TEST(GlassShadow, BallTakesTheChordThroughIt) {
 
 /// Shadow maps and shadow rays must agree on the light behind two glass bodies, of which one is
 /// rotated and one is scaled, beside a wall and a block that cast shadows.
-TEST(GlassShadow, ShadowMapAgreesWithShadowRays) {
+TEST_F(GlassShadow, ShadowMapAgreesWithShadowRays) {
     for (const auto kind :
          {scene::PunctualLight::Kind::directional, scene::PunctualLight::Kind::point}) {
         scene::Scene scene = test::make_yard_scene();
@@ -232,7 +234,7 @@ TEST(GlassShadow, ShadowMapAgreesWithShadowRays) {
 }
 
 /// Techniques that trace only some pixels must trace the pixels behind glass.
-TEST(GlassShadow, RowsThatMixRasterAndRaysAgreeWithRays) {
+TEST_F(GlassShadow, RowsThatMixRasterAndRaysAgreeWithRays) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     scene.cameras.front().vertical_fov_degrees = 40;
     add_unseen_glass(scene, make_closed_box({-.5, 1, -.5}, {.3, 1.4, .6}));
@@ -247,7 +249,7 @@ TEST(GlassShadow, RowsThatMixRasterAndRaysAgreeWithRays) {
     }
 }
 
-TEST(GlassShadow, OverrideSetsTheSceneAndItsGap) {
+TEST_F(GlassShadow, OverrideSetsTheSceneAndItsGap) {
     scene::Scene scene = test::make_floor_scene();
     scene.unsupported.push_back(
         {.id = "glass-shadow", .count = 1, .first = "pane", .materials = {}});
@@ -263,7 +265,7 @@ TEST(GlassShadow, OverrideSetsTheSceneAndItsGap) {
 
 /// The option `--glass-shadow` must not change scenes without glass. With the value `none` it
 /// changes neither pictures nor scene hashes.
-TEST(GlassShadow, ChangesNothingElse) {
+TEST_F(GlassShadow, ChangesNothingElse) {
     scene::Scene scene = test::make_lit_room(1, 1), glassy = scene;
     scene::add_mesh(glassy, make_closed_box({-.5, 0, -.5}, {.5, .2, .5}),
                     test::add_material(glassy, make_shading_glass()));
