@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 
@@ -149,12 +150,18 @@ void judge_triangle_counts(StressTestBench& bench) {
         bench.add_measured_case("one triangle, " + technique + ": not seen",
                                 sum(one, "one triangle") > .1 ? 0 : 1, 0);
     }
-    const std::clock_t start =
-        std::clock(); // of the processor, because other programs slow a watch
+    const bool on_processor = bench.bench_engine().device().type == "cpu";
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start_of_processor = std::clock();
     const app::TechniqueResult part = bench.render_technique(many, "raytrace", 1);
-    bench.add_measured_case(
-        "1,048,576 triangles, raytrace: seconds of processor time from mesh to picture",
-        double(std::clock() - start) / CLOCKS_PER_SEC, 30);
+    // On a processor, other programs change the elapsed time.
+    const double seconds =
+        on_processor
+            ? double(std::clock() - start_of_processor) / CLOCKS_PER_SEC
+            : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    bench.add_measured_case(fmt::format("1,048,576 triangles, raytrace: {} from mesh to picture",
+                                        on_processor ? "seconds of processor time" : "seconds"),
+                            seconds, 30);
     bench.add_nonfinite_pixel_case("1,048,576 triangles, raytrace", part);
     constexpr std::uint32_t kLeastEdgeForTenMillion = 128;
     if (glm::min(bench.picture_size().x, bench.picture_size().y) < kLeastEdgeForTenMillion)
@@ -184,7 +191,7 @@ const RegisteredStressProperty kPictureSizesProperty{
      "rendering 16384x16384, which is planned only"}};
 const RegisteredStressProperty kTriangleCountsProperty{
     {"Z2", "empty scene, one triangle, a million, ten million",
-     "background; finite; a million in 30 s of processor time; runs or names the limit",
+     "background; finite; a million in 30 s (of a processor: its time); runs or names the limit",
      judge_triangle_counts, "places_in_22_bits"}};
 
 } // namespace

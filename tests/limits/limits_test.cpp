@@ -96,6 +96,15 @@ TEST_F(SmallDeviceLimitsTest, BlendedSurfacesAreCutAtHalf) {
     }
 }
 
+TEST_F(SmallDeviceLimitsTest, TintedShadowsOfGlassAreRefused) {
+    expect_exit_code(
+        run_on_device_with_small_limits({"render", "glass", "--glass-shadow", "tint", "--size",
+                                         "16x16", "--technique", "secant", "-o", "x.png"}),
+        69,
+        {"--glass-shadow tint", "blends one attachment alone", "render with --glass-shadow none"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+}
+
 TEST_F(SmallDeviceLimitsTest, ColourOf32BitFloatsIsRefused) {
     expect_exit_code(run_on_device_with_small_limits(
                          {"render", "--technique", "parallax:colour=float", "-o", "x.png"}),

@@ -38,11 +38,16 @@ scene::Scene make_two_transparent_sheets() {
     return scene;
 }
 
-class Blending : public test::BlendingTest {};
+/// Returns what that scene's camera sees. A device that cannot blend shows the nearest sheet whose
+/// alpha is not below the cutoff.
+vec3 colour_of_two_sheets(float cutoff = .5f) {
+    const vec3 red(.8f, 0, 0), green(0, .8f, 0), wall(.1f, .2f, .8f);
+    if (test::has_blended_surfaces()) return .25f * red + .75f * (.75f * green + .25f * wall);
+    return cutoff > .25f ? green : red;
+}
 
-TEST_F(Blending, VeilsCoverWhatIsBehindThemInOrder) {
-    const vec3 wanted = .25f * vec3(.8f, 0, 0) +
-                        .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
+TEST(Blending, VeilsCoverWhatIsBehindThemInOrder) {
+    const vec3 wanted = colour_of_two_sheets();
     for (const char* technique : {"naive:bounces=0", "secant", "hybrid:force=unknown", "raytrace",
                                   "raytrace:first=raster", "raytrace:rays=64,indirect=paths"}) {
         const vec3 seen = test::render_without_ambient(make_two_transparent_sheets(), technique,
@@ -82,7 +87,7 @@ scene::Scene make_room_with_transparent_sheets(std::uint64_t seed, bool has_mirr
     return scene;
 }
 
-TEST_F(Blending, RasterShowsWhatRaysShow) {
+TEST(Blending, RasterShowsWhatRaysShow) {
     const uvec2 size{64, 48};
     int off = 0, all = 0, other = 0;
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
@@ -105,11 +110,14 @@ TEST_F(Blending, RasterShowsWhatRaysShow) {
     std::cout << "[ MEASURED ] " << off << " of " << all << " pixels off, " << other
               << " other than cut at half\n";
     EXPECT_LE(off, all / 50); // pixels at outlines and shadow edges
-    EXPECT_GT(other, all / 30);
+    if (test::has_blended_surfaces())
+        EXPECT_GT(other, all / 30);
+    else
+        EXPECT_EQ(other, 0);
 }
 
 /// A capture shows a half-transparent sheet (a "veil") together with the surface behind it.
-TEST_F(Blending, CapturesShowVeils) {
+TEST(Blending, CapturesShowVeils) {
     const uvec2 size{64, 48};
     const scene::Scene scene = make_room_with_transparent_sheets(5, true);
     const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
@@ -121,13 +129,13 @@ TEST_F(Blending, CapturesShowVeils) {
         off += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]) > .1f;
     }
     std::cout << "[ MEASURED ] " << off << " of " << mirrors << " pixels of mirrors off\n";
-    EXPECT_GT(mirrors, 100);
+    EXPECT_GT(mirrors, test::has_blended_surfaces() ? 100 : 50); // opaque veils hide more of them
     EXPECT_LE(off, mirrors / 5);
 }
 
 /// A half-transparent sheet (a "veil") must cover the sky, although the sky is drawn after all
 /// opaque surfaces.
-TEST_F(Blending, VeilsCoverTheSky) {
+TEST(Blending, VeilsCoverTheSky) {
     scene::Scene scene = make_two_transparent_sheets();
     scene.objects.pop_back(); // removes the wall
     auto sky = std::make_shared<scene::Environment>();
@@ -137,8 +145,7 @@ TEST_F(Blending, VeilsCoverTheSky) {
     for (const float cutoff : {.5f, 0.f}) {
         for (scene::Material& material : scene.materials)
             if (material.blended) material.alpha_cutoff = cutoff;
-        const vec3 wanted = .25f * vec3(.8f, 0, 0) +
-                            .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
+        const vec3 wanted = colour_of_two_sheets(cutoff);
         for (const char* technique : {"naive:bounces=0", "raytrace", "raytrace:first=raster"}) {
             const vec3 seen = test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0);
             for (int channel = 0; channel < 3; ++channel)
@@ -150,7 +157,7 @@ TEST_F(Blending, VeilsCoverTheSky) {
 
 /// Rays of `first=raster` start at the triangle that the rasteriser drew. This must not be a
 /// triangle of a half-transparent sheet (a "veil").
-TEST_F(Blending, TracedMirrorsBehindVeilsAreRight) {
+TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
     const uvec2 size{64, 48};
     scene::Scene scene = test::make_lit_room(2, 1);
     scene::Material veil = make_transparent_sheet_material("veil", {0, 0, 0}, .4f);
@@ -175,10 +182,9 @@ TEST_F(Blending, TracedMirrorsBehindVeilsAreRight) {
 
 /// For an orthographic camera, the order of half-transparent sheets ("veils") does not depend on
 /// the camera's position.
-TEST_F(Blending, VeilsAreSortedInParallelViews) {
+TEST(Blending, VeilsAreSortedInParallelViews) {
     scene::Scene scene = make_two_transparent_sheets();
-    const vec3 wanted = .25f * vec3(.8f, 0, 0) +
-                        .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
+    const vec3 wanted = colour_of_two_sheets();
     scene.cameras.front().orthographic_height = .1;
     for (const dvec3& eye : {dvec3(0, 0, 4), dvec3(5, -3, 4)}) {
         scene.cameras.front().eye = eye;
@@ -193,7 +199,7 @@ TEST_F(Blending, VeilsAreSortedInParallelViews) {
 
 /// A mirrored view is clipped at the mirror's plane. The mirror must show a half-transparent sheet
 /// (a "veil") in front of it, and no sheet behind it.
-TEST_F(Blending, FlatMirrorsShowVeilsBeforeThem) {
+TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
     scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "flat", .mirror = true});
     test::add_quad(scene, "flat", mirror, {-1.6, -1.6, 1}, {-1.6, 1.6, 1}, {1.6, 1.6, 1},
@@ -218,12 +224,13 @@ TEST_F(Blending, FlatMirrorsShowVeilsBeforeThem) {
     std::cout << "[ MEASURED ] veils in a flat mirror: rmse " << found << ", without veils "
               << invisible << '\n';
     EXPECT_GT(measure::count_mask_pixels(mask), 500u);
-    EXPECT_LT(found, .1 * invisible);
+    // Opaque veils of alpha .5 hide the part of the mirror that would show them.
+    EXPECT_LT(found, test::has_blended_surfaces() ? .1 * invisible : 1e-5);
 }
 
 /// Where a blended surface has an alpha of 1, it hides all objects behind it, in whatever order
 /// objects are drawn.
-TEST_F(Blending, AlphaOfOneIsOpaque) {
+TEST(Blending, AlphaOfOneIsOpaque) {
     scene::Scene scene = make_two_transparent_sheets();
     scene.materials[0].alpha = 1;
     for (const char* technique : {"naive:bounces=0", "raytrace"}) {

@@ -149,7 +149,6 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
 // blended surfaces and follow only reflections. Therefore no cause is removed in pixels that show a
 // blended surface or glass. Removing all causes must not increase the error of these pixels.
 TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
-    if (!test::has_blended_surfaces()) GTEST_SKIP() << "this device does not blend 32-bit floats";
     const scene::Scene plain = test::make_lit_room(2, 1);
     scene::Scene veiled = plain, glass = plain;
     const std::size_t veil = test::add_material(veiled, {.name = "veil",
@@ -182,7 +181,10 @@ TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
     std::cout << "[ MEASURED ] share of the rmse that is left: " << of_veiled << " with a veil, "
               << of_glass << " with glass, " << of_plain << " without\n";
     EXPECT_LT(of_plain, .05);
-    EXPECT_GT(of_veiled, of_plain);
+    if (test::has_blended_surfaces())
+        EXPECT_GT(of_veiled, of_plain);
+    else
+        EXPECT_LT(of_veiled, .05); // an opaque surface like others
     EXPECT_LE(of_veiled, 1);
     EXPECT_GT(of_glass, of_plain);
     EXPECT_LE(of_glass, 1);

@@ -109,17 +109,11 @@ inline bool computes_like_cpp() { return get_test_device().device.is_cpu_device(
 /// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
 /// limits/limits_test.cpp tests the error on devices that do not support it.
 inline bool has_float_colour() { return get_test_device().device.has_float_filtering(); }
-/// Returns whether the device draws blended surfaces. Others draw them opaque, and tell so.
+/// Returns whether the device draws blended surfaces. Others draw them opaque, and cut them out
+/// where their alpha is below the cutoff.
 inline bool has_blended_surfaces() {
     return get_test_device().device.supports_float_colour_blending();
 }
-/// Tests of blended surfaces and of light through glass, skipped on a device that cannot blend.
-class BlendingTest : public testing::Test {
-protected:
-    void SetUp() override {
-        if (!has_blended_surfaces()) GTEST_SKIP() << "this device does not blend 32-bit floats";
-    }
-};
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
 inline graph::GraphFrameTimes run_graph(graph::GraphRunner& runner, const graph::Graph& graph,
