@@ -62,6 +62,22 @@ app::TechniqueResult StressTestBench::render_technique(const app::Request& reque
     return frames.current_frame().read();
 }
 
+std::string StressTestBench::fit_captures(const std::string& technique) const {
+    if (!has_small_pictures()) return technique;
+    const std::vector<app::TechniqueInfo> infos = app::techniques();
+    const auto info = std::ranges::find(infos, technique.substr(0, technique.find(':')),
+                                        &app::TechniqueInfo::name);
+    if (info == infos.end()) return technique;
+    std::string fitted = technique;
+    for (const auto& [knob, texels] : {std::pair("face", "64"), std::pair("shadow_map", "256")}) {
+        const bool is_knob = std::ranges::find(info->knobs, knob, &app::KnobInfo::name) !=
+                             info->knobs.end();
+        if (!is_knob || technique.find(std::string(knob) + "=") != technique.npos) continue;
+        fitted += (fitted.find(':') == fitted.npos ? ":" : ",") + std::string(knob) + "=" + texels;
+    }
+    return fitted;
+}
+
 void StressTestBench::plan_stress_technique(const app::Request& request) {
     app::Session session(bench_engine_, request.scene);
     app::Access::format_frame_plan(session, request, app::GraphPlanFormat::text);

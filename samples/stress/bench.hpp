@@ -33,8 +33,15 @@ public:
     void plan_stress_technique(const app::Request& request);
     app::TechniqueResult render_technique(const scene::Scene& scene, const std::string& technique,
                                           int frames = 4) {
-        return render_technique(make_stress_request(scene, technique, frames));
+        return render_technique(make_stress_request(scene, fit_captures(technique), frames));
     }
+
+    /// Returns whether pictures are so small that default captures and shadow maps are much finer
+    /// than their pixels.
+    bool has_small_pictures() const { return std::max(size_.x, size_.y) < 128; }
+    /// Returns the technique, for small pictures with smaller captures and shadow maps than the
+    /// default: the defaults would take most of the time. Options in the text stay.
+    std::string fit_captures(const std::string& technique) const;
 
     /// Adds a measured value and its limit.
     void add_measured_case(std::string what, double measured, double limit) {

@@ -48,17 +48,19 @@ void judge_balls_in_contact(StressTestBench& bench) {
         {"two that touch", {{{-1, 0, 1}, 1}, {{1, 0, 1}, 1}}},
         {"two that overlap", {{{-.6, 0, 1}, 1}, {{.7, .2, 1}, 1}}},
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
-    for (const auto& [what, balls] : contacts) {
+    for (const auto& [what, balls] : contacts) { // no surface is lit, so shadows have no effect
         const scene::Scene scene = make_white_furnace_scene(balls);
         bench.add_measured_case(
             std::string(what) + ", raytrace:depth=64: dark pixels",
             measure_picture_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
         bench.add_measured_case(
             std::string(what) + ", reuse, frame 100: brightest of 1",
-            measure_picture_in_furnace(bench, scene, "reuse:face=32", 100).brightest, 1.002);
+            measure_picture_in_furnace(bench, scene, "reuse:face=32,shadow=none", 100).brightest,
+            1.002);
         bench.add_measured_case(
             std::string(what) + ", pyramid: brightest of 1",
-            measure_picture_in_furnace(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
+            measure_picture_in_furnace(bench, scene, "pyramid:face=32,shadow=none", 4).brightest,
+            1.002);
     }
 }
 
@@ -97,8 +99,9 @@ void judge_many_mirrors(StressTestBench& bench) {
                 {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
         const std::string what = std::to_string(mirrors) + " mirrors";
         try {
-            const app::TechniqueResult part = bench.render_technique(scene,
-                                                                     "reuse:face=8,shadow=none", 2);
+            const int frames = bench.has_small_pictures() ? 1 : 2;
+            const app::TechniqueResult part = bench.render_technique(
+                scene, "reuse:face=8,shadow=none", frames);
             bench.add_nonfinite_pixel_case(what, part);
             bench.add_measured_case(what + ": passes off N + 1",
                                     std::abs(part.scene_passes - (mirrors + 1)), 0);
@@ -164,7 +167,7 @@ void judge_moving_ball(StressTestBench& bench) {
     constexpr int kWarmupFrames = 8, kPathFrames = 120;
     constexpr double kMotionPathSeconds = 4;
     app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(),
-                                                     "parallax:face=128", 1);
+                                                     bench.fit_captures("parallax:face=128"), 1);
     request.size = bench.picture_size_of_at_least(128);
     app::Session session(bench.bench_engine(), request.scene);
     std::vector<double> steps;

@@ -16,7 +16,7 @@ namespace {
 /// half.
 double count_saturated_capture_texels(StressTestBench& bench, const scene::Scene& scene,
                                       const std::string& technique) {
-    app::Request request = bench.make_stress_request(scene, technique);
+    app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique));
     request.with_lookup = true;
     return double(bench.render_technique(request).saturated.value());
 }
@@ -29,7 +29,7 @@ constexpr int kFramesBeforeLampRemoval = 4,
 
 void judge_lamp_removal(StressTestBench& bench, const scene::Scene& lit, const scene::Scene& dark,
                         std::size_t lamp, const std::string& technique, const std::string& what) {
-    const app::Request request = bench.make_stress_request(lit, technique);
+    const app::Request request = bench.make_stress_request(lit, bench.fit_captures(technique));
     const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
     app::Session session(bench.bench_engine(), lit);
     app::TechniqueResult soon, late;

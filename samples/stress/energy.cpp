@@ -16,7 +16,7 @@ const std::vector<MirrorBall> kTwoMirrorBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.
 
 app::TechniqueResult render_without_ambient(StressTestBench& bench, const scene::Scene& scene,
                                             const std::string& technique, int frames) {
-    app::Request request = bench.make_stress_request(scene, technique, frames);
+    app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique), frames);
     request.ambient = 0;
     return bench.render_technique(request);
 }

@@ -37,7 +37,7 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         {"on the surface, looking at it", eye(1, -out), false}};
     for (const TestedEyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
-            app::Request request = bench.make_stress_request(scene, technique);
+            app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique));
             request.size = bench.picture_size_of_at_least(64);
             request.camera = place.camera;
             return bench.render_technique(request);
@@ -74,7 +74,8 @@ void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);
     for (const std::string technique : {"raytrace", "parallax"}) {
-        app::Request request = bench.make_stress_request(scene, technique, kSettlingFrames);
+        app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique),
+                                                         kSettlingFrames);
         request.camera = camera;
         app::Session session(bench.bench_engine(), scene);
         int wrong = 0, inside = 0;

@@ -94,8 +94,9 @@ void judge_picture_sizes(StressTestBench& bench) {
                                              [&] { bench.plan_stress_technique(request); });
     }
     app::Request large = bench.make_stress_request(scene, "raytrace", 1);
-    large.size = {4096, 4096};
-    bench.add_nonfinite_pixel_case("4096x4096, raytrace", bench.render_technique(large));
+    large.size = uvec2(bench.has_small_pictures() ? 2048 : 4096);
+    bench.add_nonfinite_pixel_case(fmt::format("{0}x{0}, raytrace", large.size.x),
+                                   bench.render_technique(large));
 }
 
 /// Returns the number of black pixels in the middle ninth of a picture.
