@@ -4,7 +4,7 @@ python3 -B mitsuba_views.py FOLDER SCENE.glb OUT [--environment SKY.exr] [OPTION
 
 Writes OUT/view-000.exr, OUT/view-001.exr and so on, with linear light in 32-bit floats. The environment and surfaces that
 emit are the only light. Without an environment the integrator is Mitsuba's own ("path"), which draws points on lamps.
-Tested with Mitsuba 3.9.1 (pip install mitsuba==3.9.1) and libLLVM 19 (Debian's package libllvm19, or the variable
+Tested with Mitsuba 3.9.1 (pip install mitsuba==3.9.1 numpy) and libLLVM 19 (Debian's package libllvm19, or the variable
 DRJIT_LIBLLVM_PATH).
 """
 
