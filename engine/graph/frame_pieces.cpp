@@ -8,14 +8,12 @@ namespace catoptric::graph {
 
 namespace {
 
-constexpr std::uint64_t kMostRaysOnProcessor = std::uint64_t{1} << 15,
+constexpr std::uint64_t kFirstRaysOnProcessor = std::uint64_t{1} << 15,
+                        kMostRaysOnProcessor = std::uint64_t{1} << 18,
                         kMostRaysOnOtherDevices = std::uint64_t{1} << 24;
-
-std::uint64_t choose_most_rays(const gpu::GpuDevice& device) {
-    const WorkWatch* const watch = current_watch();
-    if (watch != nullptr && watch->most_rays > 0) return watch->most_rays;
-    return device.is_cpu_device() ? kMostRaysOnProcessor : kMostRaysOnOtherDevices;
-}
+/// Milliseconds of a frame's slowest piece below which the next frame's pieces hold twice as many
+/// rays, and above which they hold half as many.
+constexpr double kShortPiece = 50, kLongPiece = 200;
 
 } // namespace
 
@@ -38,12 +36,25 @@ gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
 }
 
 FramePieces::FramePieces(gpu::GpuDevice& device)
-    : pieces_device_(device), timeline_(make_timeline_semaphore(device)) {}
+    : pieces_device_(device), timeline_(make_timeline_semaphore(device)),
+      fitted_rays_(device.is_cpu_device() ? kFirstRaysOnProcessor : kMostRaysOnOtherDevices) {}
+
+void FramePieces::fit_most_rays() {
+    if (!pieces_device_.is_cpu_device()) return;
+    if (slowest_ms_ > kLongPiece)
+        fitted_rays_ = std::max(fitted_rays_ / 2, kFirstRaysOnProcessor);
+    else if (slowest_ms_ < kShortPiece && submitted_ > 0)
+        fitted_rays_ = std::min(fitted_rays_ * 2, kMostRaysOnProcessor);
+    slowest_ms_ = 0;
+}
 
 void FramePieces::begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
                               std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays) {
     slot_ = &slot, shape_ = &shape, frame_ = frame, wait_ = wait;
-    most_rays_ = choose_most_rays(pieces_device_), all_rays_ = all_rays;
+    fit_most_rays();
+    const WorkWatch* const watch = current_watch();
+    most_rays_ = watch != nullptr && watch->most_rays > 0 ? watch->most_rays : fitted_rays_;
+    all_rays_ = all_rays;
     rays_ = traced_ = ended_ = submitted_ = 0;
     wait_ms_ = 0;
 }
@@ -80,7 +91,9 @@ void FramePieces::submit_and_wait() {
     wait.pValues = &piece_;
     pieces_device_.check_wait_or_abandon(
         vkWaitSemaphores(pieces_device_.device_handle(), &wait, ~std::uint64_t{0}), doing);
-    wait_ms_ += elapsed_milliseconds(start);
+    const double ms = elapsed_milliseconds(start);
+    wait_ms_ += ms;
+    end_submission(ms);
     slot_->end_piece();
     traced_ += rays_, rays_ = 0;
     if (const WorkWatch* const watch = current_watch(); watch != nullptr && watch->on_piece)

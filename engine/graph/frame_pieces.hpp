@@ -18,8 +18,10 @@ public:
     /// `all_rays`: most rays that the frame can trace.
     void begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
                      std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays);
-    /// Returns the most rays of a piece: 2^15 on a processor, where they take up to a second of
-    /// two slow cores, and 2^24 on other devices; or WorkWatch::most_rays.
+    /// Returns the most rays of a piece: WorkWatch::most_rays, or 2^24 on a device that is no
+    /// processor. On a processor, 2^15 in the first frame, which take up to a second of two slow
+    /// cores; then up to 2^18, while every piece of the last frame took under 50 ms, because the
+    /// time between two pieces is lost.
     std::uint64_t most_rays() const { return most_rays_; }
     /// Returns the rays that the present piece can still hold.
     std::uint64_t room() const { return most_rays_ - std::min(rays_, most_rays_); }
@@ -30,6 +32,8 @@ public:
     /// Submits the ended command buffer of the slot and waits for it. Empties the slot's command
     /// buffer and descriptors. Throws `device_lost`, and as look_at_stop() does.
     void submit_and_wait();
+    /// Notes how long a submission of a frame took.
+    void end_submission(double ms) { slowest_ms_ = std::max(slowest_ms_, ms); }
     /// Returns the semaphore that the frame's last submission waits for; null: none.
     VkSemaphore semaphore_of_last_piece() const { return submitted_ == 0 ? wait_ : VK_NULL_HANDLE; }
     /// Returns the number of pieces submitted in this frame, without the last.
@@ -38,9 +42,13 @@ public:
     double wait_ms() const { return wait_ms_; }
 
 private:
+    void fit_most_rays();
+
     gpu::GpuDevice& pieces_device_;
     gpu::UniqueSemaphore timeline_;
-    std::uint64_t piece_ = 0; ///< value of the semaphore after the last piece of all frames
+    std::uint64_t fitted_rays_; ///< most rays of a piece without a watch's own bound
+    double slowest_ms_ = 0;     ///< slowest submission since the last fit
+    std::uint64_t piece_ = 0;   ///< value of the semaphore after the last piece of all frames
 
     // The present frame.
     FrameInFlightResources* slot_ = nullptr;

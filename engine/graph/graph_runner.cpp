@@ -226,7 +226,9 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
         runner_device_.check_wait_or_abandon(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     const double waited = elapsed_milliseconds(begin);
-    slot.times.wall_ms += elapsed_milliseconds(slot.submitted);
+    const double ran = elapsed_milliseconds(slot.submitted);
+    slot.times.wall_ms += ran;
+    pieces_.end_submission(ran);
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;

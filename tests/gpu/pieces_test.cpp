@@ -80,6 +80,30 @@ TEST(FramePieces, HoldAtMost32768RaysOnAProcessor) {
     }
 }
 
+// Pieces grow from frame to frame where they are short, as those of a small scene are, and shrink
+// where they are long.
+TEST(FramePieces, GrowTo262144RaysOnAProcessor) {
+    if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                   {"raytrace:depth=1"}, {1024, 1024});
+    app::Session session(test::get_test_engine(), request.scene);
+    std::vector<std::uint64_t> largest;
+    for (int frame = 0; frame < 8; ++frame) {
+        std::uint64_t before = 0;
+        largest.push_back(0);
+        const WorkWatch watch{.on_piece = [&](std::uint64_t done, std::uint64_t) {
+            largest.back() = std::max(largest.back(), done - before);
+            before = done;
+        }};
+        const WatchScope scope(&watch);
+        session.frame(request);
+    }
+    EXPECT_EQ(largest.front(), std::uint64_t{1} << 15);
+    for (const std::uint64_t rays : largest) EXPECT_LE(rays, std::uint64_t{1} << 18);
+    // A loaded machine may take over 50 ms for a piece of any frame, but not for all.
+    EXPECT_GT(std::ranges::max(largest), std::uint64_t{1} << 15);
+}
+
 TEST(FramePieces, StopBetweenTwoPiecesLeavesASessionThatDrawsOn) {
     const app::Request request = make_rough_request("raytrace:rays=6");
     app::Request kept = make_rough_request("secant:face=16");
