@@ -2,44 +2,26 @@
 // bytes, but takes a fifth of a second to load.
 #include "core/error.hpp"
 #include "core/exr_read.hpp"
+#include "core/exr_stream.hpp"
 #include "core/image_codec.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <mutex>
 #include <new>
-#include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVersion.h>
 
 namespace catoptric {
 
 namespace {
-
-/// Returns the number of threads that encode or decode a picture; 0: the calling thread does. The
-/// first large picture starts OpenEXR's threads, unless the program that uses this library has. A
-/// small picture takes less time than starting a thread.
-int start_exr_threads(uvec2 size) {
-    constexpr std::size_t kLargePicturePixels = 1 << 19;
-    if (std::size_t(size.x) * size.y < kLargePicturePixels) return 0;
-    static std::once_flag once;
-    std::call_once(once, [] {
-        if (Imf::globalThreadCount() == 0)
-            Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
-    });
-    return Imf::globalThreadCount();
-}
 
 /// Collects the bytes of a file in memory, because a writer to disk may report success on a full
 /// disk.
@@ -122,26 +104,6 @@ std::string encode_openexr(const ImageSizeAndChannels& shape, std::span<const fl
 }
 
 namespace {
-
-/// Lets OpenEXR read from a source of bytes.
-class ExrByteSourceInput final : public Imf::IStream {
-public:
-    explicit ExrByteSourceInput(const RandomAccessByteSource& bytes)
-        : IStream("memory"), bytes_(bytes) {}
-    bool read(char into[], int size) override {
-        const std::span<char> wanted(into, static_cast<std::size_t>(size));
-        if (bytes_.read(at_, wanted) < wanted.size())
-            throw std::runtime_error("the file ends too early");
-        at_ += wanted.size();
-        return at_ < bytes_.size();
-    }
-    std::uint64_t tellg() override { return at_; }
-    void seekg(std::uint64_t position) override { at_ = position; }
-
-private:
-    const RandomAccessByteSource& bytes_;
-    std::uint64_t at_ = 0;
-};
 
 /// Returns the channels in the order of a pixel's values; none if the picture is not a usual one.
 std::vector<std::string> list_usual_exr_channels(const Imf::InputFile& file) {

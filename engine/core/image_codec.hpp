@@ -3,9 +3,11 @@
 #include "core/byte_source.hpp"
 #include "core/math.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +34,21 @@ struct ImageSizeAndChannels {
     bool has_8_bit_channels = false;   ///< PNG: whether each value is stored in 8 bits or fewer
 };
 
+/// Where a picture's values have its colours. `alpha` is `channel_count` if it has none.
+struct ColourChannels {
+    std::array<std::size_t, 3> rgb; ///< the same three times for grey
+    std::size_t alpha;
+};
+/// Returns the channels named R, G and B, or the grey channel Y. Throws `bad_data`, beginning with
+/// `name` and with the names found, for a picture without them, or with two of a name.
+ColourChannels find_colour_channels(const ImageSizeAndChannels& shape, const std::string& name);
+
+/// The colours of a picture that a reader takes: of all others in an OpenEXR file, by their layer
+/// (core/exr_colours.hpp). `layer`: empty for the file's own choice.
+struct ImageColours {
+    std::string layer;
+};
+
 /// Reads a picture. At first only the header is read. `bytes` must outlive the reader.
 class ImageReader {
 public:
@@ -44,9 +61,11 @@ public:
     /// `judge` is called before a decoder, which may allocate memory, is opened, and again with the
     /// decoder's shape. Throws `bad_data` if the picture cannot be opened, is not flat, or has a
     /// side of 0 or more than 65536 pixels. Also throws `bad_data` if the header claims more than a
-    /// file of its size can hold.
+    /// file of its size can hold. `colours`: take only these, in the picture's display window; else
+    /// all channels of the first part of a file.
     ImageReader(const RandomAccessByteSource& bytes, const std::string& format, std::string name,
-                const ImageShapeCheckCallback& judge = {});
+                const ImageShapeCheckCallback& judge = {},
+                const std::optional<ImageColours>& colours = {});
     ~ImageReader();
 
     const ImageSizeAndChannels& image_size_and_channels() const;

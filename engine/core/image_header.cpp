@@ -1,10 +1,10 @@
 #include "core/image_header.hpp"
 
 #include "core/error.hpp"
+#include "core/radiance.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <string_view>
 
@@ -83,42 +83,6 @@ ImageSizeAndChannels read_webp_header(const RandomAccessByteSource& bytes) {
         return make_image_size_and_channels(numbers.read_little_endian(26, 2) & 0x3fff,
                                             numbers.read_little_endian(28, 2) & 0x3fff, 3);
     }
-}
-
-/// Returns the sides from a line such as "-Y 512 +X 1024"; 0 for other lines.
-uvec2 parse_radiance_hdr_size_line(std::string_view line) {
-    uvec2 sides{0};
-    const auto take = [&](std::string_view axis, std::uint32_t& side) {
-        const std::size_t at = line.find(axis);
-        if (at == line.npos) return;
-        line.remove_prefix(at + axis.size());
-        std::from_chars(line.data(), line.data() + line.size(), side);
-    };
-    take("Y ", sides.y), take("X ", sides.x);
-    return sides;
-}
-
-ImageSizeAndChannels read_radiance_header(const RandomAccessByteSource& bytes,
-                                          const std::string& name) {
-    constexpr std::size_t kMaxHeaderBytes = 1 << 16;
-    std::string text(std::min<std::uint64_t>(kMaxHeaderBytes, bytes.size()), '\0');
-    text.resize(bytes.read(0, text));
-    const std::size_t blank = text.find("\n\n");
-    const std::size_t end = blank == text.npos ? text.npos : text.find('\n', blank + 2);
-    check(end != text.npos, Failure::bad_data, name,
-          ": cannot be decoded: wanted a blank line and the picture's size within ",
-          kMaxHeaderBytes, " bytes, found none");
-    const uvec2 size = parse_radiance_hdr_size_line(
-        std::string_view(text).substr(blank + 2, end - blank - 2));
-    // Lines of 8 to 32767 pixels are stored as runs of at most 127 for each of 4 channels. Other
-    // lines are stored without runs.
-    const bool has_runs = size.x >= 8 && size.x < 1 << 15;
-    const std::uint64_t line = has_runs ? 4 + 8 * std::uint64_t((size.x + 126) / 127)
-                                        : 4 * std::uint64_t(size.x);
-    const std::uint64_t least = end + 1 + line * size.y;
-    check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
-          " bytes for ", size.x, "x", size.y, " pixels, found ", bytes.size());
-    return {size, 3, {"R", "G", "B"}};
 }
 
 /// The first directory of a TIFF file, in either byte order (TIFF 6.0, section 2).
@@ -214,7 +178,8 @@ std::optional<ImageSizeAndChannels> read_image_header(const RandomAccessByteSour
                                                       const std::string& name) {
     const ImageHeaderIntegerReader numbers(bytes);
     if (format == "openexr") return read_openexr_header(bytes, name);
-    if (format == "hdr") return read_radiance_header(bytes, name);
+    if (format == "hdr")
+        return ImageSizeAndChannels{read_radiance_header(bytes, name).size(), 3, {"R", "G", "B"}};
     if (format == "tiff") return read_tiff_header(bytes, name);
     if (format == "jpeg") return read_jpeg_header(bytes);
     if (format == "webp") return read_webp_header(bytes);

@@ -2,6 +2,7 @@
 // that determine how much memory a file needs.
 #include "core/error.hpp"
 #include "core/image_header.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -105,6 +106,9 @@ void read_exr_channels(ExrFileCursor& file, ExrPartHeader& part, std::uint64_t e
     while (file.file_position() < end) {
         std::string name = file.read_string();
         if (name.empty()) break;
+        if (std::ranges::find(part.channels, name) != part.channels.end())
+            file.throw_bad_exr_file_error("wanted one channel of each name, found two of ",
+                                          quote_text_with_escapes(name));
         const std::uint32_t type = file.read_uint32();
         file.read_uint32(); // skips the flag for linear data
         const std::uint32_t across = file.read_uint32(), down = file.read_uint32();

@@ -15,19 +15,6 @@
 namespace catoptric::measure {
 namespace {
 
-/// Returns the indices of the channels R, G and B. A picture without them is grey in its first
-/// channel.
-std::array<std::size_t, 3> find_rgb_channels(const std::vector<std::string>& channels) {
-    std::array<std::size_t, 3> rgb = {0, 0, 0};
-    constexpr std::array<const char*, 3> kRgbChannelNames = {"R", "G", "B"};
-    for (std::size_t c = 0; c < rgb.size(); ++c) {
-        const auto at = std::ranges::find(channels, kRgbChannelNames[c]);
-        if (at == channels.end()) return {0, 0, 0};
-        rgb[c] = static_cast<std::size_t>(at - channels.begin());
-    }
-    return rgb;
-}
-
 /// Returns the format by the first bytes, not by the file name.
 std::string detect_picture_format(const RandomAccessByteSource& bytes, const std::string& name) {
     std::array<char, 16> first{};
@@ -83,12 +70,23 @@ ImageSizeAndChannels rgb_float_image_shape(const Picture& picture) {
 
 } // namespace
 
+PictureLocation locate_picture(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::string text = path.string();
+    const std::size_t colon = text.rfind(':');
+    if (colon == text.npos || colon == 0 || std::filesystem::exists(path, error) ||
+        !std::filesystem::exists(text.substr(0, colon), error))
+        return {path, {}};
+    return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
 struct PictureReader::PictureReadState {
-    PictureReadState(const std::filesystem::path& path, const PictureSizeCheck& judge)
-        : file_name(path.string()), bytes(open_file_bytes(path)),
+    PictureReadState(const PictureLocation& at, const PictureSizeCheck& judge)
+        : file_name(at.file.string()), bytes(open_file_bytes(at.file)),
           format(detect_picture_format(*bytes, file_name)),
-          image_reader(*bytes, format, file_name, make_shape_check(file_name, judge)),
-          rgb(find_rgb_channels(image_reader.image_size_and_channels().channels)) {}
+          image_reader(*bytes, format, file_name, make_shape_check(file_name, judge),
+                       ImageColours{at.layer}),
+          rgb(find_colour_channels(image_reader.image_size_and_channels(), file_name).rgb) {}
 
     std::string file_name;
     std::unique_ptr<RandomAccessByteSource> bytes;
@@ -100,7 +98,7 @@ struct PictureReader::PictureReadState {
 };
 
 PictureReader::PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge)
-    : open_picture_(std::make_unique<PictureReadState>(path, judge)) {}
+    : open_picture_(std::make_unique<PictureReadState>(locate_picture(path), judge)) {}
 PictureReader::~PictureReader() = default;
 PictureReader::PictureReader(PictureReader&&) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
@@ -160,7 +158,7 @@ Picture read_picture(const std::filesystem::path& path,
 
 bool is_png(const std::filesystem::path& path) {
     std::string start(8, '\0');
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(locate_picture(path).file, std::ios::binary);
     return file.read(start.data(), 8) && detect_image_format(start) == "png";
 }
 

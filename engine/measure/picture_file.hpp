@@ -16,6 +16,14 @@ namespace catoptric::measure {
 /// Largest picture that is read unless the caller says otherwise: 2^29 values, 2 GiB of float.
 constexpr std::uint64_t kMaxPictureValues = std::uint64_t{1} << 29;
 
+/// A picture's file, or a folder of pictures, and the layer of OpenEXR files that is meant.
+struct PictureLocation {
+    std::filesystem::path file;
+    std::string layer; ///< empty: that which the file itself prefers (core/exr_colours.hpp)
+};
+/// Reads "FILE:LAYER". A file whose whole name is the text is meant without a layer.
+PictureLocation locate_picture(const std::filesystem::path& path);
+
 /// Reads a picture row by row as `read_picture` does.
 class PictureReader {
 public:

@@ -18,27 +18,9 @@ bool is_targa_file(const std::string& file) {
     return end == ".tga";
 }
 
-/// Indices of red, green, blue and alpha among a pixel's values. Alpha is 255 if the picture has
-/// none.
-struct ChannelOrder {
-    std::array<std::size_t, 3> rgb;
-    std::size_t alpha; ///< channel_count if the picture has no alpha
-};
-
-ChannelOrder choose_channel_order(const ImageSizeAndChannels& shape) {
-    const auto find = [&](const char* name) {
-        return static_cast<std::size_t>(std::ranges::find(shape.channels, name) -
-                                        shape.channels.begin());
-    };
-    const std::size_t r = find("R"), g = find("G"), b = find("B"), count = shape.channel_count;
-    const bool is_coloured = r < count && g < count && b < count;
-    return {is_coloured ? std::array{r, g, b} : std::array<std::size_t, 3>{0, 0, 0},
-            std::min(find("A"), count)};
-}
-
 std::vector<std::uint32_t> pack_texels(const ImageSizeAndChannels& shape,
+                                       const ColourChannels& layout,
                                        const std::vector<std::uint8_t>& values) {
-    const ChannelOrder layout = choose_channel_order(shape);
     std::vector<std::uint32_t> texels(std::size_t(shape.size.x) * shape.size.y);
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const std::uint8_t* const pixel = values.data() + i * shape.channel_count;
@@ -60,17 +42,21 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
         return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
     };
     const MemoryByteSource source(bytes);
-    ImageReader image_reader(source, format, place, [&](const ImageSizeAndChannels& shape) {
+    const auto judge = [&](const ImageSizeAndChannels& shape) {
         constexpr std::uint32_t kMaxTextureSide = 65535; // the renderer stores a side in 16 bits
         check(shape.size.x <= kMaxTextureSide && shape.size.y <= kMaxTextureSide, Failure::bad_data,
               place, ": wanted sides of at most ", kMaxTextureSide, " texels, found ", shape.size.x,
               "x", shape.size.y);
         account.texels.check_amount_fits_budget(texels(shape), place);
-    });
+    };
+    ImageReader image_reader(source, format, place, judge, ImageColours());
     const ImageSizeAndChannels& shape = image_reader.image_size_and_channels();
     account.texels.add_amount_within_budget(texels(shape), place);
-    return std::make_shared<const Image>(Image{
-        .name = file, .size = shape.size, .texels = pack_texels(shape, image_reader.bytes())});
+    const ColourChannels channels = find_colour_channels(shape, place);
+    return std::make_shared<const Image>(
+        Image{.name = file,
+              .size = shape.size,
+              .texels = pack_texels(shape, channels, image_reader.bytes())});
 }
 
 std::string encode_image_png(const Image& image) {

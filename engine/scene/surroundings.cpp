@@ -10,7 +10,8 @@ namespace catoptric::scene {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr uvec2 kStudioEnvironmentSize{512, 256};
+constexpr uvec2 kStudioEnvironmentSize{512, 256},
+    kLeastIntegrationSize{128, 64}; ///< directions by which a small map is integrated
 
 double environment_rotation_angle(const Environment& environment) {
     return glm::radians(environment.rotation_degrees);
@@ -57,7 +58,9 @@ dvec3 environment_radiance(const Environment& environment, const dvec3& directio
 }
 
 std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environment) {
-    const uvec2 size = environment.studio ? kStudioEnvironmentSize : environment.size;
+    // In a small map, harmonics and the interpolated light change within a texel.
+    const uvec2 map = environment.studio ? kStudioEnvironmentSize : environment.size,
+                size = map * ((kLeastIntegrationSize + map - 1u) / map);
     const double width = 2 * kPi / size.x, height = kPi / size.y;
     std::array<dvec3, 9> sums{};
     for (std::uint32_t row = 0; row < size.y; ++row) {
@@ -69,9 +72,10 @@ std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environm
                 return dvec3(std::sin(polar) * std::sin(turned), std::cos(polar),
                              -std::sin(polar) * std::cos(turned));
             };
-            const dvec3 light = environment.studio
-                                    ? dvec3(f64::studio_radiance(at(azimuth)))
-                                    : dvec3(environment.texels[std::size_t{row} * size.x + column]);
+            const bool is_texel = !environment.studio && size == map; // saves the interpolation
+            const dvec3 light = is_texel
+                                    ? dvec3(environment.texels[std::size_t{row} * size.x + column])
+                                    : radiance_in_environment_axes(environment, at(azimuth));
             const std::array<double, 9> of = spherical_harmonics(
                 at(azimuth + environment_rotation_angle(environment)));
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += solid_angle * of[i] * light;

@@ -62,7 +62,7 @@ std::shared_ptr<scene::Environment> read_environment_picture(const std::string& 
 std::shared_ptr<scene::Environment> load_environment_by_name(const std::string& word) {
     if (word == "none") return nullptr;
     std::error_code ignored;
-    if (word != "studio" && !std::filesystem::exists(word, ignored))
+    if (word != "studio" && !std::filesystem::exists(measure::locate_picture(word).file, ignored))
         fail(Failure::missing_input, "--environment: ", quote_text_with_escapes(word),
              ": there is no such file; wanted a picture (.exr, .hdr or .png), studio or none",
              suggest_nearest_name(word, std::vector<std::string>{"studio", "none"}));
@@ -95,8 +95,17 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
     if (overrides.environment) {
         environment = load_environment_by_name(*overrides.environment);
+        if (environment && !environment->studio && environment->size.x != 2 * environment->size.y)
+            wanted.said.push_back("environment " + quote_text_with_escapes(environment->name) +
+                                  ": wanted a picture "
+                                  "twice as wide as high, found " +
+                                  std::to_string(environment->size.x) + "x" +
+                                  std::to_string(environment->size.y) +
+                                  "; it is stretched over the whole sphere, "
+                                  "but a square picture may be a mirror ball or an angular map");
         if (environment && !environment->studio)
-            record_scene_file_path(scene, resolve_real_path(*overrides.environment));
+            record_scene_file_path(
+                scene, resolve_real_path(measure::locate_picture(*overrides.environment).file));
     } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
         environment = load_environment_by_name("studio");
         scene::add_unsupported_feature(scene.unsupported, "added-studio",

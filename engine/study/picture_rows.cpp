@@ -150,13 +150,14 @@ std::optional<std::string> find_view_picture(const std::string& path, std::size_
     namespace fs = std::filesystem;
     std::error_code error; // a path that cannot be examined is read as a file, which gives the
                            // error
-    if (!fs::is_directory(path, error))
+    const auto [folder, layer] = measure::locate_picture(path);
+    if (!fs::is_directory(folder, error))
         return view == 0 ? std::optional<std::string>(path) : std::nullopt;
     std::vector<std::string> found;
     for (const char* ending : {".exr", ".hdr", ".png"})
-        if (const fs::path file = fs::path(path) / (view_picture_name(view) + ending);
+        if (const fs::path file = folder / (view_picture_name(view) + ending);
             fs::exists(file, error))
-            found.push_back(file.string());
+            found.push_back(file.string() + (layer.empty() ? "" : ":" + layer));
     check(found.size() == 1, Failure::bad_data, path, ": wanted one ", view_picture_name(view),
           ".exr, .hdr or .png, found ", found.empty() ? "none" : "several");
     return found.front();
@@ -170,7 +171,7 @@ void check_picture_rows(const CompareRequest& request) {
                                   : 0;
     const bool has_folder = std::ranges::any_of(request.pictures, [](const auto& picture) {
         std::error_code error;
-        return std::filesystem::is_directory(picture.second, error);
+        return std::filesystem::is_directory(measure::locate_picture(picture.second).file, error);
     });
     std::vector<measure::View> drawn_views;
     if (has_folder && views > 0)

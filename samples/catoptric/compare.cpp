@@ -433,8 +433,8 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
     verb.repeated("--row", "NAME=PICTURES",
                   "further row: a picture of the same camera, time and size from another renderer, "
                   "or a folder with one for each view, see 'help views'. EXR and Radiance files "
-                  "hold linear light, a PNG what is displayed at the comparison's exposure; may be "
-                  "repeated",
+                  "hold linear light, a PNG what is displayed at the comparison's exposure; "
+                  "NAME=FILE:LAYER for an OpenEXR file of several layers; may be repeated",
                   [options](const std::string& text) {
                       const std::size_t end = text.find('=');
                       check(end != std::string::npos && end > 0 && end + 1 < text.size(),

@@ -32,7 +32,7 @@ Exit code 1 if a figure is over its threshold, or if a threshold is given and a 
 
 struct DiffOptions {
     OutputOptions output_options;
-    std::string a, b, mask;
+    std::string a, b, mask, layer;
     double exposure = 0;
     std::optional<double> most_flip, most_rmse;
 };
@@ -47,8 +47,9 @@ void check_difference_threshold(PictureDiffFacts& facts, const char* option, dou
 }
 
 PictureDiffFacts compare_files(const DiffOptions& options) {
+    const std::string layer = options.layer.empty() ? "" : ":" + options.layer;
     const measure::PictureFileDifference found = measure::compare_picture_files(
-        options.a, options.b, options.mask, options.exposure);
+        options.a + layer, options.b + layer, options.mask, options.exposure);
     PictureDiffFacts facts{
         options.a,
         options.b,
@@ -115,6 +116,11 @@ void add_diff_verb(CommandLine& program) {
                   CommandVerb::VerbArgumentNeed::required);
     verb.option("--mask", "M", "PNG of the same size; only pixels that are not black count",
                 options->mask);
+    verb.option(
+        "--layer", "NAME",
+        "layer of both pictures, if they have several; A:NAME for one of them (OpenEXR: the "
+        "channels R, G, B, or those of the only layer that has them)",
+        options->layer);
     verb.option("--max-flip", "X", "largest FLIP allowed; exit code 1 above it",
                 [options](const std::string& text) {
                     options->most_flip = parse_real("--max-flip", text, 0);

@@ -60,8 +60,9 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
 void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     verb.option(
         "--environment", "E",
-        "picture around the scene that also lights it: FILE.exr, .hdr or .png (equirectangular), "
-        "studio or none (none; studio for a file without a light)",
+        "picture around the scene that also lights it: FILE.exr, .hdr or .png (equirectangular; "
+        "FILE:LAYER for one of several layers), studio or none (none; studio for a file without a "
+        "light)",
         [&](const std::string& text) {
             check(!text.empty(), Failure::usage,
                   "--environment: wanted FILE.exr, .hdr or .png, studio or none, found ''");
