@@ -108,6 +108,8 @@ const uint kMaterialMultipleScatteringFlag = 64u;
 const uint kMaterialGlassFlag = 128u; // material flag: rays pass through
 const uint kMaterialSolidFlag = 256u; // material flag: the glass is a solid body, else a thin sheet
 const uint kMaterialBlendedFlag = 512u; // material flag: the surface covers what is behind it by its alpha
+// material flag: thin glass whose mesh is not closed, so that one facet is a whole sheet
+const uint kMaterialOpenSheetFlag = 1024u;
 
 // The data of a vertex other than position and normal.
 struct VertexAttribute {

@@ -145,7 +145,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.clear();
     any_ = masks_ = any_normal_textures_ = false;
-    std::map<std::size_t, bool> leaves, bodies; // by mesh
+    std::map<std::size_t, bool> leaves, closed; // by mesh
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const ObjectDrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
@@ -165,12 +165,15 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
         detail.rough = texture_use_of_material(material.roughness_texture);
         detail.normal = texture_use_of_material(material.normal_texture);
         detail.normal_scale = material.normal_scale;
-        if (range.glass && material.solid) {
+        if (range.glass) {
             const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
-            const auto [entry, is_new] = bodies.try_emplace(now.objects[i].mesh, false);
+            const auto [entry, is_new] = closed.try_emplace(now.objects[i].mesh, false);
             if (is_new)
                 entry->second = scene::is_closed_triangle_surface(mesh.positions, mesh.triangles);
-            detail.flags |= flag_if_set(entry->second, shared::kMaterialSolidFlag);
+            if (!entry->second)
+                detail.flags |= shared::kMaterialOpenSheetFlag;
+            else if (material.solid)
+                detail.flags |= shared::kMaterialSolidFlag;
         }
         any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;

@@ -85,6 +85,7 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
         reflected[colour] = fresnel_dielectric(cosine, ratio, behind);
         behind_cosines[colour] = behind;
     } while (++colour < colours);
+    if ((glass.flags & kMaterialOpenSheetFlag) != 0u) reflected.x = sheet_reflectance(reflected.x);
     if (!is_dispersive) reflected = vec3(reflected.x);
     vec3 mirrored_weight = weight * reflected * unblocked;
     vec3 passing_weight = weight * (1.0 - reflected) * glass_tint;

@@ -22,6 +22,7 @@ vec3 glass_surface_depth(uint detail, vec3 albedo, VertexAttribute at, float cos
     const float kMinShare = 1e-9; // far less than a picture shows, so that sums of depths stay finite
     MaterialParameters glass = read_material_parameters(detail);
     float cosine_behind, reflected = fresnel_dielectric(min(cosine, 1.0), glass.ior, cosine_behind);
+    if ((glass.flags & kMaterialOpenSheetFlag) != 0u) reflected = sheet_reflectance(reflected);
     vec3 tint = albedo * at.colour.rgb * sample_texture(glass.albedo, at.uv).rgb;
     return -log(max((1.0 - reflected) * tint, vec3(kMinShare)));
 }

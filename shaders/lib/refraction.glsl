@@ -150,6 +150,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     vec3 normal = dot(seen, n) > 0.0 ? -n : n;
     float ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine = min(-dot(seen, normal), 1.0), cosine_behind;
     float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);
+    if ((glass.flags & kMaterialOpenSheetFlag) != 0u) reflected = sheet_reflectance(reflected);
     RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected, passing_roughness(is_solid, glass.ior));
     if (is_inside) ray.weight *= exp(-glass.absorption * from_viewer);
     if (!is_solid || reflected == 1.0) return ray;

@@ -14,6 +14,10 @@ INLINE real fresnel_dielectric(real cosine, real ratio, OUT(real) cosine_behind)
     return real(0.5) * (across * across + along * along);
 }
 
+// Returns the share of light that a sheet of glass reflects whose two surfaces each reflect this share: r + (1 - r)^2 r (1 +
+// r^2 + r^4 + ...). The rest passes.
+INLINE real sheet_reflectance(real surface) { return real(2) * surface / (real(1) + surface); }
+
 // Returns the direction of the light behind the surface (Snell's law). `direction` points to the surface, `normal` to the
 // side from which it comes. Both are unit vectors, and the other arguments are those of fresnel_dielectric.
 INLINE vec3 refract_direction(vec3 direction, vec3 normal, real cosine, real ratio, real cosine_behind) {
