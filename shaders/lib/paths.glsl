@@ -56,9 +56,23 @@ vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 
     float cosine = dot(p.normal, leaving);
     if (!(cosine > 0.0) || parts.diffuse == vec3(0)) return reflected;
     vec3 facet = find_facet_normal_for_shading(parts.detail, p.facet);
-    float share = facet == vec3(0) ? 1.0 : facet_light_share(leaving, p.normal, facet);
-    density += (1.0 - parts.specular_share) * cosine / kPi;
+    float share = 1.0, drawn = cosine;
+    if (facet != vec3(0)) {
+        facet = normalize(facet_normal_on_shading_side(p.normal, facet));
+        // What the facet hides of its light returns to the rest, so that a surface keeps its albedo.
+        share = facet_light_share(leaving, p.normal, facet) / mean_facet_light_share(dot(p.normal, facet));
+        drawn = dot(leaving, facet) > 0.0 ? cosine + max(dot(p.normal, reflect(leaving, facet)), 0.0) : 0.0;
+    }
+    density += (1.0 - parts.specular_share) * drawn / kPi;
     return reflected + parts.diffuse * (share * cosine / kPi);
+}
+
+// Returns a direction drawn for the diffuse part: by the cosine to the shading normal, and above the facet. A direction
+// below the facet is mirrored at it.
+vec3 sample_diffuse_direction(SurfacePoint p, Reflection parts, float u, float v) {
+    vec3 leaving = sample_cosine(p.normal, u, v);
+    vec3 facet = facet_normal_on_shading_side(p.normal, find_facet_normal_for_shading(parts.detail, p.facet));
+    return dot(leaving, facet) < 0.0 ? reflect(leaving, normalize(facet)) : leaving;
 }
 
 // Returns whether sample_reflection_direction draws random numbers that change its results.
@@ -79,7 +93,7 @@ bool sample_reflection_direction(SurfacePoint p, Reflection parts, vec3 directio
     vec3 lobe_weight = vec3(1);
     bool is_drawn = !has_specular_part || draws_from_lobe() && sample_specular_lobe(direction, p.facet, u, v, lobe_weight, leaving);
     if (is_drawn) {
-        if (!has_specular_part) leaving = sample_cosine(p.normal, u, v);
+        if (!has_specular_part) leaving = sample_diffuse_direction(p, parts, u, v);
         vec3 reflected = evaluate_reflection(p, parts, direction, leaving, density);
         // The weight of a drawn lobe direction is exact for lobes of any width, but the quotient of lobe and density is
         // not.

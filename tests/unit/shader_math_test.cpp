@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace catoptric {
 namespace {
@@ -101,6 +102,26 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
         const vec3 up(0, 1, 0), grazing = glm::normalize(vec3(1, .01f, 0));
         EXPECT_NEAR(f32::facet_light_share(grazing, up, size * up), 1, 1e-5);
     }
+}
+
+TEST(Light, MeanFacetShareIsThatOfAnIntegral) {
+    constexpr int kSteps = 400;
+    for (const double degrees : {1.0, 4.0, 7.0, 15.0, 30.0, 60.0, 80.0}) {
+        const double angle = glm::radians(degrees);
+        const dvec3 facet(std::sin(angle), 0, std::cos(angle));
+        double sum = 0;
+        for (int i = 0; i < kSteps; ++i)
+            for (int j = 0; j < kSteps; ++j) { // density cosine / pi around the z axis
+                const double radius = std::sqrt((i + .5) / kSteps),
+                             turn = 2 * std::numbers::pi * (j + .5) / kSteps;
+                sum += f64::facet_light_share({radius * std::cos(turn), radius * std::sin(turn),
+                                               std::sqrt(1 - radius * radius)},
+                                              {0, 0, 1}, facet);
+            }
+        EXPECT_NEAR(f64::mean_facet_light_share(std::cos(angle)), sum / (kSteps * kSteps), .0005)
+            << degrees;
+    }
+    EXPECT_EQ(f64::mean_facet_light_share(1.0), 1);
 }
 
 TEST(Mirror, MirrorDirectionIgnoresTheSignOfTheNormal) {

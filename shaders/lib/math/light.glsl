@@ -38,6 +38,14 @@ INLINE real facet_light_share(vec3 direction, vec3 normal, vec3 facet) {
     return t * t * (real(3) - real(2) * t);
 }
 
+// Returns the mean of facet_light_share over directions around the shading normal with the density cosine / pi, within
+// .0004. `cosine`: between the shading normal and the facet's normal on its side. The share of directions below the facet
+// is (1 - cosine) / 2; the rest is what fades above it (fitted to a numerical integral).
+INLINE real mean_facet_light_share(real cosine) {
+    real sine = sqrt(max(real(1) - cosine * cosine, real(0)));
+    return (real(1) + cosine) / real(2) - real(.0333) * sine - min(real(.02) * sine, real(.0014) * cosine);
+}
+
 // Returns the mean |cosine| between a lamp's facets and a direction. `cosines` holds this mean for three orthogonal
 // axes.
 INLINE real mean_lamp_facet_cosine(vec3 direction, vec3 right, vec3 down, vec3 forward, vec3 cosines) {
