@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <memory>
@@ -30,6 +31,72 @@ fs::path resolve_symbolic_links(const fs::path& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                            std::free);
     return real ? fs::path(real.get()) : fs::path();
+}
+
+bool is_same_in_any_case(std::string_view a, std::string_view b) {
+    return std::ranges::equal(
+        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+/// Returns the path of `name` below `folder` with the letter case of the files on the disk, or an
+/// empty path. If several fit, the first in alphabetical order.
+fs::path find_in_any_case(const fs::path& folder, const fs::path& name) {
+    constexpr int kMaxFolderEntries = 65536;
+    fs::path found = folder;
+    std::error_code error;
+    for (const fs::path& step : name) {
+        if (fs::exists(found / step, error)) {
+            found /= step;
+            continue;
+        }
+        fs::path nearest;
+        int count = 0;
+        for (fs::directory_iterator at(found, error), end; !error && at != end;
+             at.increment(error)) {
+            if (++count > kMaxFolderEntries) break;
+            const fs::path file = at->path().filename();
+            if (is_same_in_any_case(file.string(), step.string()) &&
+                (nearest.empty() || file < nearest))
+                nearest = file;
+        }
+        if (nearest.empty()) return {};
+        found /= nearest;
+    }
+    return found;
+}
+
+std::string_view trim_spaces(std::string_view text) {
+    constexpr std::string_view kSpaces = " \t";
+    const std::size_t first = text.find_first_not_of(kSpaces);
+    return first == text.npos ? std::string_view()
+                              : text.substr(first, text.find_last_not_of(kSpaces) + 1 - first);
+}
+
+/// What a written name may mean: itself, without a comment behind it, without quotes, all with
+/// slashes; and the last steps of these.
+struct MeaningsOfName {
+    std::vector<std::string> whole, last_steps;
+};
+
+MeaningsOfName list_meanings_of_name(std::string_view written) {
+    MeaningsOfName names;
+    names.whole.emplace_back(trim_spaces(written));
+    const std::size_t comment = written.find(" #");
+    if (comment != written.npos) names.whole.emplace_back(trim_spaces(written.substr(0, comment)));
+    for (std::size_t i = 0, count = names.whole.size(); i < count; ++i) {
+        const std::string& name = names.whole[i];
+        if (name.size() > 2 && (name.front() == '"' || name.front() == '\'') &&
+            name.back() == name.front())
+            names.whole.push_back(name.substr(1, name.size() - 2));
+    }
+    for (std::string& name : names.whole) {
+        std::ranges::replace(name, '\\', '/');
+        const std::size_t last = name.rfind('/');
+        if (last != name.npos && last + 1 < name.size())
+            names.last_steps.push_back(name.substr(last + 1));
+    }
+    std::erase(names.whole, "");
+    return names;
 }
 
 /// A file descriptor that its destructor closes.
@@ -124,6 +191,38 @@ fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
           fs::is_directory(status) ? "a folder" : "a device or a pipe");
     add_file(real);
     return real;
+}
+
+bool SceneFileOpener::is_allowed_file(const fs::path& real) const {
+    std::error_code error;
+    return (is_inside_folder(real, folder_) || is_inside_folder(real, root_)) &&
+           fs::is_regular_file(real, error);
+}
+
+fs::path SceneFileOpener::find_scene_file_as_written(std::string_view written,
+                                                     const fs::path& folder,
+                                                     const std::string& place) {
+    const MeaningsOfName names = list_meanings_of_name(written);
+    const std::string first = names.whole.empty() ? std::string(written) : names.whole.front();
+    if (written.size() > kMaxFileNameLength || written.find('\0') != written.npos)
+        return find_scene_file_by_name(first, place); // refuses the name
+    account_.files.add_amount_within_budget(1, place);
+    for (const std::vector<std::string>* const list : {&names.whole, &names.last_steps})
+        for (const std::string& name : *list)
+            for (const bool any_case : {false, true})
+                for (const fs::path& from : {folder, folder_}) {
+                    const fs::path path = any_case ? find_in_any_case(from, name) : from / name;
+                    const fs::path real = resolve_symbolic_links(path);
+                    if (real.empty()) continue;
+                    // A file that is there, but may not be read, is meant none the less.
+                    if (!is_allowed_file(real)) {
+                        check_file_lies_below_root(real, name, place);
+                        return find_scene_file_by_name(path.string(), place);
+                    }
+                    add_file(real);
+                    return real;
+                }
+    return find_scene_file_by_name(first, place); // says whether the name leads out of the folder
 }
 
 fs::path SceneFileOpener::find_required_scene_file(const std::string& name,

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <unordered_set>
 #include <vector>
 
@@ -33,6 +34,14 @@ public:
     std::filesystem::path find_scene_file_by_name(const std::string& name,
                                                   const std::string& place);
 
+    /// Does the same for a name as programs write it into .obj and .mtl files: perhaps in quotes,
+    /// with backslashes, a comment behind it, another case of letters or the folders of another
+    /// machine. Looks in `folder`, then beside the scene: for the whole name, then for its last
+    /// step. Letters of another case count only if no file has the name itself.
+    std::filesystem::path find_scene_file_as_written(std::string_view written,
+                                                     const std::filesystem::path& folder,
+                                                     const std::string& place);
+
     /// Does the same as `find_scene_file_by_name`, but throws `missing_input` if the file does not
     /// exist.
     std::filesystem::path find_required_scene_file(const std::string& name,
@@ -47,6 +56,7 @@ public:
     const std::vector<std::filesystem::path>& list_found_files() const { return found_; }
 
 private:
+    bool is_allowed_file(const std::filesystem::path& real) const;
     void add_file(const std::filesystem::path& real);
     void check_file_lies_below_root(const std::filesystem::path& real, const std::string& name,
                                     const std::string& place) const;

@@ -74,12 +74,31 @@ GlbChunks read_glb_chunks(const std::string& file, std::string_view bytes, Loade
     return {bytes.substr(20, length), rest.substr(8, binary)};
 }
 
+/// Returns whether the version is a text "MAJOR.MINOR" of at most 2.0.
+bool is_read_gltf_version(const Json& version) {
+    if (!version.is_string()) return false;
+    const std::string& text = version.get_ref<const std::string&>();
+    const std::size_t dot = text.find('.');
+    const auto number = [](const std::string& digits) {
+        const bool is_number = !digits.empty() && digits.size() < 4 &&
+                               digits.find_first_not_of("0123456789") == digits.npos;
+        return is_number ? std::stoi(digits) : -1;
+    };
+    if (dot == text.npos) return false;
+    const int major = number(text.substr(0, dot)), minor = number(text.substr(dot + 1));
+    return minor >= 0 && major >= 0 && (major < 2 || (major == 2 && minor == 0));
+}
+
 void check_gltf_version(const JsonObject& root) {
     const std::optional<JsonObject> asset = root.read_object_member("asset");
     const Json* version = asset ? asset->find("version") : nullptr;
     root.require_condition(
         version && version->is_string() && version->get_ref<const std::string&>().starts_with("2."),
         "asset.version: wanted \"2.0\", found ", version ? describe_json_value(*version) : "null");
+    const Json* least = asset ? asset->find("minVersion") : nullptr;
+    root.require_condition(least == nullptr || is_read_gltf_version(*least),
+                           "asset.minVersion: wanted at most \"2.0\", found ",
+                           least ? describe_json_value(*least) : "null");
 }
 
 void check_required_extensions(const JsonObject& root) {

@@ -48,6 +48,17 @@ void check_element_count(std::size_t found, std::size_t wanted, std::string_view
           ", one for each position, found ", found);
 }
 
+std::size_t count_clamped_colours(const AccessorElements& colours) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < colours.count; ++i) {
+        bool is_clamped = false;
+        for (int channel = 0; channel < colours.width; ++channel)
+            is_clamped |= is_clamped_factor(read_accessor_number(colours, i, channel));
+        count += is_clamped;
+    }
+    return count;
+}
+
 void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
                       const std::string& place, GltfReadContext& context) {
     for (const auto& [name, what, type, other, also] : kSupportedVertexAttributes) {
@@ -67,6 +78,9 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
         const AccessorElements found = context.floats(accessor, its == other ? other : type, total,
                                                       place + ": " + name, allowed);
         check_element_count(found.count, count, what, place);
+        if (std::string_view(name) == "COLOR_0")
+            context.notes.add_note(kClampedFactorNote, place + ": COLOR_0",
+                                   count_clamped_colours(found));
     }
     if (const int joints = find_attribute(primitive.attributes, "JOINTS_0"); joints >= 0)
         check_element_count(context.whole(joints, place + ": JOINTS_0", TINYGLTF_TYPE_VEC4).count,
@@ -144,7 +158,7 @@ vec4 GltfPrimitive::colour(std::size_t index) const {
     vec4 colour(1);
     for (int i = 0; colours && i < colours->width; ++i)
         colour[i] = static_cast<float>(read_accessor_number(*colours, index, i));
-    return colour;
+    return glm::clamp(colour, 0.f, 1.f); // glTF 2.0, 3.7.2.1
 }
 
 void GltfPrimitive::pose_vertex_by_joints(std::size_t index,

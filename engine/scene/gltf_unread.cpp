@@ -83,6 +83,30 @@ void check_camera_type(const JsonObject& camera) {
                              "wanted a perspective or orthographic camera, found neither");
 }
 
+/// Notes the attributes that are not read, but for those of applications ("_NAME"). Tangents count
+/// only where a normal map needs them.
+void note_unread_attributes(const JsonObject& primitive, const JsonObject& attributes,
+                            const JsonObject& root, LoaderNotes& notes) {
+    constexpr std::string_view kReadAttributes[] = {
+        "POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
+    const std::size_t material = primitive.whole("material", ~std::uint64_t(0));
+    const bool has_normal_map = material < root.size("materials") &&
+                                root.at("materials", material).has_member("normalTexture");
+    for (const auto& [name, value] : attributes.json_value().items()) {
+        if (name.starts_with('_') ||
+            std::ranges::find(kReadAttributes, name) != std::end(kReadAttributes))
+            continue;
+        if (name == "TANGENT") {
+            notes.add_note("attributes TANGENT, not read (normal maps get their tangents from "
+                           "texture coordinates)",
+                           attributes.describe_json_place(), has_normal_map ? 1 : 0);
+            continue;
+        }
+        notes.add_note("attributes " + quote_text_with_escapes(name) + ", not read",
+                       attributes.describe_json_place());
+    }
+}
+
 void check_attributes(const JsonObject& attributes, const JsonObject& root) {
     const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json_value().items()) {
@@ -99,11 +123,14 @@ void check_attributes(const JsonObject& attributes, const JsonObject& root) {
     }
 }
 
-void check_primitive(const JsonObject& primitive, const JsonObject& root) {
+void check_primitive(const JsonObject& primitive, const JsonObject& root, LoaderNotes& notes) {
     const std::uint64_t mode = primitive.whole("mode", 4);
     primitive.require_condition(mode <= 6, "mode: wanted 0 to 6, found ", mode);
     const std::optional<JsonObject> attributes = primitive.read_object_member("attributes");
-    if (attributes) check_attributes(*attributes, root);
+    if (attributes) {
+        check_attributes(*attributes, root);
+        note_unread_attributes(primitive, *attributes, root, notes);
+    }
     primitive.each("targets", [&](const JsonObject& target) { check_attributes(target, root); });
 }
 
@@ -129,7 +156,7 @@ void check_cross_references(const JsonObject& root, SceneFileOpener& files, Load
     root.each("cameras", [&](const JsonObject& camera) { check_camera_type(camera); });
     root.each("meshes", [&](const JsonObject& mesh) {
         mesh.each("primitives",
-                  [&](const JsonObject& primitive) { check_primitive(primitive, root); });
+                  [&](const JsonObject& primitive) { check_primitive(primitive, root, notes); });
     });
     root.each("animations",
               [&](const JsonObject& animation) { check_animation_channels(animation, notes); });

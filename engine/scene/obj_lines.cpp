@@ -18,13 +18,14 @@ std::string_view trim_blanks(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlankCharacters) + 1 - first);
 }
 
-/// Removes one line from the front of `text` and returns it, trimmed. Lines that end in a backslash
-/// are joined with the next in `joined`. Adds the number of lines read to `number`.
-std::string_view remove_first_line(std::string_view& text, std::size_t& number,
+/// Removes one line from the front of `text` and returns it, trimmed. `line_end` ends it. Lines
+/// that end in a backslash are joined with the next in `joined`. Adds the number of lines read to
+/// `number`.
+std::string_view remove_first_line(std::string_view& text, char line_end, std::size_t& number,
                                    std::string& joined) {
     joined.clear();
     while (!text.empty()) {
-        const std::size_t end = text.find('\n');
+        const std::size_t end = text.find(line_end);
         std::string_view part = trim_blanks(text.substr(0, end));
         text.remove_prefix(end == text.npos ? text.size() : end + 1);
         ++number;
@@ -50,10 +51,12 @@ void for_each_obj_line(const std::string& file, std::string_view text,
                        const std::function<void(const ObjLine&)>& body) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    // Without any line feed, carriage returns end the lines, as on the Macintosh of old.
+    const char line_end = text.find('\n') == text.npos ? '\r' : '\n';
     std::string joined, remark;
     for (std::size_t number = 0; !text.empty();) {
         const std::size_t first = number + 1;
-        std::string_view rest = remove_first_line(text, number, joined);
+        std::string_view rest = remove_first_line(text, line_end, number, joined);
         std::string_view keyword = remove_first_word(rest);
         if (keyword == "#" && remove_first_word(rest) == "catoptric" && !rest.empty()) {
             remark = "#";

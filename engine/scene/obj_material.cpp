@@ -73,25 +73,12 @@ ObjTextureUse parse_map_statement(const ObjLine& line) {
     return map;
 }
 
-/// Returns the real path of a map, or an empty path if it is missing. Backslashes are read as
-/// slashes. If the path is absolute or does not exist, the file name is looked up beside the scene.
-fs::path find_map_file(const std::string& name, const std::string& place, SceneFileOpener& files) {
-    std::string slashed = name;
-    std::ranges::replace(slashed, '\\', '/');
-    const bool is_absolute = slashed.starts_with('/') ||
-                             (slashed.size() > 2 && slashed.substr(1, 2) == ":/");
-    fs::path real = is_absolute ? fs::path() : files.find_scene_file_by_name(slashed, place);
-    const std::size_t last = slashed.rfind('/');
-    if (real.empty() && last != slashed.npos && last + 1 < slashed.size())
-        real = files.find_scene_file_by_name(slashed.substr(last + 1), place);
-    return real;
-}
-
 void add_map_to_mtl_material(const ObjLine& line, ObjReadContext& context, MtlLibrary& library) {
     ObjTextureUse map = parse_map_statement(line);
     if (map.file.empty()) return;
-    map.real = find_map_file(map.file, line.describe_line_place(), context.files);
     map.place = line.describe_line_place();
+    map.real = context.files.find_scene_file_as_written(
+        map.file, fs::path(*line.file).parent_path(), map.place);
     MtlMaterial& draft = library.drafts.back();
     if (line.keyword == "map_Kd")
         draft.colour = std::move(map);
@@ -153,8 +140,8 @@ bool add_statement_to_mtl_material(const ObjLine& line, MtlMaterial& draft, Load
         return true;
     }
     if (line.keyword == "Tr") {
-        draft.alpha = 1 - parse_line_number(line);
-        note_if_clamped(line, {*draft.alpha}, notes);
+        draft.transparency = parse_line_number(line);
+        note_if_clamped(line, {*draft.transparency}, notes);
         return true;
     }
     if (line.keyword == "#two_sided") return draft.two_sided = true;
@@ -276,8 +263,20 @@ private:
         material_.two_sided = is_lamp ? mtl_material_.two_sided : !mtl_material_.fixed_normals;
     }
 
+    /// Returns the alpha of `d`, else of `Tr`, which some programs write with the meaning of `d`.
+    double read_alpha() {
+        const auto unit = [](double number) { return std::clamp(number, 0.0, 1.0); };
+        const double by_tr = 1 - unit(mtl_material_.transparency.value_or(0));
+        if (!mtl_material_.alpha) return by_tr;
+        const double alpha = unit(*mtl_material_.alpha);
+        const bool contradicts = mtl_material_.transparency && std::abs(alpha - by_tr) > 1e-4;
+        context_.notes.add_note("materials whose d and Tr contradict each other, drawn by d",
+                                mtl_material_.place, contradicts ? 1 : 0);
+        return alpha;
+    }
+
     void set_mtl_transparency() {
-        const double alpha = std::clamp(mtl_material_.alpha.value_or(1), 0.0, 1.0);
+        const double alpha = read_alpha();
         const bool is_glass = kind_ == 4 || kind_ == 6 || kind_ == 7 || kind_ == 9 ||
                               (alpha < 1 && mtl_material_.ior.value_or(1) > 1.01);
         if (is_glass) {

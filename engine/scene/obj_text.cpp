@@ -1,11 +1,14 @@
 #include "scene/obj_text.hpp"
 
 #include "core/text.hpp"
+#include "scene/texel.hpp"
 #include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -33,9 +36,12 @@ public:
 private:
     void library(const ObjLine& line);
     void library_file(const ObjLine& line, const std::string& name);
+    fs::path find_library(const ObjLine& line, std::string_view name);
     void position(const ObjLine& line);
     void texture_coordinates(const ObjLine& line);
+    void smoothing_group(const ObjLine& line);
     void face(const ObjLine& line);
+    void add_face_to_smooth_normals();
     ObjCorner corner(const ObjLine& line, std::string_view word) const;
     void group(const ObjLine& line);
     void select_obj_material(const ObjLine& line);
@@ -48,14 +54,19 @@ private:
     std::unordered_map<std::string, std::size_t> material_of_;
     std::optional<std::size_t> material_;               ///< material of the next faces
     std::size_t positions_ = 0, normals_ = 0, uvs_ = 0; ///< counts in the second pass so far
-    bool has_faces_ = false;                            ///< whether the last shape has faces
+    std::size_t file_normals_ = 0; ///< count in the file; those of smoothing groups follow
+    bool has_faces_ = false;       ///< whether the last shape has faces
+    std::uint32_t smoothing_ = 0;  ///< smoothing group of the next faces; 0: they are flat
+    /// Index in text_.normals by smoothing group and position. Until the end, these normals are
+    /// sums over faces, weighted by area.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> smooth_normals_;
     /// Corners and triangles of the current face.
     std::vector<ObjCorner> polygon_, triangles_;
 };
 
 void ObjReader::library_file(const ObjLine& line, const std::string& name) {
     const std::string place = line.describe_line_place() + ": mtllib";
-    const fs::path real = context_.files.find_scene_file_by_name(name, place);
+    const fs::path real = find_library(line, name);
     if (real.empty()) {
         context_.notes.add_note("material libraries that are not there",
                                 place + ": " + quote_text_with_escapes(name));
@@ -65,24 +76,66 @@ void ObjReader::library_file(const ObjLine& line, const std::string& name) {
         read_material_library(real, place, context_, text_.library);
 }
 
-/// Reads `mtllib`. The line is one name with spaces if such a file exists, else several names.
+fs::path ObjReader::find_library(const ObjLine& line, std::string_view name) {
+    return context_.files.find_scene_file_as_written(name, fs::path(file_).parent_path(),
+                                                     line.describe_line_place() + ": mtllib");
+}
+
+/// Splits file names at blanks that are not in quotes, up to a comment.
+std::vector<std::string_view> split_quoted_names(const ObjLine& line) {
+    std::vector<std::string_view> names;
+    std::string_view rest = line.rest;
+    while (!rest.empty() && rest.front() != '#') {
+        const std::size_t end = rest.front() == '"' ? rest.find('"', 1) : rest.npos;
+        if (end == rest.npos) {
+            names.push_back(remove_first_word(rest));
+            continue;
+        }
+        names.push_back(rest.substr(0, end + 1));
+        rest.remove_prefix(end + 1);
+        rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    }
+    return names;
+}
+
+/// Returns whether a name ends in ".mtl", perhaps with a quote behind it.
+bool ends_in_library(std::string_view word) {
+    if (word.ends_with('"')) word.remove_suffix(1);
+    if (word.size() < 4) return false;
+    std::string end(word.substr(word.size() - 4));
+    std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
+    return end == ".mtl";
+}
+
+/// Reads `mtllib`: several names, of which each may have blanks. A name ends with the first word in
+/// .mtl, if a file has this name; else with fewer words.
 void ObjReader::library(const ObjLine& line) {
-    const std::vector<std::string_view> names = split_words(line);
-    check(!names.empty(), Failure::bad_data, line.describe_line_place(),
+    constexpr std::size_t kMostJoinedWords = 16; // each number of words asks for a file
+    const std::vector<std::string_view> words = split_quoted_names(line);
+    check(!words.empty(), Failure::bad_data, line.describe_line_place(),
           ": mtllib wants a file name, found none");
-    const std::string all(line.rest);
-    const bool is_one = names.size() > 1 && all.size() <= SceneFileOpener::kMaxFileNameLength &&
-                        !context_.files
-                             .find_scene_file_by_name(all, line.describe_line_place() + ": mtllib")
-                             .empty();
-    if (is_one) return library_file(line, all);
-    for (const std::string_view name : names) library_file(line, std::string(name));
+    for (std::size_t first = 0; first < words.size();) {
+        const auto last = std::find_if(words.begin() + std::ptrdiff_t(first), words.end(),
+                                       ends_in_library);
+        std::size_t end = last == words.end() ? words.size()
+                                              : std::size_t(last - words.begin()) + 1;
+        end = std::min(end, first + kMostJoinedWords);
+        const auto name = [&] {
+            return std::string(words[first].data(), words[end - 1].data() + words[end - 1].size());
+        };
+        while (end > first + 1 && (name().size() > SceneFileOpener::kMaxFileNameLength ||
+                                   find_library(line, name()).empty()))
+            --end;
+        library_file(line, name());
+        first = end;
+    }
 }
 
 /// Maps names to materials. If materials share a name, the first is used.
 void ObjReader::index_materials_by_name() {
     for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
         material_of_.try_emplace(text_.library.drafts[i].name, i);
+    file_normals_ = text_.normals.size();
 }
 
 void ObjReader::select_obj_material(const ObjLine& line) {
@@ -147,7 +200,7 @@ ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
                                      text_.positions.size(), "vertices"),
                      kMissingObjIndex, kMissingObjIndex};
     if (last != slash && last + 1 != word.size())
-        corner.normal = parse_obj_index(line, word.substr(last + 1), normals_, text_.normals.size(),
+        corner.normal = parse_obj_index(line, word.substr(last + 1), normals_, file_normals_,
                                         "normals");
     if (slash == word.npos) return corner;
     const std::string_view uv = word.substr(slash + 1,
@@ -155,6 +208,40 @@ ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
     if (!uv.empty())
         corner.uv = parse_obj_index(line, uv, uvs_, text_.uv.size(), "texture coordinates");
     return corner;
+}
+
+/// Reads `s`: the number of a smoothing group, or "off" or 0 for flat faces.
+void ObjReader::smoothing_group(const ObjLine& line) {
+    std::string_view rest = line.rest;
+    const std::string_view word = remove_first_word(rest);
+    smoothing_ = 0;
+    const auto result = std::from_chars(word.data(), word.data() + word.size(), smoothing_);
+    const bool is_number = result.ec == std::errc() && result.ptr == word.data() + word.size();
+    if (!is_number) smoothing_ = 0;
+    context_.notes.add_note("smoothing groups that are no numbers, drawn flat",
+                            line.describe_line_place(), is_number || word == "off" ? 0 : 1);
+}
+
+/// Gives the corners without a normal that of their position in the smoothing group.
+void ObjReader::add_face_to_smooth_normals() {
+    if (smoothing_ == 0) return;
+    dvec3 area(0); // along the normal, as long as the area is large (Newell)
+    for (std::size_t i = 0; i < polygon_.size(); ++i)
+        area += glm::cross(text_.positions[polygon_[i].position] -
+                               text_.positions[polygon_[0].position],
+                           text_.positions[polygon_[(i + 1) % polygon_.size()].position] -
+                               text_.positions[polygon_[0].position]);
+    for (ObjCorner& corner : polygon_) {
+        if (corner.normal != kMissingObjIndex) continue;
+        const auto [entry, is_new] = smooth_normals_.try_emplace(
+            {smoothing_, corner.position}, static_cast<std::uint32_t>(text_.normals.size()));
+        if (is_new) {
+            context_.account.normals.add_amount_within_budget(1, file_);
+            text_.normals.emplace_back(0);
+        }
+        corner.normal = entry->second;
+        text_.normals[corner.normal] += area;
+    }
 }
 
 void ObjReader::face(const ObjLine& line) {
@@ -171,6 +258,7 @@ void ObjReader::face(const ObjLine& line) {
     std::string_view rest = line.rest;
     for (std::size_t i = 0; i < count; ++i)
         polygon_.push_back(corner(line, remove_first_word(rest)));
+    add_face_to_smooth_normals();
     triangulate_polygon(polygon_, text_.positions, context_.account.cuts, line, triangles_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto [position, normal, uv] = triangles_[i];
@@ -193,7 +281,10 @@ void ObjReader::position(const ObjLine& line) {
     if (count < 6) return;
     const std::vector<double> rgb = parse_word_numbers(line, split_words(line), count > 6 ? 4 : 3,
                                                        3);
-    text_.colours.back() = vec3(glm::clamp(dvec3(rgb[0], rgb[1], rgb[2]), 0.0, 1.0));
+    for (int channel = 0; channel < 3; ++channel)
+        text_.colours.back()[channel] = static_cast<float>(
+            linear_from_srgb_value(std::clamp(rgb[std::size_t(channel)], 0.0, 1.0)));
+    context_.notes.add_note("colours of vertices, read as sRGB", line.describe_line_place());
     if (std::ranges::any_of(rgb, [](double value) { return is_clamped_factor(value); }))
         context_.notes.add_note(kClampedFactorNote, line.describe_line_place());
 }
@@ -219,7 +310,7 @@ void ObjReader::read_first_pass_line(const ObjLine& line) {
     } else if (line.keyword.front() == '#') {
         add_catoptric_comment(text_.remarks, line, context_.account);
     } else if (line.keyword != "f" && line.keyword != "o" && line.keyword != "g" &&
-               line.keyword != "usemtl") {
+               line.keyword != "usemtl" && line.keyword != "s") {
         if (line.keyword == "p" || line.keyword == "l")
             add_unsupported_feature(context_.unsupported, "points-lines",
                                     line.describe_line_place());
@@ -232,6 +323,7 @@ void ObjReader::read_second_pass_line(const ObjLine& line) {
     if (line.keyword == "vn") ++normals_;
     if (line.keyword == "vt") ++uvs_;
     if (line.keyword == "f") face(line);
+    if (line.keyword == "s") smoothing_group(line);
     if (line.keyword == "o" || line.keyword == "g") group(line);
     if (line.keyword == "usemtl") select_obj_material(line);
 }

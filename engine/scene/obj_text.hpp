@@ -84,7 +84,7 @@ struct MtlMaterial {
     std::string name, place;
     std::optional<dvec3> diffuse, specular;
     vec3 emission{0};
-    std::optional<double> shininess, ior, roughness, metallic, kind, alpha, clearcoat,
+    std::optional<double> shininess, ior, roughness, metallic, kind, alpha, transparency, clearcoat,
         clearcoat_roughness;
     std::optional<ObjTextureUse> colour, cut, normals; ///< map_Kd, map_d and norm
     bool two_sided = false, fixed_normals = false;     ///< set by `# catoptric` comments

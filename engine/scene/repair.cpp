@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <unordered_map>
 
 namespace catoptric::scene {
 
@@ -109,6 +111,33 @@ bool has_surface_area(const Scene& scene, const Object& object) {
     });
 }
 
+/// Largest alpha of a texture, by its image.
+class LargestAlphas {
+public:
+    double find_largest_alpha(const std::optional<Texture>& texture) {
+        if (!texture) return 1;
+        const auto [entry, is_new] = of_.try_emplace(texture->image.get(), 0.0);
+        if (is_new)
+            for (const std::uint32_t texel : texture->image->texels)
+                entry->second = std::max(entry->second, double(texel >> 24) / 255);
+        return entry->second;
+    }
+
+private:
+    std::unordered_map<const Image*, double> of_;
+};
+
+/// Returns whether a surface can be seen at all. Blended and cut-out surfaces can have no alpha.
+bool can_be_seen(const Scene& scene, const Object& object, LargestAlphas& alphas) {
+    const Material& material = scene.materials[object.material];
+    if (!material.blended && material.alpha_cutoff <= 0) return true;
+    double alpha = material.alpha * alphas.find_largest_alpha(material.albedo_texture);
+    const std::vector<vec4>& colours = scene.meshes[object.mesh].colours;
+    if (!colours.empty())
+        alpha *= double{std::ranges::max(colours, {}, [](const vec4& c) { return c.w; }).w};
+    return material.blended ? alpha > 0 : alpha >= double{material.alpha_cutoff};
+}
+
 } // namespace
 
 std::size_t count_corners_without_normal(const Mesh& mesh) {
@@ -147,6 +176,14 @@ void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& not
     for (const std::string& name : remove_distant_objects(scene))
         notes.add_note("objects farther away than floats reach, left out",
                        quote_text_with_escapes(name));
+    LargestAlphas alphas;
+    for (const Object& object : scene.objects)
+        if (!can_be_seen(scene, object, alphas))
+            notes.add_note(
+                "objects of which nothing can be seen, because their alpha is 0 or below "
+                "the cutoff",
+                quote_text_with_escapes(object.name) + ", of material " +
+                    quote_text_with_escapes(scene.materials[object.material].name));
     const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",

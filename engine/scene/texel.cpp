@@ -32,14 +32,15 @@ std::uint32_t wrap_texel_index(Texture::Wrap wrap, double coordinate, std::uint3
 
 } // namespace
 
+double linear_from_srgb_value(double value) { // IEC 61966-2-1
+    return value <= .04045 ? value / 12.92 : std::pow((value + .055) / 1.055, 2.4);
+}
+
 float linear_from_srgb(std::uint32_t byte) {
     static const std::array<float, 256> kLinearFromSrgbTable = [] {
         std::array<float, 256> table;
-        for (std::size_t i = 0; i < table.size(); ++i) { // IEC 61966-2-1
-            const double c = static_cast<double>(i) / 255;
-            table[i] = static_cast<float>(c <= .04045 ? c / 12.92
-                                                      : std::pow((c + .055) / 1.055, 2.4));
-        }
+        for (std::size_t i = 0; i < table.size(); ++i)
+            table[i] = static_cast<float>(linear_from_srgb_value(static_cast<double>(i) / 255));
         return table;
     }();
     return kLinearFromSrgbTable[byte & 255u];

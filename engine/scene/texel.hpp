@@ -5,6 +5,8 @@
 /// Texture lookups on the processor, for scenes that are classified before anything is drawn.
 namespace catoptric::scene {
 
+/// Returns an sRGB value of 0 to 1 as linear light.
+double linear_from_srgb_value(double value);
 /// Returns an 8-bit sRGB value as linear light, 0 to 1.
 float linear_from_srgb(std::uint32_t byte);
 

@@ -162,7 +162,7 @@ TEST_F(LoadBudgetTest, MaterialLibraryNamedManyTimesIsReadOnce) {
     EXPECT_EQ(scene.materials[scene.objects[0].material].name, "999");
     EXPECT_THAT(budget_error_text("y.obj",
                                   [&] {
-                                      for (int i = 0; i < 1000; ++i)
+                                      for (int i = 0; i < 2000; ++i)
                                           text += "mtllib m.mtl n.mtl ./m.mtl\n";
                                       return text;
                                   }()),
