@@ -1,7 +1,6 @@
 #include "core/exr_colours.hpp"
 
 #include "core/error.hpp"
-#include "core/exr_stream.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -9,11 +8,13 @@
 #include <map>
 #include <new>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
@@ -21,6 +22,26 @@
 namespace catoptric {
 
 namespace {
+
+/// Lets OpenEXR read from a source of bytes.
+class ExrByteSourceInput final : public Imf::IStream {
+public:
+    explicit ExrByteSourceInput(const RandomAccessByteSource& bytes)
+        : IStream("memory"), bytes_(bytes) {}
+    bool read(char into[], int size) override {
+        const std::span<char> wanted(into, static_cast<std::size_t>(size));
+        if (bytes_.read(at_, wanted) < wanted.size())
+            throw std::runtime_error("the file ends too early");
+        at_ += wanted.size();
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+
+private:
+    const RandomAccessByteSource& bytes_;
+    std::uint64_t at_ = 0;
+};
 
 /// Colours that one part of a file has under one name.
 struct ExrLayer {

@@ -8,6 +8,11 @@
 
 namespace catoptric {
 
+/// Returns the number of threads that encode or decode a picture; 0: the calling thread does. The
+/// first large picture starts OpenEXR's threads, unless the program that uses this library has. A
+/// small picture takes less time than starting a thread.
+int start_exr_threads(uvec2 size);
+
 /// Reads the colours of an OpenEXR file by the names of its layers, in the display window.
 ///
 /// A layer is the part of a channel's name before its last dot; in a file of several parts, the

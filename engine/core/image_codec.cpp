@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/exr_colours.hpp"
-#include "core/exr_read.hpp"
 #include "core/image_header.hpp"
 #include "core/image_module.hpp"
 #include "core/png_read.hpp"
@@ -134,8 +133,6 @@ struct ImageReader::CodecImageReadState {
                 png->read_image_rows(first, row_count, type, values);
             else if (colours || radiance)
                 read_colour_rows(first, row_count, type, values);
-            else if (exr && type == ImageCodecValueType::float32)
-                exr->read_image_rows(first, row_count, static_cast<float*>(values));
             else
                 open_codec().read_image_rows(first, row_count, type, values);
         } catch (const std::bad_alloc&) {
@@ -189,7 +186,6 @@ struct ImageReader::CodecImageReadState {
     std::string format, name;
     ImageSizeAndChannels shape = {};
     std::optional<PngReader> png = {};
-    std::unique_ptr<ExrReader> exr = {}; ///< reader for the floats of usual OpenEXR files
     std::unique_ptr<ExrColourReader> colours = {};
     std::optional<RadianceHeader> radiance = {};
     std::vector<float> turned = {}; ///< all pixels of a Radiance picture in unusual order
@@ -228,11 +224,7 @@ ImageReader::ImageReader(const RandomAccessByteSource& bytes, const std::string&
         accept(image_state_->colours->image_size_and_channels());
         return;
     }
-    if (format == "openexr")
-        image_state_->exr = ExrReader::open_usual_picture(bytes, image_state_->name,
-                                                          image_state_->shape.size);
-    accept(image_state_->exr ? image_state_->exr->image_size_and_channels()
-                             : image_state_->open_codec().image_size_and_channels());
+    accept(image_state_->open_codec().image_size_and_channels());
 }
 
 ImageReader::~ImageReader() = default;

@@ -13,8 +13,9 @@
 #include <string_view>
 #include <vector>
 
-// Pictures in files. PNG is read and written by libpng (core/png.cpp, core/png_read.cpp), usual
-// OpenEXR files by OpenEXR (core/exr.cpp), everything else by OpenImageIO. OpenImageIO is in a
+// Pictures in files. PNG is read and written by libpng (core/png.cpp, core/png_read.cpp), the
+// colours of OpenEXR files by OpenEXR (core/exr.cpp, core/exr_colours.cpp), everything else by
+// OpenImageIO. OpenImageIO is in a
 // module that is loaded at first use (core/image_module.hpp). If the module is missing, functions
 // throw `internal`.
 namespace catoptric {

@@ -33,36 +33,10 @@ fs::path resolve_symbolic_links(const fs::path& path) {
     return real ? fs::path(real.get()) : fs::path();
 }
 
-bool is_same_in_any_case(std::string_view a, std::string_view b) {
-    return std::ranges::equal(
-        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-/// Returns the path of `name` below `folder` with the letter case of the files on the disk, or an
-/// empty path. If several fit, the first in alphabetical order.
-fs::path find_in_any_case(const fs::path& folder, const fs::path& name) {
-    constexpr int kMaxFolderEntries = 65536;
-    fs::path found = folder;
-    std::error_code error;
-    for (const fs::path& step : name) {
-        if (fs::exists(found / step, error)) {
-            found /= step;
-            continue;
-        }
-        fs::path nearest;
-        int count = 0;
-        for (fs::directory_iterator at(found, error), end; !error && at != end;
-             at.increment(error)) {
-            if (++count > kMaxFolderEntries) break;
-            const fs::path file = at->path().filename();
-            if (is_same_in_any_case(file.string(), step.string()) &&
-                (nearest.empty() || file < nearest))
-                nearest = file;
-        }
-        if (nearest.empty()) return {};
-        found /= nearest;
-    }
-    return found;
+std::string to_lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
 }
 
 std::string_view trim_spaces(std::string_view text) {
@@ -199,9 +173,40 @@ bool SceneFileOpener::is_allowed_file(const fs::path& real) const {
            fs::is_regular_file(real, error);
 }
 
-fs::path SceneFileOpener::find_scene_file_as_written(std::string_view written,
-                                                     const fs::path& folder,
-                                                     const std::string& place) {
+const SceneFileOpener::FolderListing& SceneFileOpener::list_folder(const fs::path& folder) {
+    constexpr int kMaxFolderEntries = 65536;
+    const auto [entry, is_new] = listings_.try_emplace(folder);
+    if (!is_new) return entry->second;
+    std::error_code error;
+    int count = 0;
+    for (fs::directory_iterator at(folder, error), end;
+         !error && at != end && count < kMaxFolderEntries; at.increment(error), ++count) {
+        const std::string file = at->path().filename().string();
+        const auto [name, is_first] = entry->second.try_emplace(to_lower_case(file), file);
+        if (!is_first) name->second = std::min(name->second, file);
+    }
+    return entry->second;
+}
+
+fs::path SceneFileOpener::find_in_any_case(const fs::path& folder, const fs::path& name) {
+    fs::path found = folder;
+    std::error_code error;
+    for (const fs::path& step : name) {
+        if (step == ".." || step.is_absolute()) return {}; // no folder outside is listed
+        if (!fs::exists(found / step, error)) {
+            const FolderListing& listing = list_folder(found);
+            const auto file = listing.find(to_lower_case(step.string()));
+            if (file == listing.end()) return {};
+            found /= file->second;
+        } else {
+            found /= step;
+        }
+    }
+    return found;
+}
+
+fs::path SceneFileOpener::find_as_written(std::string_view written, const fs::path& folder,
+                                          const std::string& place) {
     const MeaningsOfName names = list_meanings_of_name(written);
     const std::string first = names.whole.empty() ? std::string(written) : names.whole.front();
     if (written.size() > kMaxFileNameLength || written.find('\0') != written.npos)

@@ -3,6 +3,7 @@
 #include "scene/account.hpp"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -38,9 +39,9 @@ public:
     /// with backslashes, a comment behind it, another case of letters or the folders of another
     /// machine. Looks in `folder`, then beside the scene: for the whole name, then for its last
     /// step. Letters of another case count only if no file has the name itself.
-    std::filesystem::path find_scene_file_as_written(std::string_view written,
-                                                     const std::filesystem::path& folder,
-                                                     const std::string& place);
+    std::filesystem::path find_as_written(std::string_view written,
+                                          const std::filesystem::path& folder,
+                                          const std::string& place);
 
     /// Does the same as `find_scene_file_by_name`, but throws `missing_input` if the file does not
     /// exist.
@@ -56,6 +57,13 @@ public:
     const std::vector<std::filesystem::path>& list_found_files() const { return found_; }
 
 private:
+    using FolderListing = std::map<std::string, std::string>; ///< names by their lower-case letters
+
+    const FolderListing& list_folder(const std::filesystem::path& folder);
+    /// Returns the path of `name` below `folder` with the letter case of the files on the disk, or
+    /// an empty path. If several fit, the first in alphabetical order.
+    std::filesystem::path find_in_any_case(const std::filesystem::path& folder,
+                                           const std::filesystem::path& name);
     bool is_allowed_file(const std::filesystem::path& real) const;
     void add_file(const std::filesystem::path& real);
     void check_file_lies_below_root(const std::filesystem::path& real, const std::string& name,
@@ -65,6 +73,7 @@ private:
     SceneLoadBudgetUsage& account_;
     std::vector<std::filesystem::path> found_;
     std::unordered_set<std::string> known_; ///< the paths in `found_`, for lookup
+    std::map<std::filesystem::path, FolderListing> listings_;
 };
 
 } // namespace catoptric::scene

@@ -77,8 +77,8 @@ void add_map_to_mtl_material(const ObjLine& line, ObjReadContext& context, MtlLi
     ObjTextureUse map = parse_map_statement(line);
     if (map.file.empty()) return;
     map.place = line.describe_line_place();
-    map.real = context.files.find_scene_file_as_written(
-        map.file, fs::path(*line.file).parent_path(), map.place);
+    map.real = context.files.find_as_written(map.file, fs::path(*line.file).parent_path(),
+                                             map.place);
     MtlMaterial& draft = library.drafts.back();
     if (line.keyword == "map_Kd")
         draft.colour = std::move(map);

@@ -41,7 +41,7 @@ private:
     void texture_coordinates(const ObjLine& line);
     void smoothing_group(const ObjLine& line);
     void face(const ObjLine& line);
-    void add_face_to_smooth_normals();
+    void smooth_face();
     ObjCorner corner(const ObjLine& line, std::string_view word) const;
     void group(const ObjLine& line);
     void select_obj_material(const ObjLine& line);
@@ -77,8 +77,8 @@ void ObjReader::library_file(const ObjLine& line, const std::string& name) {
 }
 
 fs::path ObjReader::find_library(const ObjLine& line, std::string_view name) {
-    return context_.files.find_scene_file_as_written(name, fs::path(file_).parent_path(),
-                                                     line.describe_line_place() + ": mtllib");
+    return context_.files.find_as_written(name, fs::path(file_).parent_path(),
+                                          line.describe_line_place() + ": mtllib");
 }
 
 /// Splits file names at blanks that are not in quotes, up to a comment.
@@ -223,7 +223,7 @@ void ObjReader::smoothing_group(const ObjLine& line) {
 }
 
 /// Gives the corners without a normal that of their position in the smoothing group.
-void ObjReader::add_face_to_smooth_normals() {
+void ObjReader::smooth_face() {
     if (smoothing_ == 0) return;
     dvec3 area(0); // along the normal, as long as the area is large (Newell)
     for (std::size_t i = 0; i < polygon_.size(); ++i)
@@ -258,7 +258,7 @@ void ObjReader::face(const ObjLine& line) {
     std::string_view rest = line.rest;
     for (std::size_t i = 0; i < count; ++i)
         polygon_.push_back(corner(line, remove_first_word(rest)));
-    add_face_to_smooth_normals();
+    smooth_face();
     triangulate_polygon(polygon_, text_.positions, context_.account.cuts, line, triangles_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto [position, normal, uv] = triangles_[i];

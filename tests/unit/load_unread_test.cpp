@@ -44,11 +44,13 @@ TEST_F(LoadUnreadFeaturesTest, ClampedColoursAndFactorsGiveAWarning) {
                                "newmtl b\nd 1.5\nPr -1\nPm 2\nTr 3\nKs 0 -1 0\nPc 7\nPcr 7\n");
     EXPECT_THAT(
         load_and_list_warnings("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"),
-        testing::Contains(testing::AllOf(HasSubstr(kind + "8 (first: "),
-                                         HasSubstr("m.mtl:2: 'Kd 51 102 153')"))));
+        ElementsAre(
+            testing::AllOf(HasSubstr(kind + "8 (first: "), HasSubstr("m.mtl:2: 'Kd 51 102 153')")),
+            HasSubstr("drawn by d: 1 (first: ")));
     EXPECT_THAT(
         load_and_list_warnings("y.obj", "v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n"),
-        testing::Contains(testing::AllOf(HasSubstr(kind + "1 (first: "), EndsWith("y.obj:1)"))));
+        ElementsAre(HasSubstr("colours of vertices, read as sRGB: 3"),
+                    testing::AllOf(HasSubstr(kind + "1 (first: "), EndsWith("y.obj:1)"))));
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["materials"] = {
         {{"name", "red"},
