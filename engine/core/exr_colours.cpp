@@ -112,7 +112,7 @@ struct ExrContents {
     std::vector<std::string> list_layer_names() const {
         std::vector<std::string> names;
         for (const ExrLayer& layer : layers)
-            names.push_back(layer.name.empty() ? "(without a name)" : layer.name);
+            names.push_back(layer.name.empty() ? "(colours without a layer)" : layer.name);
         return names;
     }
 

@@ -211,7 +211,6 @@ fs::path SceneFileOpener::find_as_written(std::string_view written, const fs::pa
     const std::string first = names.whole.empty() ? std::string(written) : names.whole.front();
     if (written.size() > kMaxFileNameLength || written.find('\0') != written.npos)
         return find_scene_file_by_name(first, place); // refuses the name
-    account_.files.add_amount_within_budget(1, place);
     for (const std::vector<std::string>* const list : {&names.whole, &names.last_steps})
         for (const std::string& name : *list)
             for (const bool any_case : {false, true})
@@ -224,6 +223,7 @@ fs::path SceneFileOpener::find_as_written(std::string_view written, const fs::pa
                         check_file_lies_below_root(real, name, place);
                         return find_scene_file_by_name(path.string(), place);
                     }
+                    account_.files.add_amount_within_budget(1, place);
                     add_file(real);
                     return real;
                 }
