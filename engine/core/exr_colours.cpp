@@ -120,15 +120,16 @@ struct ExrContents {
     std::vector<std::string> channel_names;
 };
 
+[[noreturn]] void refuse_several_layers(const ExrContents& file, const std::string& name) {
+    fail(Failure::bad_data, name, ": wanted one picture, found the layers ",
+         join_names(file.list_layer_names()), "; choose one with FILE:LAYER");
+}
+
 ExrLayer choose_layer(const ExrContents& file, const std::string& name, const std::string& wanted) {
     const auto keep = [&](const auto& fits) {
         std::vector<ExrLayer> kept;
         std::ranges::copy_if(file.layers, std::back_inserter(kept), fits);
         return kept;
-    };
-    const auto refuse_several = [&] [[noreturn]] () {
-        fail(Failure::bad_data, name, ": wanted one picture, found the layers ",
-             join_names(file.list_layer_names()), "; choose one with FILE:LAYER");
     };
     if (file.layers.empty())
         fail(Failure::bad_data, name, ": wanted the channels R, G and B, or Y, found ",
@@ -141,7 +142,7 @@ ExrLayer choose_layer(const ExrContents& file, const std::string& name, const st
         if (named.empty())
             fail(Failure::bad_data, name, ": wanted one of the layers ",
                  join_names(file.list_layer_names()), ", found ", quote_text_with_escapes(wanted));
-        refuse_several();
+        refuse_several_layers(file, name);
     }
     const auto is_coloured = [](const ExrLayer& layer) { return layer.channels.front() == "R"; };
     const std::vector<ExrLayer> plain = keep(
@@ -150,7 +151,7 @@ ExrLayer choose_layer(const ExrContents& file, const std::string& name, const st
     const std::vector<ExrLayer> coloured = keep(is_coloured);
     if (plain.empty() && coloured.size() == 1) return coloured.front();
     if (coloured.empty() && file.layers.size() == 1) return file.layers.front();
-    refuse_several();
+    refuse_several_layers(file, name);
 }
 
 uvec2 window_size(const Imath::Box2i& window) {
