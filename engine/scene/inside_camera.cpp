@@ -15,6 +15,7 @@ namespace {
 struct RayCastSurfaceHit {
     double distance = 0;   ///< in lengths of the ray's direction
     bool is_front = false; ///< the surface's normal points towards the ray's origin
+    bool is_glass = false;
 };
 
 /// Ray casts through a scene at rest. Each ray is tested against every triangle.
@@ -63,6 +64,7 @@ std::optional<RayCastSurfaceHit> SceneRayCaster::find_first_hit(const dvec3& ori
         const Mesh& mesh = scene_.meshes[object.mesh];
         const bool has_back = is_mirror(scene_, object) ||
                               !is_one_sided(scene_.materials[object.material]);
+        const bool shows_behind = is_glass(scene_.materials[object.material]);
         const dvec3 from = transform_point_to_world(object_from_world_[i], origin);
         const dvec3 along = dmat3(object_from_world_[i]) * direction;
         for (const uvec3& t : mesh.triangles) {
@@ -72,7 +74,8 @@ std::optional<RayCastSurfaceHit> SceneRayCaster::find_first_hit(const dvec3& ori
             const dvec3 normal = dvec3(mesh.normals[t.x]) + dvec3(mesh.normals[t.y]) +
                                  dvec3(mesh.normals[t.z]);
             const bool is_front = dot(normal, along) < 0;
-            if (is_front || has_back) nearest = RayCastSurfaceHit{*distance, is_front};
+            if (is_front || has_back)
+                nearest = RayCastSurfaceHit{*distance, is_front, shows_behind};
         }
     }
     return nearest;
@@ -90,12 +93,25 @@ std::vector<dvec3> list_evenly_spread_directions(int count) {
     return all;
 }
 
-bool is_scene_closed_around(const SceneRayCaster& rays, const dvec3& centre) {
+/// Returns whether nearly every ray from the place meets a surface that `counts`.
+template <typename Counts>
+bool is_enclosed_by_surfaces(const SceneRayCaster& rays, const dvec3& place, Counts&& counts) {
     constexpr int kEnclosureTestRays = 64, kMaxMissedRays = 3;
     int misses = 0;
-    for (const dvec3& direction : list_evenly_spread_directions(kEnclosureTestRays))
-        if (!rays.find_first_hit(centre, direction) && ++misses > kMaxMissedRays) return false;
+    for (const dvec3& direction : list_evenly_spread_directions(kEnclosureTestRays)) {
+        const auto met = rays.find_first_hit(place, direction);
+        if (!(met && counts(*met)) && ++misses > kMaxMissedRays) return false;
+    }
     return true;
+}
+bool is_scene_closed_around(const SceneRayCaster& rays, const dvec3& centre) {
+    return is_enclosed_by_surfaces(rays, centre, [](const RayCastSurfaceHit&) { return true; });
+}
+/// Returns whether the place is inside a room: its walls are no glass and face the place. The
+/// inside of a can shows the backs of surfaces.
+bool is_in_room(const SceneRayCaster& rays, const dvec3& place) {
+    return is_enclosed_by_surfaces(
+        rays, place, [](const RayCastSurfaceHit& met) { return met.is_front && !met.is_glass; });
 }
 
 /// Returns whether nearly all surfaces that the camera sees turn their backs, over a grid of its
@@ -182,7 +198,7 @@ dvec3 round_to_thousandth(const dvec3& point, double extent) {
 
 } // namespace
 
-std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outside) {
+std::optional<InsideCamera> find_inside_camera(const Scene& scene, const Camera& outside) {
     const Bounds<double> box = bounds(scene);
     if (box.empty() || triangle_count(scene) > kMaxTestedTriangles) return std::nullopt;
     const SceneRayCaster rays(scene);
@@ -206,7 +222,7 @@ std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outsi
                              (1 + compute_visible_share_of_places(rays, places, tried));
         if (worth > best) best = worth, camera = tried;
     }
-    return camera;
+    return InsideCamera{camera, is_in_room(rays, camera.eye)};
 }
 
 } // namespace catoptric::scene

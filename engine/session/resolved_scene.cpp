@@ -267,14 +267,19 @@ scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
     if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
     const scene::Camera outside = scene::make_default_camera(scene, aspect);
-    const std::optional<scene::Camera> inside = scene::find_inside_camera(scene, outside);
-    const scene::Camera camera = inside.value_or(outside);
+    const auto inside = scene::find_inside_camera(scene, outside);
+    const bool is_room = inside && inside->is_in_room;
+    const scene::Camera camera = is_room ? inside->camera : outside;
     if (wanted.is_file)
         scene::add_unsupported_feature(scene.unsupported, "added-camera",
                                        "scene " + quote_text_with_escapes(scene.name));
-    wanted.said.push_back(std::string("no camera") + (inside ? ", a closed room" : "") +
+    wanted.said.push_back(std::string("no camera") + (is_room ? ", a closed room" : "") +
                           ": using --camera " + scene::format_camera(camera) +
-                          (inside ? " (inside)" : ""));
+                          (is_room ? " (inside)" : ""));
+    if (inside && !is_room)
+        wanted.said.back() += "; the scene is closed, but no room whose walls face its middle: "
+                              "--camera " +
+                              scene::format_camera(inside->camera) + " looks from inside";
     return camera;
 }
 
