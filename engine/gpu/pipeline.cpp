@@ -43,6 +43,7 @@ std::string describe_raster_pipeline(const RasterPipelineState& state,
     if (attachments.depth) name += "/depth";
     if (state.blending != Blending::none)
         name += state.blending == Blending::sum ? "/summed" : "/blended";
+    if (state.keeps_colour) name += "/keeps colour";
     if (state.hidden != TriangleWinding::none)
         name += state.hidden == TriangleWinding::clockwise ? "/no clockwise"
                                                            : "/no counterclockwise";
@@ -183,6 +184,7 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
     std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
     if (state.blending != Blending::none && !writes.empty())
         std::fill(writes.begin() + 1, writes.end(), decltype(write){});
+    if (state.keeps_colour && !writes.empty()) writes.front() = {};
     VkPipelineColorBlendStateCreateInfo blend{
         VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<std::uint32_t>(writes.size());

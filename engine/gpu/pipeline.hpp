@@ -34,6 +34,7 @@ struct RasterPipelineState {
     ShaderConstantValues features =
         {}; ///< constants of the scene; ignored by shaders that lack them
     Blending blending = Blending::none;
+    bool keeps_colour = false; ///< the first attachment stays as it is
 };
 
 struct ComputePipelineState {

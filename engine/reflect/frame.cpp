@@ -124,6 +124,7 @@ choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachM
             if (does_search_other_captures(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
+                shared.blended_alpha = std::min(shared.blended_alpha, options.blended_alpha);
                 shared.distance = TexelFormat::r32f;
             }
         } else if (choice.shared.capture) {
@@ -139,6 +140,7 @@ choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachM
         if (!options.distance) options.distance = shared.distance;
         options.surfaces = options.surfaces || shared.surfaces;
         options.second_layer = options.second_layer || shared.second_layer;
+        options.blended_alpha = std::min(options.blended_alpha, shared.blended_alpha);
         of_mirror.push_back(options);
     }
     return of_mirror;

@@ -21,6 +21,17 @@ constexpr auto kHybridKnobs = [] {
     return knobs;
 }();
 
+/// Searches that end on glass or a blended surface are left to rays: the captured colour there
+/// holds what the capture's centre sees behind the surface.
+render::CaptureOptions make_hybrid_capture_options(const render::FrameInputs& inputs,
+                                                   const TechniqueKnobSettings& settings) {
+    render::CaptureOptions options = make_capture_options(inputs, settings);
+    options.blended_alpha = 0;
+    options.surfaces = options.surfaces || inputs.scene.has_blended_surfaces() ||
+                       inputs.scene.has_glass();
+    return options;
+}
+
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
 MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
@@ -57,7 +68,7 @@ constexpr Technique kHybridTechnique{
     .knobs = kHybridKnobs,
     .compared = kHybridDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,
-    .capture = make_capture_options,
+    .capture = make_hybrid_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_hybrid_shading};
 const RegisteredTechnique kHybridRegistration{kHybridTechnique};

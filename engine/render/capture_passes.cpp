@@ -100,6 +100,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
         .set_pass_layer_count(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
                  edge = options.face, drawing = std::move(drawing),
+                 stores = cubes.distance.has_value(), alpha = options.blended_alpha,
                  leaves_out = options.leaves_out_spheres](PassCommands& commands) {
             const auto is_wanted = [&](std::size_t object) {
                 const ObjectDrawRange& range = scene.list_draw_ranges()[object];
@@ -120,6 +121,8 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
             draw_scene(commands, scene, drawing, is_shown, shown);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
             draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
+            if (stores)
+                draw_blended_distances(commands, scene, drawing, alpha, is_shown, shown);
         });
 }
 

@@ -129,7 +129,8 @@ CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t
 
 bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b) {
     return a.face == b.face && image_contents_of_capture(a) == image_contents_of_capture(b) &&
-           a.saturates == b.saturates && a.leaves_out_spheres == b.leaves_out_spheres;
+           a.saturates == b.saturates && a.blended_alpha == b.blended_alpha &&
+           a.leaves_out_spheres == b.leaves_out_spheres;
 }
 
 MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& inputs,

@@ -39,6 +39,9 @@ struct CaptureOptions {
     bool second_layer = false; ///< needs distance: adds a pass name2/1; fragment#peel must exist
     /// Needs distance: also stores the number and normal of the visible surface.
     bool surfaces = false;
+    /// Blended surfaces store their distance where their alpha is larger. A search that leaves what
+    /// it does not know to rays takes 0.
+    float blended_alpha = .5f;
     bool leaves_out_spheres = false; ///< mirrors that are exact spheres are not drawn
     float stored_unit = 1;           ///< scene units that a stored 1 means (unorm8: the range)
     ShadingLights lighting;

@@ -325,4 +325,25 @@ void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
                          drawing, wanted, {nullptr, shown});
 }
 
+void draw_blended_distances(PassCommands& commands, const GpuScene& scene,
+                            const SceneDrawSettings& drawing, float alpha,
+                            const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
+    if (!scene.has_blended_surfaces()) return;
+    gpu::RasterPipelineState state{"", "blended_distance.frag", drawing.store};
+    state.constants.emplace_back("blended_alpha", alpha);
+    state.keeps_colour = true;
+    scene.bind(commands);
+    for (const bool one_sided : {false, true}) {
+        state.hidden = one_sided ? find_back_face_winding(scene.list_views()[drawing.first_view])
+                                 : gpu::TriangleWinding::none;
+        draw_objects(
+            commands, scene, state, drawing.first_view, drawing.layers, {},
+            [&](std::size_t i) {
+                const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+                return range.blended && range.one_sided == one_sided && wanted(i);
+            },
+            {nullptr, shown});
+    }
+}
+
 } // namespace catoptric::render

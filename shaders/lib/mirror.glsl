@@ -100,6 +100,14 @@ bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
     return true;
 }
 
+// Returns whether the search ended on glass or a blended surface. The capture's colour there holds what its centre sees
+// behind the surface, and the ray sees something else.
+bool ends_on_see_through_surface(uint mirror, Lookup lookup) {
+    if (has_surfaces == 0u || (has_glass == 0u && has_blending == 0u) || lookup.state == kMiss) return false;
+    float number = read_captured_surface(mirror, lookup.direction).x;
+    return number == kBlendedSurface || (number > 0.0 && read_probe(uint(number) - 1u).kind >= kMirrorThinGlass);
+}
+
 #ifndef OWN_LOOKUP_COLOUR // the including shader may define these functions itself, for captures of two layers
 vec3 lookup_colour(uint mirror, Lookup lookup) { return colour_found_by_search(mirror, lookup); }
 // Returns the distance from the capture's centre to the last found surface; 0: not known.
@@ -345,7 +353,8 @@ void main() {
 #ifndef ABLATE
     if (rough == kRoughRays && is_stopped) out_colour.rgb = vec3(uintBitsToFloat(0x7fc00000u)); // the pixel is NaN
 #endif
-    if (tracer != 0u && (trusts_none != 0u || is_traced_glass || lookup.state == kUnknown)) {
+    if (tracer != 0u && (trusts_none != 0u || is_traced_glass || lookup.state == kUnknown ||
+        ends_on_see_through_surface(path.mirror, lookup))) {
         out_distance = float(tracer);
 #ifdef FIRST_HIT
         out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), drawn_mirror_number(), tracer);

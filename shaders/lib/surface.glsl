@@ -103,6 +103,9 @@ Surface find_surface_at_fragment(inout vec3 n, vec3 facet) {
     return surface;
 }
 
+// The number that captures store for a blended surface, which belongs to no object.
+const float kBlendedSurface = -4096.0;
+
 // Returns the number that captures store for the surface. A 16-bit float holds the number exactly. Two objects that are
 // no mirrors may share a number if they are far apart in the scene's list.
 float captured_surface_number() {
