@@ -32,7 +32,9 @@ struct UnsupportedCompression {
 };
 constexpr UnsupportedCompression kUnsupportedCompressions[] = {
     {"KHR_texture_basisu", ": textures compressed by Basis Universal are not read: wanted PNG, "
-                           "JPEG or WebP (for example with KTX-Software, or export without KTX2)"},
+                           "JPEG or WebP; to copy the file with PNG textures: python3 "
+                           "samples/scenes/unpack_ktx2.py FILE (installed in "
+                           "share/catoptric/scenes; needs npm)"},
     {"EXT_texture_avif", ": AVIF textures are not read: wanted PNG, JPEG or WebP "
                          "(gltf-transform png)"},
     {"MSFT_texture_dds", ": DDS textures are not read: wanted PNG, JPEG or WebP"}};

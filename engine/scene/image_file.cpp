@@ -1,11 +1,14 @@
 #include "scene/image_file.hpp"
 
 #include "core/image_codec.hpp"
+#include "core/shader_math.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace catoptric::scene {
@@ -31,10 +34,32 @@ std::vector<std::uint32_t> pack_texels(const ImageSizeAndChannels& shape,
     return texels;
 }
 
+/// Returns an image of a file that holds linear light, encoded as sRGB.
+Image encode_light(const ImageSizeAndChannels& shape, const ColourChannels& layout,
+                   const std::vector<float>& values) {
+    Image image{.size = shape.size, .texels = {}};
+    image.texels.reserve(std::size_t(shape.size.x) * shape.size.y);
+    const auto to_byte = [](float share) {
+        return share > 0 ? static_cast<std::uint32_t>(std::lround(std::min(share, 1.f) * 255)) : 0u;
+    };
+    for (std::size_t i = 0; i < values.size(); i += shape.channel_count) {
+        std::uint32_t texel = 0;
+        for (int channel = 0; channel < 3; ++channel) {
+            const float light = values[i + layout.rgb[std::size_t(channel)]];
+            image.is_clamped = image.is_clamped || light > 1;
+            texel |= to_byte(f32::srgb_from_linear_channel(light)) << 8 * channel;
+        }
+        const float alpha = layout.alpha < shape.channel_count ? values[i + layout.alpha] : 1;
+        image.texels.push_back(texel | to_byte(alpha) << 24);
+    }
+    return image;
+}
+
 } // namespace
 
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, SceneLoadBudgetUsage& account) {
+                                          const std::string& place, SceneLoadBudgetUsage& account,
+                                          bool is_light) {
     std::string format = detect_image_format(bytes);
     if (format.empty() && is_targa_file(file)) format = "targa";
     if (format.empty()) return nullptr;
@@ -53,6 +78,11 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
     const ImageSizeAndChannels& shape = image_reader.image_size_and_channels();
     account.texels.add_amount_within_budget(texels(shape), place);
     const ColourChannels channels = find_colour_channels(shape, place);
+    if (is_light && (format == "openexr" || format == "hdr")) {
+        Image image = encode_light(shape, channels, image_reader.floats());
+        image.name = file;
+        return std::make_shared<const Image>(std::move(image));
+    }
     return std::make_shared<const Image>(
         Image{.name = file,
               .size = shape.size,

@@ -16,6 +16,7 @@ struct Image {
     std::string name;
     uvec2 size{0};
     std::vector<std::uint32_t> texels; ///< size.x * size.y
+    bool is_clamped = false;           ///< its file holds light above 1, which is clamped
 };
 
 /// Image with the way in which a surface reads it. Texel (i, j) has its centre at ((i + .5) /

@@ -181,7 +181,7 @@ public:
     explicit MtlImageReader(ObjReadContext& context) : context_(context) {}
 
     std::optional<Texture> read_map_texture(const ObjTextureUse& map, bool srgb = true) {
-        const std::shared_ptr<const Image> image = read_image_of_map(map);
+        const std::shared_ptr<const Image> image = read_image_of_map(map, srgb);
         if (!image) {
             context_.notes.add_note(
                 "images that are not there or of a kind that is not read, drawn "
@@ -191,6 +191,9 @@ public:
                                     map.place + ": " + quote_text_with_escapes(map.file));
             return std::nullopt;
         }
+        if (image->is_clamped)
+            context_.notes.add_note("images with light above 1, clamped to 1",
+                                    map.place + ": " + quote_text_with_escapes(map.file));
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
         // Mesh v points down and .obj v up: v' = 1 - ((1 - v) scale + offset).
         const auto& [x, y] = map.scale;
@@ -203,18 +206,18 @@ public:
     }
 
 private:
-    std::shared_ptr<const Image> read_image_of_map(const ObjTextureUse& map) {
+    std::shared_ptr<const Image> read_image_of_map(const ObjTextureUse& map, bool srgb) {
         if (map.real.empty()) return nullptr;
-        const auto [entry, is_new] = images_.try_emplace(map.real.string());
+        const auto [entry, is_new] = images_.try_emplace({map.real.string(), srgb});
         if (is_new)
             entry->second = decode_image(
                 context_.files.read_file_content(map.real, map.place), map.file,
-                map.place + ": " + quote_text_with_escapes(map.file), context_.account);
+                map.place + ": " + quote_text_with_escapes(map.file), context_.account, srgb);
         return entry->second;
     }
 
     ObjReadContext& context_;
-    std::map<std::string, std::shared_ptr<const Image>> images_;
+    std::map<std::pair<std::string, bool>, std::shared_ptr<const Image>> images_; ///< by file, sRGB
 };
 
 constexpr double kUsualGlassIor = 1.5; // index of refraction of a material without Ni

@@ -42,9 +42,16 @@ std::shared_ptr<scene::Environment> read_environment_picture(const std::string& 
               path, ": wanted an environment of at most ", kMaxEnvironmentTexels, " texels, found ",
               width, "x", height);
     });
+    float brightest = 0;
+    for (const vec3& texel : picture.pixels)
+        brightest = std::max({brightest, texel.x, texel.y, texel.z});
+    // Filters and lossy compression leave values below 0 that are not meant.
+    constexpr float kMostOvershoot = 1e-2f;
+    const auto is_light = [&](float value) {
+        return std::isfinite(value) && value >= -kMostOvershoot * brightest;
+    };
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const vec3& texel = picture.pixels[i];
-        const auto is_light = [](float value) { return std::isfinite(value) && value >= 0; };
         const auto width = static_cast<std::size_t>(picture.width);
         check(is_light(texel.x) && is_light(texel.y) && is_light(texel.z), Failure::bad_data, path,
               ": texel ", i % width, ",", i / width, ": wanted finite light of at least 0, found ",
@@ -55,6 +62,7 @@ std::shared_ptr<scene::Environment> read_environment_picture(const std::string& 
     environment->size = {static_cast<std::uint32_t>(picture.width),
                          static_cast<std::uint32_t>(picture.height)};
     environment->texels = picture.pixels;
+    for (vec3& texel : environment->texels) texel = max(texel, vec3(0));
     return environment;
 }
 

@@ -1,5 +1,6 @@
 // Tests of files as other programs write them: names of files from other machines, line ends,
 // statements that contradict each other, numbers outside their range.
+#include "core/image_codec.hpp"
 #include "scene/image_file.hpp"
 #include "unit/load_fixture.hpp"
 
@@ -61,6 +62,27 @@ TEST_F(LoadForeign, LibrariesAndMapsAreFoundAsProgramsWriteTheirNames) {
     EXPECT_EQ(load_with_library("plain.mtl \"second.mtl\"").materials.size(), 2u);
     EXPECT_EQ(load_with_library("plain.mtl my third.mtl second.mtl").materials.size(), 3u);
     EXPECT_EQ(load_with_library("my third.mtl My Library\\room.mtl").materials.size(), 2u);
+}
+
+/// Pictures of floats hold linear light, which is encoded: they were read as sRGB, much too dark.
+TEST_F(LoadForeign, MapsOfFloatsHoldLinearLight) {
+    const auto texel_of = [&](float light, const char* statement) {
+        const std::string picture = encode_openexr({{1, 1}, 3, {}}, std::vector<float>(3, light));
+        write_file(folder / "maps/light.exr", picture);
+        const Scene scene = load_with_statements(std::string(statement) + " maps/light.exr\n");
+        const Material& material = scene.materials.at(0);
+        const bool is_normal = bool(material.normal_texture);
+        EXPECT_EQ(join_warnings(scene).find("light above 1, clamped") != std::string::npos,
+                  light > 1 && !is_normal)
+            << join_warnings(scene);
+        const Texture& texture = is_normal ? *material.normal_texture : *material.albedo_texture;
+        EXPECT_EQ(texture.srgb, !is_normal);
+        return texture.image->texels.at(0);
+    };
+    EXPECT_EQ(texel_of(.2158605f, "map_Kd"), 0xff808080u) << "IEC 61966-2-1";
+    EXPECT_EQ(texel_of(0, "map_Kd"), 0xff000000u);
+    EXPECT_EQ(texel_of(7, "map_Kd"), 0xffffffffu);
+    EXPECT_EQ(texel_of(.5f, "norm"), 0xff808080u) << "no light: not encoded";
 }
 
 TEST_F(LoadForeign, ExactNamesWinOverNamesInAnotherCase) {
