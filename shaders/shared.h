@@ -110,6 +110,8 @@ const uint kMaterialSolidFlag = 256u; // material flag: the glass is a solid bod
 const uint kMaterialBlendedFlag = 512u; // material flag: the surface covers what is behind it by its alpha
 // material flag: thin glass whose mesh is not closed, so that one facet is a whole sheet
 const uint kMaterialOpenSheetFlag = 1024u;
+const uint kMaterialRankedFlag = 2048u; // material flag: solid glass that shares space with other solid glass
+const uint kMaxRankedGlass = 255u;      // most MaterialParameters with this flag; they come first, by falling rank
 
 // The data of a vertex other than position and normal.
 struct VertexAttribute {
@@ -150,13 +152,14 @@ const uint kMaxLights = 128u; // most lights of a scene: 178 fit into 16 KiB, th
 
 // The data of a mirror's capture. Mirror n, counted from 0, has the layers [6 n, 6 n + 6) of the cube arrays.
 struct Probe {
-    vec3 centre;      // centre of the mirror's bounds, from which the capture is drawn
+    vec3 centre;      // from which the capture is drawn (engine/scene/capture_centre.hpp)
     vec3 sphere;      // centre of the exact sphere that the mirror's mesh approximates
     float radius;     // radius of the exact sphere; 0: the mirror's mesh approximates no sphere
     vec3 reflectance; // reflectance of the mirror; for a metal, seen head-on
     vec3 lowest;      // lowest corner of the mirror's bounds
     vec3 highest;     // highest corner of the mirror's bounds
     uint kind;        // kind of mirror, kMirror...
+    uint holds;       // 1: other objects may lie in the mirror, at least in part
 };
 // Kinds of mirror: constant, with the same reflectance at any angle; metal, by Schlick's approximation; lit, which also
 // has diffuse or emitted light that only captures show. Bodies of glass are lit mirrors, told apart by the model of the
@@ -299,6 +302,7 @@ struct PathStart {
     uint bounce;                         // surfaces that the path has met before; kNoPathStart: no path goes on
     uint is_shaded;                      // 1: the picture has the light of this surface's shading already
     uint pixel;                          // number of the pixel, row by row
+    uint bodies;                         // of glass that the path is in (lib/nested_glass.glsl)
 };
 const uint kNoPathStart = 0xffffffffu;
 const uint kMaxPathStarts = 262144u; // stored at a time; more pixels are traced in several turns
@@ -365,7 +369,7 @@ static_assert(sizeof(LampExtent) == 48);
 static_assert(sizeof(TextureUse) == 36);
 static_assert(sizeof(MaterialParameters) == 16 * kQuadsPerMaterial);
 static_assert(sizeof(VertexAttribute) == 32);
-static_assert(sizeof(Probe) == 68);
+static_assert(sizeof(Probe) == 72);
 static_assert(sizeof(CaptureLookupTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
 static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 208);
@@ -373,7 +377,7 @@ static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(DrawParameters) == 24);
 static_assert(sizeof(Placement) == 60);
 static_assert(sizeof(TraceParameters) == 36);
-static_assert(sizeof(PathStart) == 92);
+static_assert(sizeof(PathStart) == 96);
 static_assert(sizeof(PathStartArguments) == 16);
 static_assert(sizeof(Counters) == 28);
 static_assert(sizeof(ScreenParameters) == 24);

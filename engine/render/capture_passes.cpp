@@ -121,8 +121,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
             draw_scene(commands, scene, drawing, is_shown, shown);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
             draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
-            if (stores)
-                draw_blended_distances(commands, scene, drawing, alpha, is_shown, shown);
+            if (stores) draw_blended_distances(commands, scene, drawing, alpha, is_shown, shown);
         });
 }
 

@@ -336,13 +336,12 @@ void draw_blended_distances(PassCommands& commands, const GpuScene& scene,
     for (const bool one_sided : {false, true}) {
         state.hidden = one_sided ? find_back_face_winding(scene.list_views()[drawing.first_view])
                                  : gpu::TriangleWinding::none;
-        draw_objects(
-            commands, scene, state, drawing.first_view, drawing.layers, {},
-            [&](std::size_t i) {
-                const ObjectDrawRange& range = scene.list_draw_ranges()[i];
-                return range.blended && range.one_sided == one_sided && wanted(i);
-            },
-            {nullptr, shown});
+        draw_objects(commands, scene, state, drawing.first_view, drawing.layers, {},
+                     [&](std::size_t i) {
+                         const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+                         return range.blended && range.one_sided == one_sided && wanted(i);
+                     },
+                     {nullptr, shown});
     }
 }
 

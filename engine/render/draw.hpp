@@ -70,9 +70,9 @@ void draw_blended_surfaces(graph::PassCommands& commands, const GpuScene& scene,
                            const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                            std::span<const std::uint8_t> layers = {});
 
-/// Stores the distances of blended surfaces in a capture, where their alpha exceeds `alpha`, and the
-/// mark kBlendedSurface for the number of the surface. Call it after draw_blended_surfaces, with the
-/// same arguments.
+/// Stores the distances of blended surfaces in a capture, where their alpha exceeds `alpha`, and
+/// the mark kBlendedSurface for the number of the surface. Call it after draw_blended_surfaces,
+/// with the same arguments.
 void draw_blended_distances(graph::PassCommands& commands, const GpuScene& scene,
                             const SceneDrawSettings& drawing, float alpha,
                             const ObjectFilter& wanted, std::span<const std::uint8_t> layers = {});

@@ -9,9 +9,11 @@
 #include "render/limits.hpp"
 #include "render/texels.hpp"
 #include "render/views.hpp"
+#include "scene/capture_centre.hpp"
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace catoptric::render {
 
@@ -250,6 +252,15 @@ InnerOccluderBall GpuScene::make_inner_ball(std::size_t object, const dvec3& cen
     return ball;
 }
 
+/// Sets what depends on a mirror's place, and on the places of objects within it.
+void GpuScene::place_probe(const scene::Scene& now, std::size_t mirror) {
+    const std::size_t object = mirror_objects_[mirror];
+    probe_places_[mirror] = space_.world_to_scene_units(
+        scene::choose_capture_centre(now, object, within_[mirror]));
+    flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
+    inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
+}
+
 std::optional<scene::GlassBody> GpuScene::find_glass_body(const scene::Scene& now,
                                                           const scene::Object& object) {
     if (!scene::is_glass(now.materials[object.material])) return std::nullopt;
@@ -263,19 +274,26 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     flats_.resize(mirror_objects_.size()), inner_balls_.resize(mirror_objects_.size());
-    glass_bodies_.resize(mirror_objects_.size());
+    glass_bodies_.resize(mirror_objects_.size()), within_.resize(mirror_objects_.size());
     scene_views_.clear();
+    std::vector<Bounds<double>> of_objects;
+    for (const ObjectDrawRange& range : geometry_.ranges)
+        of_objects.push_back({dvec3(range.bounds.lo), dvec3(range.bounds.hi)});
+    const auto has_moved = [&](std::size_t object) {
+        return std::ranges::binary_search(changes.moved, object);
+    };
     for (std::size_t mirror = 0; mirror < mirror_objects_.size(); ++mirror) {
         const std::size_t object = mirror_objects_[mirror];
         shared::Probe& probe = probes_[mirror];
-        if (mirror >= known || std::ranges::binary_search(changes.moved, object)) {
-            probe_places_[mirror] = space_.world_to_scene_units(
-                scene::bounds(now, now.objects[object]).centre());
-            flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
-            inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
+        if (mirror >= known || !changes.moved.empty()) {
+            const auto before = std::exchange(within_[mirror],
+                                              scene::list_objects_within(of_objects, object));
+            const bool is_known = mirror < known && !has_moved(object) &&
+                                  before == within_[mirror] &&
+                                  std::ranges::none_of(before, has_moved);
+            if (!is_known) place_probe(now, mirror);
         }
-        if (mirror >= known || changes.materials ||
-            std::ranges::binary_search(changes.moved, object))
+        if (mirror >= known || changes.materials || has_moved(object))
             glass_bodies_[mirror] = find_glass_body(now, now.objects[object]);
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
@@ -290,6 +308,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
         if (is_lit) probe.radius = 0; // no ray is followed through the mirror
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
+        probe.holds = within_[mirror].empty() ? 0 : 1;
         const float gap = nearest_.distance_to_nearest_triangle(
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const ObjectDrawRange&) { return i == object; });
@@ -350,6 +369,7 @@ gpu::ShaderConstantValues GpuScene::shader_feature_constants(std::uint32_t view)
             {"has_lobes", material_details_.has_lobe_surfaces() ? 1u : 0u},
             {"has_clear_coats", material_details_.any_clear_coat() ? 1u : 0u},
             {"has_glass", material_details_.has_any_glass_material() ? 1u : 0u},
+            {"has_nested_glass", material_details_.has_ranked_glass() ? 1u : 0u},
             {"has_blending", has_blended_surfaces() ? 1u : 0u},
             {"tints_shadows", has_tinted_shadows() ? 1u : 0u},
             {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},

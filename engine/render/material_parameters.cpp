@@ -4,6 +4,7 @@
 #include "core/shader_math.hpp"
 #include "core/text.hpp"
 #include "render/facets.hpp"
+#include "scene/nested_glass.hpp"
 #include "scene/texel.hpp"
 #include "scene/topology.hpp"
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <string>
 #include <unordered_map>
 
@@ -143,10 +145,16 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
     fill_texture_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
-    indices_.clear();
-    any_ = masks_ = any_normal_textures_ = false;
+    indices_.assign(geometry.ranges.size(), 0);
+    any_ = masks_ = any_normal_textures_ = any_ranked_glass_ = false;
+    std::vector<std::uint32_t> ranks(geometry.ranges.size());
+    if (any_glass_) ranks = scene::rank_nested_glass(now);
+    std::vector<std::size_t> order(geometry.ranges.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [&](std::size_t i) { return ranks[i]; });
     std::map<std::size_t, bool> leaves, closed; // by mesh
-    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+    for (const std::size_t i : order) {
         const ObjectDrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
         shared::MaterialParameters detail = make_material_parameters(material, range);
@@ -174,6 +182,10 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
                 detail.flags |= shared::kMaterialOpenSheetFlag;
             else if (material.solid)
                 detail.flags |= shared::kMaterialSolidFlag;
+            if (ranks[i] > 0 && details.size() < shared::kMaxRankedGlass) {
+                detail.flags |= shared::kMaterialRankedFlag;
+                any_ranked_glass_ = true;
+            }
         }
         any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
@@ -188,10 +200,11 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
         masks_ = masks_ || range.masked;
         std::array<char, 4 * shared::kWordsPerMaterial> bytes{}; // all bytes except the padding
         std::memcpy(bytes.data(), &detail, bytes.size());
-        const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()),
+        const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()) +
+                                                           std::to_string(ranks[i]),
                                                        static_cast<std::uint32_t>(details.size()));
         if (is_new) details.push_back(detail);
-        indices_.push_back(entry->second);
+        indices_[i] = entry->second;
     }
     if (details.empty()) details.emplace_back(); // buffers must not be empty
     detail_words_.set_device_list_contents(details);

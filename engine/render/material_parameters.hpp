@@ -26,6 +26,8 @@ public:
     /// Returns whether glass attenuates the light that surfaces behind it receive.
     bool has_tinted_shadows() const { return any_tinted_shadow_; }
     bool has_any_glass_material() const { return any_glass_; } ///< rays pass through some surface
+    /// Returns whether solid bodies of glass share space (scene/nested_glass.hpp).
+    bool has_ranked_glass() const { return any_ranked_glass_; }
     bool has_any_blended_material() const {
         return any_blended_;
     }                                                     ///< some surface covers by its alpha
@@ -34,7 +36,7 @@ public:
     bool has_lobe_surfaces() const { return any_lobes_; } ///< some surface reflects by a lobe
     bool has_normal_textures() const { return any_normal_textures_; }
     /// Returns, for each object, the index of its material parameters. Objects with equal
-    /// parameters share an entry.
+    /// parameters share an entry. Entries of ranked glass come first, by falling rank.
     const std::vector<std::uint32_t>& material_parameter_indices() const { return indices_; }
 
 private:
@@ -47,7 +49,7 @@ private:
     std::vector<std::uint32_t> indices_;      ///< index of each object's parameters
     bool any_ = false, masks_ = false, any_normal_textures_ = false;
     bool any_lobes_ = false, any_glass_ = false, any_clear_coat_ = false, any_blended_ = false;
-    bool any_tinted_shadow_ = false;
+    bool any_tinted_shadow_ = false, any_ranked_glass_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
     bool texels_filled_ = false;  ///< `fill_texture_texels` was called
     DeviceList detail_words_, attributes_, texels_;

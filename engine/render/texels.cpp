@@ -19,10 +19,11 @@ std::vector<vec4> pack_structs_into_texels(std::span<const shared::Probe> probes
     std::vector<vec4> texels;
     texels.reserve(shared::kTexelsPerProbe * probes.size());
     for (const shared::Probe& probe : probes)
-        texels.insert(texels.end(),
-                      {vec4(probe.sphere, probe.radius),
-                       vec4(probe.centre, static_cast<float>(probe.kind)),
-                       vec4(probe.reflectance, 0), vec4(probe.lowest, 0), vec4(probe.highest, 0)});
+        texels.insert(texels.end(), {vec4(probe.sphere, probe.radius),
+                                     vec4(probe.centre, static_cast<float>(probe.kind)),
+                                     vec4(probe.reflectance, 0),
+                                     vec4(probe.lowest, static_cast<float>(probe.holds)),
+                                     vec4(probe.highest, 0)});
     return texels;
 }
 

@@ -209,8 +209,9 @@ constexpr UnsupportedFeatureText kUnsupportedFeatureTexts[] = {
      "`refract`) and is not reflected inside"},
     {"glass-as-diffuse", "where rays are not traced, of more objects of glass than 64 only the "
                          "largest are glass; of the others, the diffuse part is drawn"},
-    {"nested-glass", "solid glass inside other solid glass: each surface bends light as if air "
-                     "were outside, and the outer glass absorbs no light before the inner one"},
+    {"nested-glass", "solid glass that shares space with other solid glass: where rays are not "
+                     "traced, each surface bends light as if air were outside; traced rays find "
+                     "the inner body, else that of the higher index of refraction"},
     {"partial-glass", "glass that is partly metal, or lets less than half of the light pass: drawn "
                       "as if no light passed it"},
     {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent; "

@@ -2,6 +2,7 @@
 
 #include "bvh/closest_hit.hpp"
 #include "bvh/copies.hpp"
+#include "scene/capture_centre.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
@@ -23,11 +24,10 @@ public:
         : mirror_number_of_object_(question.now.objects.size(), 0) {
         const scene::Scene& now = question.now;
         std::uint32_t mirrors = 0;
-        for (const std::size_t object : scene::mirrors(now)) {
+        for (const std::size_t object : scene::mirrors(now))
             mirror_number_of_object_[object] = ++mirrors;
-            centres_.emplace_back(scene::bounds(now, now.objects[object]).centre() -
-                                  question.camera.eye);
-        }
+        for (const dvec3& centre : scene::list_capture_centres(now))
+            centres_.emplace_back(centre - question.camera.eye);
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i)
             add_triangles_of_object(question, i, triangles);

@@ -253,7 +253,11 @@ void add_unsupported_lighting_features(Scene& scene) {
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
     if (has_any_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);
-    add_unsupported_materials(scene, kNestedGlassGapId, find_nested_glass_materials(scene));
+    std::set<std::size_t> nested;
+    const std::vector<std::uint32_t> ranks = rank_nested_glass(scene);
+    for (std::size_t i = 0; i < ranks.size(); ++i)
+        if (ranks[i] > 0) nested.insert(scene.objects[i].material);
+    add_unsupported_materials(scene, kNestedGlassGapId, nested);
     scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());
 }
 

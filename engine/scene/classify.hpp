@@ -47,7 +47,7 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors = false);
 /// material:
 ///   - "indirect-left-out": light from one diffuse surface to another, if the scene has light.
 ///   - "environment-unshadowed": the environment's light on diffuse surfaces, which nothing blocks.
-/// Then comes "nested-glass": solid glass inside other solid glass (find_nested_glass_materials).
+/// Then comes "nested-glass": solid glass inside other solid glass (rank_nested_glass).
 /// Call it after mirrors, lights and environment are settled.
 void add_unsupported_lighting_features(Scene& scene);
 

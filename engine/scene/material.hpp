@@ -19,8 +19,7 @@ struct Image {
     bool is_clamped = false;           ///< its file holds light above 1, which is clamped
 };
 
-/// Image with the way in which a surface reads it. Texel (i, j) has its centre at ((i + .5) /
-/// width, (j + .5) / height) of texture space, v downwards as in glTF.
+/// How a surface reads an image: texel (i, j) is at ((i + .5) / width, (j + .5) / height), v down.
 struct Texture {
     enum class Wrap { repeat, mirrored, clamp };
     std::shared_ptr<const Image> image; ///< never null

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <vector>
+#include <optional>
 
 namespace catoptric::scene {
 
@@ -38,24 +37,13 @@ bool do_bounds_overlap(const Bounds<double>& a, const Bounds<double>& b) {
     return all(lessThan(a.lo, b.hi)) && all(lessThan(b.lo, a.hi));
 }
 
-/// Returns how often the closed mesh's triangles wind around the origin, from the signed solid
-/// angles of the triangles (Van Oosterom and Strackee 1983). `corner(v)`: position of vertex v.
-template <typename Corner>
-double compute_winding_number(const Mesh& mesh, Corner&& corner) {
-    double angle = 0;
-    for (const uvec3& t : mesh.triangles) {
-        const dvec3 a = corner(t.x), b = corner(t.y), c = corner(t.z);
-        const double x = length(a), y = length(b), z = length(c);
-        angle += 2 * std::atan2(dot(a, cross(b, c)),
-                                x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
-    }
-    return angle / (4 * std::numbers::pi);
-}
+/// How much of a body's surface lies inside another body.
+enum class Enclosed { not_at_all, partly, wholly };
 
-/// Returns whether a tested vertex of the first body lies inside the second body. The winding
-/// number is +-1 inside, 0 outside, and +-1/2 on a face.
-bool is_vertex_inside(const Scene& scene, const SolidGlassBody& inner,
-                      const SolidGlassBody& outer) {
+/// Tests some vertices of the first body for lying inside the second. The winding number is +-1
+/// inside, 0 outside, and +-1/2 on a face.
+Enclosed test_enclosure(const Scene& scene, const SolidGlassBody& inner,
+                        const SolidGlassBody& outer) {
     constexpr double kMinInsideWinding = .75;
     const Object& inner_object = scene.objects[inner.object];
     const Object& outer_object = scene.objects[outer.object];
@@ -64,21 +52,41 @@ bool is_vertex_inside(const Scene& scene, const SolidGlassBody& inner,
     const dmat4 to_outer = glm::inverse(outer_object.world_from_object) *
                            inner_object.world_from_object;
     const std::size_t count = std::min(positions.size(), kMaxTestedVertices);
+    std::size_t inside = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const dvec3& vertex = positions[k * positions.size() / count];
         const dvec3 world(inner_object.world_from_object * dvec4(vertex, 1));
         if (!(all(lessThan(outer.box.lo, world)) && all(lessThan(world, outer.box.hi)))) continue;
         const dvec3 point(to_outer * dvec4(vertex, 1));
-        const double winding = compute_winding_number(
-            mesh, [&](std::uint32_t v) { return mesh.positions[v] - point; });
-        if (std::abs(winding) > kMinInsideWinding) return true;
+        const double winding = compute_winding_number(mesh.positions, mesh.triangles, point);
+        if (std::abs(winding) > kMinInsideWinding) ++inside;
     }
-    return false;
+    return inside == 0       ? Enclosed::not_at_all
+           : inside == count ? Enclosed::wholly
+                             : Enclosed::partly;
 }
 
-} // namespace
+/// A pair of bodies that share space. Where they do, the first is there and the second is not.
+struct OverlappingPair {
+    std::size_t first = 0, second = 0; ///< objects
+};
 
-std::set<std::size_t> find_nested_glass_materials(const Scene& scene) {
+/// Returns the pair in its order, if the two bodies share space.
+std::optional<OverlappingPair> order_if_overlapping(const Scene& scene, const SolidGlassBody& a,
+                                                    const SolidGlassBody& b) {
+    const Enclosed of_a = test_enclosure(scene, a, b), of_b = test_enclosure(scene, b, a);
+    if (of_a == Enclosed::not_at_all && of_b == Enclosed::not_at_all) return std::nullopt;
+    const auto ior = [&](const SolidGlassBody& body) {
+        return scene.materials[scene.objects[body.object].material].ior;
+    };
+    const bool is_a_first = of_a == Enclosed::wholly   ? of_b != Enclosed::wholly
+                            : of_b == Enclosed::wholly ? false
+                            : ior(a) != ior(b)         ? ior(a) > ior(b)
+                                                       : a.object < b.object;
+    return is_a_first ? OverlappingPair{a.object, b.object} : OverlappingPair{b.object, a.object};
+}
+
+std::vector<OverlappingPair> list_overlapping_pairs(const Scene& scene) {
     const std::vector<SolidGlassBody> bodies = list_solid_glass_bodies(scene);
     std::map<std::size_t, bool> closed; // by mesh
     const auto is_closed = [&](const SolidGlassBody& body) {
@@ -88,20 +96,35 @@ std::set<std::size_t> find_nested_glass_materials(const Scene& scene) {
         if (is_new) entry->second = is_closed_triangle_surface(mesh.positions, mesh.triangles);
         return entry->second;
     };
-    std::set<std::size_t> materials;
+    std::vector<OverlappingPair> pairs;
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t k = i + 1; k < bodies.size() && bodies[k].box.lo.x < bodies[i].box.hi.x;
              ++k) {
             const SolidGlassBody &a = bodies[i], &b = bodies[k];
-            if (!do_bounds_overlap(a.box, b.box)) continue;
-            const std::size_t of_a = scene.objects[a.object].material,
-                              of_b = scene.objects[b.object].material;
-            if (materials.contains(of_a) && materials.contains(of_b)) continue;
-            if (!is_closed(a) || !is_closed(b)) continue;
-            if (is_vertex_inside(scene, a, b) || is_vertex_inside(scene, b, a))
-                materials.insert({of_a, of_b});
+            if (!do_bounds_overlap(a.box, b.box) || !is_closed(a) || !is_closed(b)) continue;
+            if (const auto pair = order_if_overlapping(scene, a, b)) pairs.push_back(*pair);
         }
-    return materials;
+    return pairs;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> rank_nested_glass(const Scene& scene) {
+    std::vector<std::uint32_t> ranks(scene.objects.size());
+    const std::vector<OverlappingPair> pairs = list_overlapping_pairs(scene);
+    for (const OverlappingPair& pair : pairs) ranks[pair.first] = ranks[pair.second] = 1;
+    // The ranks of bodies that overlap in a ring rise without end; then some pairs stay unordered.
+    bool has_changed = true;
+    for (std::uint32_t turn = 0; has_changed && turn < kMaxGlassRank; ++turn) {
+        has_changed = false;
+        for (const OverlappingPair& pair : pairs) {
+            const std::uint32_t least = std::min(ranks[pair.second] + 1, kMaxGlassRank);
+            if (ranks[pair.first] >= least) continue;
+            ranks[pair.first] = least;
+            has_changed = true;
+        }
+    }
+    return ranks;
 }
 
 } // namespace catoptric::scene

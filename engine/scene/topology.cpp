@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -108,6 +109,19 @@ bool is_closed_triangle_surface(std::span<const dvec3> positions,
         is_closed = is_closed && sides.size() == 2;
     });
     return is_closed && !edges.empty();
+}
+
+double compute_winding_number(std::span<const dvec3> positions, std::span<const uvec3> triangles,
+                              const dvec3& point) {
+    double angle = 0;
+    for (const uvec3& t : triangles) {
+        const dvec3 a = positions[t.x] - point, b = positions[t.y] - point,
+                    c = positions[t.z] - point;
+        const double x = length(a), y = length(b), z = length(c);
+        angle += 2 * std::atan2(dot(a, cross(b, c)),
+                                x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+    }
+    return angle / (4 * std::numbers::pi);
 }
 
 } // namespace catoptric::scene

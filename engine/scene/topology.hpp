@@ -37,6 +37,12 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
 /// place are one. False without triangles. O(n log n).
 bool is_closed_triangle_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles);
 
+/// Returns how often the closed surface winds around a point: +-1 inside, 0 outside and +-1/2 on
+/// it. From the signed solid angles of the triangles (Van Oosterom and Strackee, "The Solid Angle
+/// of a Plane Triangle", 1983). O(n).
+double compute_winding_number(std::span<const dvec3> positions, std::span<const uvec3> triangles,
+                              const dvec3& point);
+
 /// Calls `visit(std::span<const TriangleEdge>)` for each edge with the sides that meet there. A
 /// surface is closed if every edge has two sides.
 template <typename Visit>

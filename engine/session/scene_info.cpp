@@ -1,5 +1,6 @@
 #include "session/scene_info.hpp"
 
+#include "scene/capture_centre.hpp"
 #include "scene/classify.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
@@ -79,13 +80,14 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
 
 std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vector<int>& seen) {
     std::vector<MirrorInfo> infos;
+    const std::vector<dvec3> centres = scene::list_capture_centres(now);
     for (const std::size_t index : scene::mirrors(now)) {
         const scene::Object& object = now.objects[index];
         const scene::Material& material = now.materials[object.material];
         MirrorInfo info{.number = infos.size() + 1,
                         .name = object.name,
                         .shape = scene::classify_mirror_shape(now, object),
-                        .capture_centre = scene::bounds(now, object).centre(),
+                        .capture_centre = centres[infos.size()],
                         .is_constant = material.mirror};
         info.screen_share = static_cast<double>(std::ranges::count(seen, static_cast<int>(index))) /
                             static_cast<double>(std::max<std::size_t>(1, seen.size()));

@@ -4,6 +4,7 @@
 #include "core/watch.hpp"
 #include "measure/lookup.hpp"
 #include "render/views.hpp"
+#include "scene/capture_centre.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
 #include "session/rays.hpp"
@@ -49,9 +50,9 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
     for (const scene::Object& object : now.objects)
         emits_.push_back(scene::is_visibly_emissive(now.materials[object.material]));
     everything_ = build_bvh_without_object(geometry_, geometry_.ranges.size());
+    for (const dvec3& centre : scene::list_capture_centres(now))
+        centres_.push_back(space.world_to_scene_point(centre));
     for (const std::size_t object : mirror_objects_) {
-        centres_.push_back(
-            space.world_to_scene_point(scene::bounds(now, now.objects[object]).centre()));
         without_.push_back(build_bvh_without_object(geometry_, object));
     }
     trace_true_hits_of_request(request);

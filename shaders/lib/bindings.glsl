@@ -61,9 +61,9 @@ Surface read_surface(uint object) {
 // Reads the probe of a mirror, counted from 0. The compiler removes reads of members that the caller does not use.
 Probe read_probe(uint mirror) {
     uint i = kTexelsPerProbe * mirror;
-    vec4 sphere = probe_texels_at(i), centre = probe_texels_at(i + 1u);
-    return Probe(centre.xyz, sphere.xyz, sphere.w, probe_texels_at(i + 2u).rgb, probe_texels_at(i + 3u).xyz,
-                 probe_texels_at(i + 4u).xyz, uint(centre.w));
+    vec4 sphere = probe_texels_at(i), centre = probe_texels_at(i + 1u), lowest = probe_texels_at(i + 3u);
+    return Probe(centre.xyz, sphere.xyz, sphere.w, probe_texels_at(i + 2u).rgb, lowest.xyz, probe_texels_at(i + 4u).xyz,
+                 uint(centre.w), uint(lowest.w));
 }
 
 const uint kShadowNone = 0u, kShadowMap = 1u, kShadowRay = 2u;

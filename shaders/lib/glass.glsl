@@ -11,6 +11,7 @@ struct PendingRay {
     vec3 low;
     vec3 weight;
     uint bounce;
+    uint bodies; // of glass that the ray is in
 };
 const uint kMaxPendingRays = 8u;
 PendingRay pending_rays[kMaxPendingRays];
@@ -28,6 +29,9 @@ vec3 glass_iors(MaterialParameters glass) {
     float half_spread = 0.025 * (glass.ior - 1.0) * glass.dispersion;
     return clamp(glass.ior + vec3(-half_spread, 0.0, half_spread), vec3(1), vec3(kLargestFloat));
 }
+
+bool is_dispersive_glass(uint bodies) { return is_in_ranked_glass(bodies) && read_glass_around(bodies).dispersion > 0.0; }
+vec3 iors_in_bodies(uint bodies) { return is_in_ranked_glass(bodies) ? glass_iors(read_glass_around(bodies)) : vec3(1); }
 
 // Returns whether rays leave the glass that was evaluated last in directions drawn from its microfacets.
 bool draws_from_glass_facets() { return traces_lobes != 0u && has_rough_lobe(); }
@@ -59,7 +63,10 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
     vec3 direction = ray.direction;
     bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_inside_glass(detail, direction, p.facet);
     bool is_rough = has_lobes != 0u && draws_from_glass_facets();
-    if (is_inside) weight *= exp(-glass.absorption * length(p.position - ray.origin));
+    bool is_ranked = is_ranked_glass(detail);
+    BodiesAtSurface bodies = BodiesAtSurface(0u, 0u);
+    if (has_nested_glass != 0u && is_ranked) bodies = find_bodies_at_surface(detail, direction, p.facet);
+    else if (is_inside) weight *= exp(-glass.absorption * length(p.position - ray.origin));
     vec3 normal = dot(direction, p.normal) > 0.0 ? -p.normal : p.normal, mean_normal = normal;
     vec3 mirrored = reflect_above_facet(direction, p.normal, p.facet);
     float alpha = 0.0, unblocked = 1.0;
@@ -79,9 +86,14 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
     float cosine = min(-dot(direction, normal), 1.0);
     bool is_dispersive = is_solid && glass.dispersion > 0.0;
     vec3 iors = is_dispersive ? glass_iors(glass) : vec3(glass.ior), reflected, behind_cosines;
+    vec3 ratios = is_inside ? 1.0 / iors : iors;
+    if (has_nested_glass != 0u && is_ranked) {
+        is_dispersive = is_dispersive_glass(bodies.before) || is_dispersive_glass(bodies.behind);
+        ratios = iors_in_bodies(bodies.behind) / iors_in_bodies(bodies.before);
+    }
     uint colours = is_dispersive ? 3u : 1u, colour = 0u;
     do {
-        float ratio = is_inside ? 1.0 / iors[colour] : iors[colour], behind;
+        float behind, ratio = ratios[colour];
         reflected[colour] = fresnel_dielectric(cosine, ratio, behind);
         behind_cosines[colour] = behind;
     } while (++colour < colours);
@@ -106,7 +118,7 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
             weight += part; // this colour goes the same way as the first colour
             continue;
         }
-        float ratio = is_inside ? 1.0 / iors[colour] : iors[colour];
+        float ratio = ratios[colour];
         vec3 leaving = direction;
         if (is_solid) leaving = refract_direction(direction, normal, cosine, ratio, behind_cosines[colour]);
         else if (has_lobes != 0u && is_rough) leaving = reflect(mirrored, mean_normal);
@@ -123,7 +135,7 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
             low = trace_low;
             weight = part;
         } else {
-            pending_rays[pending_count++] = PendingRay(passing, trace_low, part, bounce + 1u);
+            pending_rays[pending_count++] = PendingRay(passing, trace_low, part, bounce + 1u, is_ranked ? bodies.behind : path_bodies);
         }
         is_first = false;
     } while (++colour < colours);
@@ -131,8 +143,9 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
         trace_low = vec3(0);
         Ray other;
         leave_point(p, mirrored, other);
-        pending_rays[pending_count++] = PendingRay(other, trace_low, mirrored_weight, bounce + 1u);
+        pending_rays[pending_count++] = PendingRay(other, trace_low, mirrored_weight, bounce + 1u, path_bodies);
     }
+    if (has_nested_glass != 0u && is_ranked) path_bodies = bodies.behind;
     trace_low = low;
 }
 
@@ -145,7 +158,7 @@ void split_at_blended_surface(SurfacePoint p, uint detail, uint bounce, Ray ray,
     if (!(largest_vector_component(passing_weight) > kMinGlassWeight) || pending_count == kMaxPendingRays) return;
     Ray behind;
     leave_point(p, ray.direction, behind);
-    pending_rays[pending_count++] = PendingRay(behind, trace_low, passing_weight, bounce);
+    pending_rays[pending_count++] = PendingRay(behind, trace_low, passing_weight, bounce, path_bodies);
     trace_low = vec3(0);
 }
 
@@ -158,6 +171,7 @@ bool resume_pending_ray(inout Ray ray, inout vec3 weight, inout uint bounce, ino
     trace_low = next.low;
     weight = next.weight;
     bounce = next.bounce;
+    path_bodies = next.bodies;
     ray_density = 0.0;
 #ifdef DOUBLES
     set_double_precision_ray(ray, trace_low);

@@ -218,6 +218,33 @@ vec3 passing_radiance(MirrorPath path, Lookup lookup, float roughness) {
     return lookup_colour(path.mirror, lookup);
 }
 
+// Returns whether the ray that enters a body of glass meets an object in it, and then the light from there.
+bool find_light_inside_body(MirrorPath path, RefractedRay ray, vec3 absorption, out Lookup lookup, out vec3 light) {
+    lookup = Lookup(ray.inside, kMiss, 0.0, 0.0);
+    light = vec3(0);
+    if (read_probe(path.mirror).holds == 0u || !(ray.way > 0.0)) return false;
+    path.direction = ray.inside;
+    float way = ray.way;
+#ifdef CONTINUE
+    uint next;
+    float t;
+    bool meets = hops > 0u && find_first_exact_sphere(Ray(path.at, path.direction, 0u), path.mirror, next, t) && t < way;
+    if (meets) way = t;
+#else
+    const bool meets = false;
+#endif
+    if (!meets) {
+        lookup = search(path.mirror, path.at - path.centre, path.direction);
+        float met = find_path_distance_to_end(path.mirror, path, lookup);
+        if (lookup.state == kMiss || !(met > 0.0 && met < way)) return false;
+        way = met;
+    }
+    path.weight = ray.entering * exp(-absorption * way);
+    lookup = follow_path_through_mirrors(path, hops);
+    light = path.weight * lookup_colour(path.mirror, lookup);
+    return true;
+}
+
 // Returns what the clear coat at the start of the path reflects to a viewer at the angle `cosine` to the normal. `sharp` is
 // the coat's reflectance as a perfect mirror. With kRoughRays the coat reflects sharply.
 vec3 clear_coat_radiance(MirrorPath path, Lookup lookup, vec3 sharp, float cosine) {
@@ -328,10 +355,21 @@ void main() {
     }
 #endif
     if (has_glass != 0u && refract_model != kRefractNone && is_glass && !is_traced_glass) {
+        MirrorPath passing_start = passing;
         passing.at = behind.origin;
         passing.direction = behind.direction;
         passing.weight = behind.weight;
         vec3 shown;
+#ifndef ABLATE
+        Lookup within;
+        if (find_light_inside_body(passing_start, behind, read_material_parameters(surface.detail).absorption, within, shown)) {
+            colour += shown;
+            if (within.state == kUnknown) {
+                lookup.state = kUnknown;
+                lookup.layer = 0.0;
+            }
+        } else
+#endif
         if (refract_model == kRefractScreen && !is_inside_glass(surface.detail, seen, n) &&
             find_light_in_opaque_picture(surface.detail, behind.origin, shown)) {
             colour += passing.weight * shown;

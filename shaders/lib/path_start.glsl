@@ -30,7 +30,7 @@ PathStart path_start;
 
 PathStart make_path_start(TraceHit hit, Ray ray, vec3 low, vec3 weight, uint bounce, bool is_shaded) {
     return PathStart(hit.barycentric, hit.t, hit.triangle, hit.object, hit.place, hit.inside, ray.origin, ray.direction,
-                     low, weight, bounce, uint(is_shaded), path_pixel);
+                     low, weight, bounce, uint(is_shaded), path_pixel, path_bodies);
 }
 
 // Ends a branch of the shared part at the surface that the ray has met. `low`: rounding error of the ray's origin.
@@ -51,6 +51,7 @@ void store_end_of_shared_part(Ray camera_ray, inout vec3 radiance, inout uint me
     }
     if ((has_glass != 0u || has_blending != 0u) && start_count > 1u) {
         path_start = make_path_start(camera_hit, camera_ray, object_spaces != 0u ? camera_view.eye_low : vec3(0), vec3(1), 0u, false);
+        path_start.bodies = 0u;
         radiance = vec3(0);
         met = 0u;
     }
@@ -66,6 +67,7 @@ void resume_path(out Ray ray, out TraceHit hit, out vec3 weight, out uint bounce
     weight = start.weight;
     bounce = start.bounce;
     is_shaded = start.is_shaded != 0u;
+    path_bodies = start.bodies;
 }
 
 #else

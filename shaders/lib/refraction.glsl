@@ -32,6 +32,9 @@ struct RefractedRay {
     vec3 weight;    // share of the ray's light that reaches the viewer
     float reflected; // share of the light that the drawn surface reflects instead
     float roughness; // roughness of a mirror that spreads light as much as the glass does; 0: the glass is smooth
+    vec3 inside;     // unit direction in which the ray runs through the body, if it enters one
+    float way;       // length of its way there; 0: it enters no body
+    vec3 entering;   // share of light from inside the body that reaches the viewer, if nothing were absorbed
 };
 
 // Returns the roughness of a mirror that spreads light as much as the rough glass that was evaluated last. A facet tilted by
@@ -151,7 +154,13 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     float ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine = min(-dot(seen, normal), 1.0), cosine_behind;
     float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);
     if ((glass.flags & kMaterialOpenSheetFlag) != 0u) reflected = sheet_reflectance(reflected);
-    RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected, passing_roughness(is_solid, glass.ior));
+    RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected, passing_roughness(is_solid, glass.ior),
+        seen, 0.0, vec3(0));
+    ray.entering = ray.weight;
+    if (body.holds != 0u && !is_inside) {
+        vec3 side;
+        ray.way = find_way_out_of_box(at, seen, body.lowest, body.highest, side);
+    }
     if (is_inside) ray.weight *= exp(-glass.absorption * from_viewer);
     if (!is_solid || reflected == 1.0) return ray;
     float way;
@@ -166,6 +175,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     if (!is_thin) ray.direction = refract_direction(seen, normal, cosine, ratio, cosine_behind);
     if (is_inside) return ray;
     vec3 inside = ray.direction, size = body.highest - body.lowest;
+    ray.inside = inside;
     if (refract_model == kRefractBackface && has_back_face) {
         // The way through the body and the normal at its end are already known.
     } else if (is_box) {
@@ -175,6 +185,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
         way = -along * min(size.x, min(size.y, size.z));
         far_normal = normalize(along * inside - 0.5 * normal);
     }
+    ray.way = way;
     ray.origin += way * inside;
     ray.weight *= exp(-glass.absorption * way);
     float far_cosine = min(-dot(inside, far_normal), 1.0);

@@ -294,6 +294,7 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
 }
 
 #include "lib/paths.glsl"
+#include "lib/nested_glass.glsl"
 #include "lib/glass.glsl"
 
 // Returns a number in [0, 1) that chooses a coated surface's layer at the path's `bounce`th surface.
@@ -487,8 +488,11 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     uint known = kUnknownHit;
     float ray_density = 0.0; // with which the path's ray was drawn; 0: a ray of the camera or of a smooth surface
     bool is_shaded = false; // whether the light of the next surface's shading counts elsewhere
+    bool is_on_way = true;  // whether the ray comes to the next surface by a way on which glass absorbs light
+    path_bodies = 0u;
     if (resumes_path) {
         resume_path(ray, hit, weight, bounce, is_shaded);
+        is_on_way = false; // the stored weight has it
         known = kKnownHit;
     } else if (first_raster != 0u && first == 0u) {
         known = intersect_rasterised_triangle(ray, hit);
@@ -513,6 +517,12 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             continue;
         }
         Surface surface = evaluate_surface(point, ray.direction);
+        if (has_nested_glass != 0u) {
+            uint bodies = path_bodies;
+            if (is_ranked_glass(surface.detail)) bodies = find_bodies_at_surface(surface.detail, ray.direction, point.facet).before;
+            if (is_on_way) weight *= share_through_bodies(bodies, length(point.position - ray.origin));
+            is_on_way = true;
+        }
         bool is_coated = has_clear_coats != 0u && clear_coat.strength > 0.0, has_sharp_coat = is_coated && clear_coat.roughness <= kMaxSharpRoughness;
         if (finds_path_start && is_shading_random(surface, is_coated)) {
             keep_path_start(hit, ray, low, weight, bounce, false);
@@ -528,6 +538,17 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             resume_path_after_lamp_ray(ray);
             done = weight == vec3(0);
             continue;
+        }
+        if (has_nested_glass != 0u && is_ranked_glass(surface.detail)) {
+            BodiesAtSurface bodies = find_bodies_at_surface(surface.detail, ray.direction, point.facet);
+            if (are_in_same_glass(bodies.before, bodies.behind)) {
+                path_bodies = bodies.behind;
+                leave_point(point, ray.direction, ray);
+#ifdef DOUBLES
+                set_double_precision_ray(ray, trace_low);
+#endif
+                continue;
+            }
         }
         if (samples_lamps != 0u) surface.emission *= counted_share_of_met_emission(point, ray.origin, ray_density);
         bool is_see_through = has_blending != 0u && details != 0u && is_blended(surface.detail) && surface_alpha(surface.detail, point.at) < kOpaqueAlpha;

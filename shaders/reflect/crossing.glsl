@@ -60,7 +60,12 @@ Lookup find_surface_crossing(uint mirror, RayArc arc, ArcSample front, ArcSample
     } while (is_wide);
     if (classify_surface_between(mirror, arc_direction_at(arc, front.place), arc_direction_at(arc, behind.place), front.captured,
                         behind.captured) == kSurfaceSilhouette) {
-        if (front.captured == 0.0) return Lookup(arc_direction_at(arc, arc.end), kUnknown, 1.0, kLeaves);
+        if (front.captured == 0.0) {
+            // If something was captured there, `front` is the start of a ray that starts behind a surface. Without an
+            // environment it sees what the centre sees in its direction, instead of nothing.
+            bool leaves = environment_kind != kNoEnvironment || sample_capture_on_arc(mirror, arc, front.place).captured == 0.0;
+            return Lookup(arc_direction_at(arc, arc.end), kUnknown, 1.0, leaves ? kLeaves : 0.0);
+        }
         return Lookup(arc_direction_at(arc, rotate_arc_place(front.place, -texel)), kUnknown, 1.0, 0.0);
     }
     return Lookup(arc_direction_at(arc, estimate_crossing_between_samples(front, behind)), kHit, (behind.depth - front.depth) / behind.captured, 0.0);

@@ -42,7 +42,7 @@ void main() {
     LampExtent e = extents[1];
     append_result_word(e.first), append_result_word(e.second), append_result_word(e.third), append_result_word(e.flat_normal);
     append_result_word(probes[1].centre), append_result_word(probes[1].sphere), append_result_word(probes[1].radius), append_result_word(probes[1].reflectance);
-    append_result_word(probes[1].lowest), append_result_word(probes[1].highest), append_result_word(probes[1].kind);
+    append_result_word(probes[1].lowest), append_result_word(probes[1].highest), append_result_word(probes[1].kind), append_result_word(probes[1].holds);
     View v = views[1];
     append_result_word(v.eye), append_result_word(v.right), append_result_word(v.down), append_result_word(v.forward), append_result_word(v.near), append_result_word(v.eye_low),
         append_result_word(v.parallel), append_result_word(v.clip);

@@ -23,7 +23,7 @@ void main() {
         append_result_word(s.radius);
     Probe p = read_probe(number);
     append_result_word(p.centre), append_result_word(p.sphere), append_result_word(p.radius), append_result_word(p.reflectance), append_result_word(p.lowest), append_result_word(p.highest),
-        append_result_word(p.kind);
+        append_result_word(p.kind), append_result_word(p.holds);
     MaterialParameters d = read_material_parameters(number);
     append_result_word(d.flags), append_result_word(d.first_attribute), append_result_word(d.max_specular_roughness), append_result_word(d.alpha),
         append_result_word(d.alpha_cutoff);

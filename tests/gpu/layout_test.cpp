@@ -55,6 +55,7 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(Probe, lowest),
                                                            MEMBER(Probe, highest),
                                                            MEMBER(Probe, kind),
+                                                           MEMBER(Probe, holds),
                                                            MEMBER(View, eye),
                                                            MEMBER(View, right),
                                                            MEMBER(View, down),

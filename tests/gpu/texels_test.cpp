@@ -38,7 +38,7 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
         surfaces.push_back(make_struct_of_distinct_words<shared::Surface>(next));
         surfaces.back().mirror = 1000 + i, surfaces.back().detail = 2000 + i;
         probes.push_back(make_struct_of_distinct_words<shared::Probe>(next));
-        probes.back().kind = i % 3;
+        probes.back().kind = i % 3, probes.back().holds = 1 - i % 2;
         details.push_back(make_struct_of_distinct_words<shared::MaterialParameters>(next));
         // Read as a float, this word is a denormal number, which some devices flush to zero.
         details.back().flags = 1 + i;

@@ -242,8 +242,22 @@ std::string make_closed_room_obj(bool turns_in, bool has_mirror) {
     return has_mirror ? text + "o mirror\nusemtl tin\nf 9 10 11 12\n" : text;
 }
 
+/// Returns OBJ text of a closed box around that room, whose faces point outwards.
+std::string make_box_around() {
+    std::string text = "o shell\nusemtl wall\n";
+    for (int i = 0; i < 8; ++i)
+        text += "v " + std::string(i & 1 ? "2.2" : "-2.2") + (i & 2 ? " 3.2" : " -.2") +
+                (i & 4 ? " 3.2\n" : " -3.2\n");
+    for (const char* face :
+         {"-8 -6 -5 -7", "-4 -3 -1 -2", "-8 -7 -3 -4", "-6 -2 -1 -5", "-8 -4 -2 -6", "-7 -5 -1 -3"})
+        text += std::string("f ") + face + "\n";
+    return text;
+}
+
 TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
-    write_file_beside_scene("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
+    write_file_beside_scene("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\nnewmtl wall\nKd .5 .5 .5\n"
+                                     "newmtl glass\nTf 1 1 1\nNi 1.5\nillum 6\nd .1\n");
+    bool names_inside = false; // whether the note names the camera that looks from inside
     const auto camera_of = [&](const std::string& text) {
         app::ResolvedScene found = app::load_resolved_scene(write_file_beside_scene("x.obj", text),
                                                             {});
@@ -257,11 +271,19 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
             << found.said.back();
         EXPECT_THAT(found.said.back(), HasSubstr(format_camera(camera)));
         EXPECT_EQ(found.scene.unsupported.back().id, "added-camera");
+        names_inside = found.said.back().ends_with(" looks from inside");
         return is_inside;
     };
     EXPECT_TRUE(camera_of(make_closed_room_obj(true, false))) << "outside it shows its backs alone";
-    EXPECT_TRUE(camera_of(make_closed_room_obj(false, true))) << "outside it hides its mirror";
+    EXPECT_FALSE(camera_of(make_closed_room_obj(false, true))) << "its walls face out";
+    EXPECT_TRUE(names_inside) << "outside it hides its mirror";
     EXPECT_FALSE(camera_of(make_closed_room_obj(false, false))) << "a crate";
+    EXPECT_FALSE(names_inside);
+    const std::string inner = make_closed_room_obj(true, true);
+    EXPECT_TRUE(camera_of(inner + make_box_around())) << "a room with thick walls hides its mirror";
+    const std::string glass = "usemtl glass\n" + make_closed_room_obj(true, false);
+    EXPECT_FALSE(camera_of(glass)) << "a drinking glass";
+    EXPECT_TRUE(names_inside);
     EXPECT_FALSE(camera_of(kUnlitTriangleObjText)) << "not closed";
     std::string open = make_closed_room_obj(true, true);
     open.erase(open.find("f 7 8 6 5")); // removes this wall and the text after it
@@ -320,6 +342,11 @@ TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
         test::catch_error_text(Failure::bad_data,
                                [&] { app::load_resolved_scene(path, {.overrides = overrides}); }),
         HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
+    picture.at(1, 1) = vec3(0, -.004f, 0), picture.at(0, 0) = vec3(1);
+    measure::write_exr(picture, folder / "sky.exr");
+    EXPECT_EQ(app::load_resolved_scene(path, {.overrides = overrides}).scene.environment->texels[4],
+              vec3(0))
+        << "what a filter or lossy compression leaves below 0";
     overrides.environment = "gone.hdr";
     EXPECT_THAT(
         test::catch_error_text(Failure::missing_input,
