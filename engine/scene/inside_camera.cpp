@@ -209,20 +209,28 @@ std::optional<InsideCamera> find_inside_camera(const Scene& scene, const Camera&
     if (!sees_mostly_back_faces(rays, outside) &&
         !hides_objects_of_interest(rays, places, outside.eye, centre))
         return std::nullopt;
-    Camera camera{.name = "default", .target = centre, .vertical_fov_degrees = 60}, tried = camera;
+    Camera tried{.name = "default", .target = centre, .vertical_fov_degrees = 60};
+    InsideCamera found;
     double best = -1;
     constexpr double kEyeSidewaysOffset = .35,
                      kUpwardOffset = .15; // offset from the centre, in extents of the bounds
-    for (int i = 0; i < 8; ++i) {
-        const dvec3 side(i & 1 ? -kEyeSidewaysOffset : kEyeSidewaysOffset,
-                         i & 4 ? 0 : kUpwardOffset,
-                         i & 2 ? -kEyeSidewaysOffset : kEyeSidewaysOffset);
-        tried.eye = round_to_thousandth(centre + side * box.extent(), extent);
-        const double worth = sum_distances_to_surfaces(rays, tried.eye) *
-                             (1 + compute_visible_share_of_places(rays, places, tried));
-        if (worth > best) best = worth, camera = tried;
+    // A round room does not reach into the corners of its bounds.
+    for (const double share : {1., .65, .3}) {
+        for (int i = 0; i < 8; ++i) {
+            const dvec3 side(i & 1 ? -kEyeSidewaysOffset : kEyeSidewaysOffset,
+                             i & 4 ? 0 : kUpwardOffset,
+                             i & 2 ? -kEyeSidewaysOffset : kEyeSidewaysOffset);
+            tried.eye = round_to_thousandth(centre + share * side * box.extent(), extent);
+            const bool is_room = is_in_room(rays, tried.eye);
+            const double worth = sum_distances_to_surfaces(rays, tried.eye) *
+                                 (1 + compute_visible_share_of_places(rays, places, tried));
+            if (is_room < found.is_in_room || (is_room == found.is_in_room && worth <= best))
+                continue;
+            best = worth, found = {tried, is_room};
+        }
+        if (found.is_in_room) break;
     }
-    return InsideCamera{camera, is_in_room(rays, camera.eye)};
+    return found;
 }
 
 } // namespace catoptric::scene

@@ -23,8 +23,9 @@ struct InsideCamera {
 /// `outside` does not show the room in two cases:
 ///   - Nearly everything that it sees is the back of a surface.
 ///   - Every mirror and lamp is hidden from it, although some can be seen from the centre.
-/// The eye is the best of eight places around the centre: much free space around it, and a view of
-/// most mirrors and lamps. It looks at the centre with a vertical field of view of 60 degrees.
+/// The eye is the best of eight places around the centre, or of places closer to it if none of them
+/// is in the room: much free space around it, and a view of most mirrors and lamps. It looks at the
+/// centre with a vertical field of view of 60 degrees.
 std::optional<InsideCamera> find_inside_camera(const Scene& scene, const Camera& outside);
 
 } // namespace catoptric::scene

@@ -11,7 +11,10 @@
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
 
+#include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <numbers>
 
 namespace {
 
@@ -254,6 +257,29 @@ std::string make_box_around() {
     return text;
 }
 
+/// Returns OBJ text of a closed drum of twelve sides around the origin, whose faces point inwards
+/// or outwards.
+std::string make_drum_obj(double radius, double half_height, bool turns_in) {
+    std::string text = "usemtl wall\n";
+    for (int i = 0; i < 24; ++i)
+        text += fmt::format("v {} {} {}\n", radius * std::cos(i % 12 * std::numbers::pi / 6),
+                            i < 12 ? -half_height : half_height,
+                            radius * std::sin(i % 12 * std::numbers::pi / 6));
+    const auto add = [&](std::vector<int> face) {
+        if (turns_in) std::ranges::reverse(face);
+        text += "f";
+        for (const int corner : face) text += fmt::format(" {}", corner - 24);
+        text += "\n";
+    };
+    std::vector<int> low(12), high(12);
+    for (int i = 0; i < 12; ++i) {
+        low[std::size_t(i)] = i, high[std::size_t(i)] = 23 - i;
+        add({i, i + 12, (i + 1) % 12 + 12, (i + 1) % 12});
+    }
+    add(low), add(high);
+    return text;
+}
+
 TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
     write_file_beside_scene("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\nnewmtl wall\nKd .5 .5 .5\n"
                                      "newmtl glass\nTf 1 1 1\nNi 1.5\nillum 6\nd .1\n");
@@ -281,6 +307,10 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
     EXPECT_FALSE(names_inside);
     const std::string inner = make_closed_room_obj(true, true);
     EXPECT_TRUE(camera_of(inner + make_box_around())) << "a room with thick walls hides its mirror";
+    const std::string round = "mtllib m.mtl\nusemtl tin\nv -1 0 0\nv 1 0 0\nv 1 1 0\nv -1 1 0\n"
+                              "f 1 2 3 4\n";
+    EXPECT_TRUE(camera_of(round + make_drum_obj(2, 2, true) + make_drum_obj(2.3, 2.3, false)))
+        << "a round room with thick walls hides its mirror";
     const std::string glass = "usemtl glass\n" + make_closed_room_obj(true, false);
     EXPECT_FALSE(camera_of(glass)) << "a drinking glass";
     EXPECT_TRUE(names_inside);
