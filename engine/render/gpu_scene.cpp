@@ -252,11 +252,23 @@ InnerOccluderBall GpuScene::make_inner_ball(std::size_t object, const dvec3& cen
     return ball;
 }
 
+/// Returns whether the bounds of an object within the mirror contain the middle of its bounds. Only
+/// then may something enclose the middle, which takes long to find out.
+bool GpuScene::is_middle_covered(std::size_t mirror) const {
+    const vec3 middle = geometry_.ranges[mirror_objects_[mirror]].bounds.centre();
+    return std::ranges::any_of(within_[mirror], [&](std::size_t i) {
+        const Bounds<float>& box = geometry_.ranges[i].bounds;
+        return all(lessThanEqual(box.lo, middle)) && all(lessThanEqual(middle, box.hi));
+    });
+}
+
 /// Sets what depends on a mirror's place, and on the places of objects within it.
 void GpuScene::place_probe(const scene::Scene& now, std::size_t mirror) {
     const std::size_t object = mirror_objects_[mirror];
+    const auto within = middle_covered_[mirror] ? std::span<const std::size_t>(within_[mirror])
+                                                : std::span<const std::size_t>();
     probe_places_[mirror] = space_.world_to_scene_units(
-        scene::choose_capture_centre(now, object, within_[mirror]));
+        scene::choose_capture_centre(now, object, within));
     flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
     inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
 }
@@ -275,6 +287,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     flats_.resize(mirror_objects_.size()), inner_balls_.resize(mirror_objects_.size());
     glass_bodies_.resize(mirror_objects_.size()), within_.resize(mirror_objects_.size());
+    middle_covered_.resize(mirror_objects_.size());
     scene_views_.clear();
     std::vector<Bounds<double>> of_objects;
     for (const ObjectDrawRange& range : geometry_.ranges)
@@ -286,12 +299,15 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
         const std::size_t object = mirror_objects_[mirror];
         shared::Probe& probe = probes_[mirror];
         if (mirror >= known || !changes.moved.empty()) {
+            const bool was_covered = middle_covered_[mirror] != 0;
             const auto before = std::exchange(within_[mirror],
                                               scene::list_objects_within(of_objects, object));
-            const bool is_known = mirror < known && !has_moved(object) &&
-                                  before == within_[mirror] &&
-                                  std::ranges::none_of(before, has_moved);
-            if (!is_known) place_probe(now, mirror);
+            middle_covered_[mirror] = is_middle_covered(mirror) ? 1 : 0;
+            const bool changes_within = before != within_[mirror] ||
+                                        std::ranges::any_of(before, has_moved);
+            if (mirror >= known || has_moved(object) ||
+                (changes_within && (was_covered || middle_covered_[mirror] != 0)))
+                place_probe(now, mirror);
         }
         if (mirror >= known || changes.materials || has_moved(object))
             glass_bodies_[mirror] = find_glass_body(now, now.objects[object]);

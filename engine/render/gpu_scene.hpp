@@ -222,6 +222,7 @@ private:
     std::optional<scene::GlassBody> find_glass_body(const scene::Scene& now,
                                                     const scene::Object& object);
     InnerOccluderBall make_inner_ball(std::size_t object, const dvec3& centre);
+    bool is_middle_covered(std::size_t mirror) const;
     void place_probe(const scene::Scene& now, std::size_t mirror);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_view_table(const scene::Camera& camera, uvec2 size);
@@ -250,6 +251,7 @@ private:
     std::vector<std::size_t> mirror_objects_;
     std::vector<InnerOccluderBall> inner_balls_;                ///< ball inside each mirror
     std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< body of each glass mirror
+    std::vector<std::uint8_t> middle_covered_;     ///< is_middle_covered of each mirror
     std::vector<std::vector<std::size_t>> within_; ///< objects within each mirror's bounds
     std::map<std::size_t, double> closed_volumes_; ///< volumes of meshes of glass, by
                                                    ///< mesh

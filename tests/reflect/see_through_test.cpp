@@ -2,6 +2,7 @@
 // Each is judged beside an opaque twin.
 #include "scene/classify.hpp"
 #include "scene/pattern.hpp"
+#include "session/frames.hpp"
 #include "support/rendering.hpp"
 #include "support/scenes.hpp"
 #include "support/special_values.hpp"
@@ -191,6 +192,25 @@ TEST(SeeThrough, WhatLiesInGlassIsSeenInEveryCapture) {
             EXPECT_GT(share, 1 / most) << inner.name << ", " << technique;
             EXPECT_LT(share, most) << inner.name << ", " << technique;
         }
+    }
+}
+
+/// The centre of a capture follows what moves in the glass, into its middle and out of it.
+TEST(SeeThrough, CaptureFollowsWhatMovesInGlass) {
+    const scene::Material red{.name = "red", .albedo = vec3(0), .emission = {.8f, .1f, .1f}};
+    const scene::Scene scene = make_ball_in_glass(red);
+    const app::Request still = test::make_test_request(scene, {"secant"}, {48, 48});
+    app::Session session(test::get_test_engine(), scene);
+    measure::Picture before = session.frame(still).hdr();
+    for (const double x : {.2, .45, 3., 0.}) {
+        dmat4 place = scene.objects[1].world_from_object;
+        place[3].x += x;
+        session.change(scene::move(1, place));
+        const measure::Picture found = session.frame(still).hdr();
+        EXPECT_FALSE(test::have_equal_pixel_bytes(found, before)) << x;
+        app::Session fresh(test::get_test_engine(), session.scene());
+        EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(still).hdr())) << x;
+        before = found;
     }
 }
 
