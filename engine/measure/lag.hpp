@@ -68,6 +68,8 @@ struct LagResults {
     /// FLIP over the mirrors between two reference pictures of the first instant with different
     /// random rays. NaN if the reference has no noise or sees no mirror.
     double reference_flip_floor = std::numeric_limits<double>::quiet_NaN();
+    /// Random rays of each point of a rough surface in the reference, and as asked for. 0: none.
+    int reference_rays = 0, wanted_reference_rays = 0;
     std::vector<LagRow> rows;
     /// Labels of requested rows without history: their frames read nothing of the last frame.
     std::vector<std::string> without_history;

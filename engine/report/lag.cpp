@@ -102,6 +102,10 @@ std::string describe_lag_limits(const LagResults& lag) {
                             "differ by a FLIP of {}. Rows tie whose FLIP against the reference "
                             "differs by less.",
                             format_picture_error(lag.reference_flip_floor));
+    if (lag.reference_rays < lag.wanted_reference_rays)
+        note += fmt::format(" The reference has {} instead of {} rays for each point of a rough "
+                            "surface, which fit into --reference-seconds.",
+                            lag.reference_rays, lag.wanted_reference_rays);
     for (const LagRow& row : lag.rows)
         if (row.restless_stills > 0)
             note += fmt::format(" {}: {} stills still changed after {} frames.", row.label,
@@ -223,6 +227,7 @@ Json make_lag_json(const Comparison& comparison) {
             {"jump_from", make_number_json(lag.jump_from)},
             {"frame_cap", lag.frame_cap},
             {"reference_flip_floor", make_number_json(lag.reference_flip_floor)},
+            {"reference_rays", lag.reference_rays},
             {"seconds", make_number_list_json(lag.seconds)},
             {"without_history", lag.without_history},
             {"rows", make_list_json(lag.rows,

@@ -1,6 +1,7 @@
 #include "study/lag.hpp"
 
 #include "core/error.hpp"
+#include "core/stopwatch.hpp"
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/lag.hpp"
@@ -133,6 +134,7 @@ public:
                                                          lag_request_.base.scene);
         begin_row_progress("reference " + lag_request_.reference, 0,
                            (path_.count + (has_noise ? 1 : 0)) * kMaxLagFrames);
+        if (has_noise) fit_reference_into_seconds();
         for (int i = 0; i < path_.count; ++i)
             add_reference_instant(path_.scene_seconds_of_lag_instant(i));
         if (has_noise) measure_reference_noise();
@@ -193,6 +195,24 @@ private:
         }
         frames_done_ = before + kMaxLagFrames;
         return still;
+    }
+
+    /// Lowers the number of the reference's rays so that all instants fit into
+    /// `reference_seconds`, by the time of a coarse picture.
+    void fit_reference_into_seconds() {
+        const int wanted = find_lobe_rays(lag_request_.reference);
+        const uvec2 size = lag_request_.base.size;
+        const std::string coarse = choose_coarse_technique(lag_request_.reference, size);
+        const int rays = find_lobe_rays(coarse);
+        lag_.wanted_reference_rays = lag_.reference_rays = wanted;
+        if (rays == wanted) return;
+        const auto begin = SteadyClock::now();
+        render_still_picture(coarse, path_.start);
+        frames_done_ = 0;
+        lag_.reference_rays = choose_refined_rays(wanted, rays, elapsed_milliseconds(begin) / 1000,
+                                                  2 * lag_request_.reference_seconds /
+                                                      (path_.count + 1)); // for one of two pictures
+        lag_request_.reference = set_lobe_rays(lag_request_.reference, lag_.reference_rays);
     }
 
     void add_reference_instant(double seconds) {
@@ -343,6 +363,7 @@ void measure_lag_of_rows(const StudyInput& input) {
                 {.base = base,
                  .reference = choose_reference_unlike_rows(input.request.reference, base.techniques,
                                                            base.scene),
+                 .reference_seconds = input.request.reference_seconds,
                  .watcher = input.request.watcher,
                  .on_finished_row = input.tell},
                 *(input.comparison.lag = std::make_shared<report::LagResults>()));

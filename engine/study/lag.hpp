@@ -10,6 +10,8 @@ namespace catoptric::app {
 struct LagRequest {
     Request base; ///< techniques to measure one by one; its `frames` and `warmup` are ignored
     std::string reference = "raytrace:depth=16";
+    /// Most seconds for the reference's random rays at all instants. Their number is lowered to it.
+    double reference_seconds = 60;
     /// Speeds: seconds of scene time in 60 frames. The fastest must be a whole multiple of each.
     std::vector<double> speeds{0.25, 0.5, 1, 2, 4, 8};
     /// Largest number of instants along the scene's motion at which pictures are compared.

@@ -101,6 +101,24 @@ TEST(Lag, NoisyReferenceStatesItsFloorAndAddsNoLag) {
     EXPECT_TRUE(std::isnan(measure_lag_results(sharp).reference_flip_floor)) << "no rough surface";
 }
 
+TEST(Lag, ReferenceHasAsManyRaysAsFitIntoItsSeconds) {
+    const auto measure_rays = [](double seconds) {
+        scene::Scene room = test::make_lit_room(2, 1);
+        test::make_mirrors_rough(room, .3F);
+        app::LagRequest request = make_lag_request(room, {"reuse:face=16"}, {8}, 1);
+        request.reference = "raytrace:depth=2,rays=256";
+        request.reference_seconds = seconds;
+        const report::LagResults lag = measure_lag_results(request);
+        EXPECT_EQ(lag.wanted_reference_rays, 256);
+        return std::pair(lag.reference_rays, lag.reference_flip_floor);
+    };
+    const auto [few, noise_of_few] = measure_rays(1e-6);
+    const auto [many, noise_of_many] = measure_rays(1e6);
+    EXPECT_EQ(few, 1);
+    EXPECT_EQ(many, 256);
+    EXPECT_GT(noise_of_few, 4 * noise_of_many);
+}
+
 /// A capture shows the surroundings of the present frame. Only other mirrors in the capture come
 /// from the frame before, and this scene has no other mirror.
 TEST(Lag, SingleMovingMirrorHasNoLag) {

@@ -97,6 +97,17 @@ TEST(LagReport, NoiseOfTheReferenceIsStated) {
     EXPECT_EQ(floor_in_json(), .0234);
 }
 
+TEST(LagReport, FewerRaysOfTheReferenceAreStated) {
+    Comparison made = make_comparison_with_lag();
+    made.lag->reference_rays = made.lag->wanted_reference_rays = 64;
+    EXPECT_THAT(report_text_of_comparison(made), Not(HasSubstr("--reference-seconds")));
+    made.lag->reference_rays = 8;
+    EXPECT_THAT(report_text_of_comparison(made),
+                HasSubstr("The reference has 8 instead of 64 rays for each point of a rough "
+                          "surface, which fit into --reference-seconds."));
+    EXPECT_EQ(json::parse(catoptric::report::to_json(made))["lag"]["reference_rays"], 8);
+}
+
 TEST(LagReport, ReportDescribesLagInSentences) {
     Comparison made = make_comparison_with_lag();
     EXPECT_THAT(
