@@ -32,6 +32,7 @@ ALWAYS = "docs/cover"  # reads pages, ./dev and tests
 # tests. The items before "|" are near: their tests run first. Those after it run in the time that is left.
 PATHS = [
     ("tests/CMakeLists.txt", f"unit bench allocations fuzzed | {DRAWN} install"),
+    ("tests/bytes*.py", "bytes"),
     ("tests/support/*", f"unit | {DRAWN} fuzzed long/worth long/outside_figures long/audit long/choose"),
     ("tests/allocations/*", "allocations"),
     ("tests/bench/*", "bench | drivers"),
