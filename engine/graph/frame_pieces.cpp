@@ -3,6 +3,7 @@
 #include "core/watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace catoptric::graph {
 
@@ -39,19 +40,18 @@ FramePieces::FramePieces(gpu::GpuDevice& device)
     : pieces_device_(device), timeline_(make_timeline_semaphore(device)),
       fitted_rays_(device.is_cpu_device() ? kFirstRaysOnProcessor : kMostRaysOnOtherDevices) {}
 
-void FramePieces::fit_most_rays() {
-    if (!pieces_device_.is_cpu_device()) return;
-    if (slowest_ms_ > kLongPiece)
-        fitted_rays_ = std::max(fitted_rays_ / 2, kFirstRaysOnProcessor);
-    else if (slowest_ms_ < kShortPiece && submitted_ > 0)
-        fitted_rays_ = std::min(fitted_rays_ * 2, kMostRaysOnProcessor);
-    slowest_ms_ = 0;
+std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_several) {
+    if (slowest_ms > kLongPiece) return std::max(rays / 2, kFirstRaysOnProcessor);
+    if (slowest_ms < kShortPiece && has_several) return std::min(rays * 2, kMostRaysOnProcessor);
+    return rays;
 }
 
 void FramePieces::begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
                               std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays) {
     slot_ = &slot, shape_ = &shape, frame_ = frame, wait_ = wait;
-    fit_most_rays();
+    if (pieces_device_.is_cpu_device())
+        fitted_rays_ = fit_rays_of_piece(fitted_rays_, std::exchange(slowest_ms_, 0),
+                                         submitted_ > 0);
     const WorkWatch* const watch = current_watch();
     most_rays_ = watch != nullptr && watch->most_rays > 0 ? watch->most_rays : fitted_rays_;
     all_rays_ = all_rays;

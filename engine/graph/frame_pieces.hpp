@@ -8,6 +8,11 @@
 
 namespace catoptric::graph {
 
+/// Returns the most rays of a piece in the next frame on a processor: 2^15 to 2^18. The pieces of
+/// the last frame held up to `rays`, and the slowest took `slowest_ms`. `has_several`: whether it
+/// had more than one piece.
+std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_several);
+
 /// Submits a frame that traces many rays in pieces, each after the end of the one before. Between
 /// them the host looks whether the work is to stop (core/watch.hpp).
 class FramePieces {
@@ -42,8 +47,6 @@ public:
     double wait_ms() const { return wait_ms_; }
 
 private:
-    void fit_most_rays();
-
     gpu::GpuDevice& pieces_device_;
     gpu::UniqueSemaphore timeline_;
     std::uint64_t fitted_rays_; ///< most rays of a piece without a watch's own bound
