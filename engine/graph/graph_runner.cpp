@@ -45,9 +45,10 @@ void read_timestamps(gpu::GpuDevice& device, FrameInFlightResources& slot, Graph
 } // namespace
 
 GraphRunner::GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
-                         std::uint32_t in_flight)
+                         std::uint32_t in_flight, RetainedImages* images)
     : runner_device_(device), frame_recorder_(device, pipelines), pieces_(device),
-      timeline_(make_timeline_semaphore(device)), memory_(device), kept_(device) {
+      timeline_(make_timeline_semaphore(device)), memory_(device),
+      kept_(device, images ? *images : own_images_) {
     check(in_flight >= 1 && in_flight <= kMaxFramesInFlight, Failure::usage,
           "frames in flight must be 1 to ", kMaxFramesInFlight, ", not ", in_flight);
     slots_.reserve(in_flight);
@@ -63,27 +64,15 @@ GraphRunner::~GraphRunner() {
     }
 }
 
-/// Waits for all frames in flight, and drops the ended frames' references to images that outlive
-/// frames.
-void GraphRunner::release_persistent_images() {
+void GraphRunner::release_images() {
     finish_all_frames_in_flight();
     for (FrameInFlightResources& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
 }
 
 void GraphRunner::discard_persistent_image_contents() {
-    release_persistent_images();
+    release_images();
     kept_.release_all_images();
-}
-
-SuspendedPersistentImages GraphRunner::suspend() {
-    release_persistent_images();
-    return kept_.take_retained_images();
-}
-
-void GraphRunner::resume(SuspendedPersistentImages leavings) {
-    release_persistent_images();
-    kept_.restore_retained_images(std::move(leavings));
 }
 
 GraphLimits GraphRunner::limits() const {

@@ -29,7 +29,10 @@ class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
     /// kMaxFramesInFlight. Each has its own command buffer and its own copy of the outputs.
-    GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines, std::uint32_t in_flight = 1);
+    /// `images`: where images that outlive frames are kept; null: in the runner. The caller may
+    /// exchange them for those of other frames after `release_images`.
+    GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines, std::uint32_t in_flight = 1,
+                RetainedImages* images = nullptr);
     GraphRunner(const GraphRunner&) = delete;
     GraphRunner& operator=(const GraphRunner&) = delete;
     /// Waits for the frames in flight.
@@ -40,12 +43,9 @@ public:
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
     void discard_persistent_image_contents();
-    /// Takes out and returns the contents of all images that outlive frames, so that the next frame
-    /// is like the first. Waits for the frames in flight.
-    SuspendedPersistentImages suspend();
-    /// Puts back contents that `suspend` returned, and drops the present contents. The next frame
-    /// continues from the restored contents. Waits for the frames in flight.
-    void resume(SuspendedPersistentImages leavings);
+    /// Waits for the frames in flight, and drops all references to images that outlive frames. The
+    /// caller may then exchange the images: the next frame continues from the contents it finds.
+    void release_images();
     GraphLimits limits() const;
     /// Returns the plan of the graph. The plans of the last 8 different graphs are cached. The
     /// reference is valid until 8 other graphs were planned. Throws the errors of
@@ -112,7 +112,6 @@ private:
                       const ExternalSemaphores& outside);
     void finish_frame_in_flight(FrameInFlightResources& slot);
     void finish_all_frames_in_flight();
-    void release_persistent_images();
     /// Records the frame, and submits all its pieces but the last.
     void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
                       std::size_t slot_index, PassTiming timing, VkSemaphore wait);
@@ -122,6 +121,7 @@ private:
     FramePieces pieces_;
     gpu::UniqueSemaphore timeline_;
     SharedGraphMemoryArena memory_;
+    RetainedImages own_images_;
     PersistentImages kept_;
     /// Compiled graphs, the most recently used first.
     std::vector<std::shared_ptr<CompiledRenderGraph>> shapes_;

@@ -5,18 +5,18 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <utility>
 
 namespace catoptric::graph {
 
-/// Images that earlier frames left for later frames, by name. A caller can take these images out of
-/// a runner and give them back. The device must outlive the images.
-using SuspendedPersistentImages = std::map<std::string, PersistentImage>;
+/// Images that earlier frames left for later frames, by name. The device must outlive them.
+using RetainedImages = std::map<std::string, PersistentImage>;
 
-/// The images of a runner that outlive frames, by name.
+/// Makes the images that outlive frames, and follows what frames do to them.
 class PersistentImages {
 public:
-    explicit PersistentImages(gpu::GpuDevice& device) : image_device_(device) {}
+    /// `all`: where the images are; must outlive this object.
+    PersistentImages(gpu::GpuDevice& device, RetainedImages& all)
+        : image_device_(device), all_(all) {}
 
     /// Called before an image is destroyed that frames in flight and planned graphs may use.
     using ReplaceHandler = std::function<void(const PersistentImage&)>;
@@ -30,8 +30,6 @@ public:
     void swap_previous_copies(const CompiledRenderGraph& shape);
     /// Drops all images. Must not be called while frames are in flight.
     void release_all_images() { all_.clear(); }
-    SuspendedPersistentImages take_retained_images() { return std::exchange(all_, {}); }
-    void restore_retained_images(SuspendedPersistentImages all) { all_ = std::move(all); }
     GraphHistory make_history() const;
     /// Returns the bytes of device memory that are allocated.
     std::uint64_t allocated_device_bytes() const;
@@ -42,7 +40,7 @@ private:
                                            const ReplaceHandler& release);
 
     gpu::GpuDevice& image_device_;
-    SuspendedPersistentImages all_;
+    RetainedImages& all_;
 };
 
 } // namespace catoptric::graph

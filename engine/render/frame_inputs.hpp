@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/frame_facts.hpp"
 #include "render/gpu_scene.hpp"
 
 #include <optional>
@@ -17,6 +18,7 @@ struct FrameInputs {
     std::uint32_t ablated = 0;
     /// Adds an output of where mirrors looked; for measuring, costs an attachment.
     bool with_lookup = false;
+    FrameFacts facts = {};
 };
 
 /// The images of light probes (shaders/lib/light_probes.glsl).

@@ -144,9 +144,6 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     if (changes.has_shape_changes() || changes.lights || !are_cameras_equal(camera_, camera) ||
         size_ != size)
         fill_view_table(camera, size);
-    if (face_needs_.empty())
-        face_needs_ = find_needed_capture_face_edges(geometry_, mirror_objects_, probes_,
-                                                     views_[kCameraViewIndex], eye_, size.y);
     fill_frame_uniforms(ambient);
     write_scene_buffers_to_device(slot);
     complete_ = true;
@@ -347,6 +344,11 @@ void GpuScene::fill_frame_uniforms(double ambient) {
     frame_.set_device_list_contents(
         std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
+}
+
+std::vector<double> GpuScene::find_needed_face_edges() const {
+    return find_needed_capture_face_edges(geometry_, mirror_objects_, probes_,
+                                          views_[kCameraViewIndex], eye_, size_.y);
 }
 
 std::uint32_t GpuScene::common_capture_face_edge() const {

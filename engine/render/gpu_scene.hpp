@@ -86,16 +86,13 @@ public:
     /// Returns whether the object is a closed mirror with the camera inside, which no light from
     /// outside reaches.
     bool does_object_enclose_camera(std::size_t object) const { return hides_all_[object]; }
-    /// Returns the texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a
-    /// mirror outside the picture. The first update computes them and later updates keep them,
-    /// because cubes that change size lose the contents of the frame before.
-    const std::vector<double>& needed_face_edges() const { return face_needs_; }
-    /// Discards the results of needed_face_edges(), so that the next update computes the needed
-    /// cube edges again.
-    void discard_needed_face_edges() { face_needs_.clear(); }
-    bool has_needed_face_edges() const { return face_needs_.size() == mirror_objects_.size(); }
-    /// Replaces the face needs by those of another sequence of frames.
-    void set_needed_face_edges(std::vector<double> needs) { face_needs_ = std::move(needs); }
+    /// Returns the texels that the edge of each mirror's cube needs in the picture of the last
+    /// update (render/footprint.hpp); 0 for a mirror outside the picture. Costs O(n) in the
+    /// mirrors' triangles.
+    std::vector<double> find_needed_face_edges() const;
+    /// Sets the edges for face=auto. An earlier frame may have found them.
+    void use_face_edges(const std::vector<double>& needs) { face_needs_ = needs; }
+    const std::vector<double>& used_face_edges() const { return face_needs_; }
     /// Returns one edge for all cubes: the largest need, limited by the device.
     std::uint32_t common_capture_face_edge() const;
     /// Returns the most cubes in one array on this device.
@@ -256,7 +253,7 @@ private:
     std::map<std::size_t, double> closed_volumes_; ///< volumes of meshes of glass, by
                                                    ///< mesh
     std::vector<bool> hides_all_; ///< result of does_object_enclose_camera for each object
-    std::vector<double> face_needs_;
+    std::vector<double> face_needs_; ///< see use_face_edges
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
     double ambient_ = 0;    ///< ambient light of the last update

@@ -114,6 +114,7 @@ private:
 struct Access {
     using EngineImpl = Engine::Impl;
     using SessionImpl = Session::Impl;
+    using FrameImpl = Frame::Impl;
 
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
     static CompiledPipelines compiled_pipelines(const Engine& engine);
@@ -144,12 +145,11 @@ struct Access {
     /// without `with_lookup`, or before another one.
     static ReflectionTiers read_reflection_tiers(const Frame& frame, std::size_t part = 0);
 
-    /// Submits a frame as Session::frame does, with hooks.
-    static Frame render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks);
-    /// As render_frame. `finish` adds passes that belong to no technique before the frame is
-    /// submitted.
-    static Frame submit_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-                              const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
+    /// Submits a frame as Session::frame does, with hooks. `finish` adds passes that belong to no
+    /// technique before the frame is submitted.
+    static Frame
+    render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
+                 const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish = {});
     /// Submits a frame and shows it in a window. The screen must belong to the session's engine,
     /// and WindowScreen::fit_to_window must have returned true. If the window has no image for the
     /// frame, the frame is still rendered.

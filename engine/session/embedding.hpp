@@ -20,7 +20,7 @@ struct EmbeddingEngineAccess {
     }
     static Frame submit_embedded_frame(Session& session, const FrameSpec& spec,
                                        const std::function<void(FrameGraph&)>& finish) {
-        return Access::submit_frame(session, spec, {}, [&](FrameGraph& frame) {
+        return Access::render_frame(session, spec, {}, [&](FrameGraph& frame) {
             finish(frame);
             return graph::ExternalSemaphores{};
         });

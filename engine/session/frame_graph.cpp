@@ -137,6 +137,7 @@ parse_technique_plans(const std::vector<std::string>& techniques) {
 }
 
 FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
+                               const render::FrameFacts& facts,
                                const std::vector<reflect::TechniquePlan>& plans,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,
@@ -146,8 +147,8 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
     for (const reflect::TechniquePlan& plan : plans) {
         const reflect::PreviousCaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene,     spec.size,     prefix,
-                                         spec.seed, hooks.ablated, spec.with_lookup};
+        const render::FrameInputs inputs{
+            scene, spec.size, prefix, facts.seed, hooks.ablated, spec.with_lookup, facts};
         const reflect::TechniqueOfEachMirror assignment =
             reflect::replace_techniques_unfit_for_mirror(
                 reflect::assign_techniques_to_mirrors(plan, mirrors),
@@ -258,7 +259,7 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
         if (choice.shared.chooses_face)
-            part.auto_face = AutoFace{scene.common_capture_face_edge(), scene.needed_face_edges()};
+            part.auto_face = AutoFace{scene.common_capture_face_edge(), scene.used_face_edges()};
     for (const graph::BufferHandle counters : outputs.counters)
         add_ray_counters(runner.read_back_resource(ticket, counters), part);
     const std::vector<std::byte> texels = runner.read_back_resource(ticket, outputs.hdr);

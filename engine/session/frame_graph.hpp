@@ -37,6 +37,7 @@ parse_technique_plans(const std::vector<std::string>& techniques);
 /// `mirrors`: names of the mirrors. `keeping`: capture history of each plan. Throws `usage` for a
 /// plan that does not fit the mirrors.
 FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
+                               const render::FrameFacts& facts,
                                const std::vector<reflect::TechniquePlan>& plans,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,

@@ -106,7 +106,7 @@ Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScre
     std::optional<std::uint32_t> image;
     onto.fits = false; // after a refused frame, the image is returned when all images are made
                        // again
-    Frame frame = submit_frame(session, spec, {}, [&](FrameGraph& graph) {
+    Frame frame = render_frame(session, spec, {}, [&](FrameGraph& graph) {
         image = onto.acquire();
         if (!image) return graph::ExternalSemaphores{};
         onto.add(graph, spec, showing, index);

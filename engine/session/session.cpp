@@ -23,7 +23,7 @@ double compute_milliseconds_since(SteadyClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
-DeviceSceneKey make_scene_key(const FrameSpec& spec) {
+render::ShownInstant make_shown_instant(const FrameSpec& spec) {
     return {spec.time, scene::camera_at_time(spec.camera, spec.time), spec.size, spec.ambient};
 }
 
@@ -62,19 +62,7 @@ std::string rendered_work_name(RenderedWork work) {
 }
 
 struct FrameSequence::Impl {
-    graph::SuspendedPersistentImages leavings;
-    std::vector<reflect::TechniquePlan> remembered;
-    RenderedWork remembered_model = RenderedWork::everything;
-    std::vector<std::shared_ptr<render::CaptureCache>> kept;
-    std::vector<CaptureCostEstimate> paces;
-    std::vector<double> face_needs;
-    std::optional<DeviceSceneKey> scene_key; ///< key of the scene data from which the next frame
-                                             ///< continues
-    std::uint64_t units = 0;                 ///< units in which distances were captured
-    std::uint64_t edits = 0;                 ///< number of the scene's edits so far
-    std::vector<std::string> texts;
-    /// Parsed from `texts`, with the suggestions made for its first frame.
-    std::vector<reflect::TechniquePlan> plans;
+    History history;
 };
 
 FrameSequence::FrameSequence(std::unique_ptr<Impl> impl) : sequence_impl_(std::move(impl)) {}
@@ -87,15 +75,23 @@ void Session::Impl::wait_until_scene_copy_is_free(std::size_t of) {
         runner.wait_for_frame(graph::SubmittedFrameTicket{read_by[of]});
 }
 
-double Session::Impl::update_device_scene(const DeviceSceneKey& wanted) {
-    if (scene_key == wanted && resident->has_needed_face_edges()) return 0;
+double Session::Impl::update_device_scene(const render::ShownInstant& wanted) {
+    double update_ms = 0;
+    if (shown != wanted) update_ms = write_device_scene(wanted);
+    if (history.face_edges && history.face_edges->size != wanted.size) history.face_edges.reset();
+    if (!history.face_edges)
+        history.face_edges = SequenceFaceEdges{wanted.size, resident->find_needed_face_edges()};
+    resident->use_face_edges(history.face_edges->needs);
+    return update_ms;
+}
+
+double Session::Impl::write_device_scene(const render::ShownInstant& wanted) {
     // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
     wait_until_scene_copy_is_free(next);
     copy = next;
     const SteadyClock::time_point start = SteadyClock::now();
-    if (scene_key && scene_key->size != wanted.size) resident->discard_needed_face_edges();
-    scene_key.reset(); // stays unset if the update throws half-way
+    shown.reset(); // stays unset if the update throws half-way
     models.clear();
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
@@ -105,21 +101,21 @@ double Session::Impl::update_device_scene(const DeviceSceneKey& wanted) {
     }
     resident->update(scene_at_current_instant(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
-    scene_key = wanted;
+    shown = wanted;
     ++counts.updates;
     return compute_milliseconds_since(start);
 }
 
 const std::vector<reflect::TechniquePlan>&
 Session::Impl::parse_and_cache_technique_plans(const FrameSpec& spec) {
-    if (plans.empty() || texts != spec.techniques) {
-        plans = parse_technique_plans(spec.techniques);
-        for (reflect::TechniquePlan& plan : plans)
+    if (history.read_plans.empty() || history.texts != spec.techniques) {
+        history.read_plans = parse_technique_plans(spec.techniques);
+        for (reflect::TechniquePlan& plan : history.read_plans)
             plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.info);
-        texts = spec.techniques;
+        history.texts = spec.techniques;
         models.clear();
     }
-    return plans;
+    return history.read_plans;
 }
 
 graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
@@ -133,10 +129,7 @@ graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
                                        : graph::PassTiming::pipelined,
                                    spec.keeps_history, outside, counts_work);
     } catch (...) {
-        if (runner.has_dropped_contents()) {
-            kept.clear(), paces.clear(), timed.reset();
-            remembered.clear();
-        }
+        if (runner.has_dropped_contents()) exchange_history({});
         throw;
     }
 }
@@ -145,9 +138,9 @@ const std::shared_ptr<const require::RequiredWorkModel>&
 Session::Impl::find_required_work_model(RenderedWork work, bool is_ablated) {
     std::shared_ptr<const require::RequiredWorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
-    require::RequiredWorkModelInput question{scene_at_current_instant(), scene_key->camera,
-                                             scene_key->size};
-    reflect::add_capture_needs_of_plan(question, plans);
+    require::RequiredWorkModelInput question{scene_at_current_instant(), shown->camera,
+                                             shown->size};
+    reflect::add_capture_needs_of_plan(question, history.read_plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // look-ups with removed causes read faces that a search
                                        // would never read
@@ -155,7 +148,7 @@ Session::Impl::find_required_work_model(RenderedWork work, bool is_ablated) {
     require::RequiredWorkModel made = work == RenderedWork::everything
                                           ? require::make_everything_model(question)
                                           : requirements->make_work_model_for_request(question);
-    hash_ambient_light(made, scene_key->ambient);
+    hash_ambient_light(made, shown->ambient);
     model = std::make_shared<const require::RequiredWorkModel>(std::move(made));
     return model;
 }
@@ -182,63 +175,77 @@ SetupTimes Access::setup_times(const Session& session) {
     return {resident.first_scene_upload_ms(), resident.first_bvh_build_ms()};
 }
 
-Frame Session::frame(const FrameSpec& spec) { return Access::render_frame(*this, spec, {}); }
-
-Frame Access::render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks) {
-    return submit_frame(session, spec, hooks,
-                        [](FrameGraph&) { return graph::ExternalSemaphores{}; });
+Frame Session::frame(const FrameSpec& spec) {
+    return Frame(impl_->submit(impl_, spec, {}, {}));
 }
 
-Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-                           const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
-    Session::Impl& self = *session.impl_;
+Frame Access::render_frame(
+    Session& session, const FrameSpec& spec, const FrameHooks& hooks,
+    const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
+    return Frame(session.impl_->submit(session.impl_, spec, hooks, finish));
+}
+
+bool Session::Impl::follows_last_frame(const FrameSpec& spec) const {
+    return have_equal_plans(history.plans, history.read_plans) && history.work == spec.model;
+}
+
+render::FrameFacts Session::Impl::make_frame_facts(const FrameSpec& spec) const {
+    render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
+    if (history.last) facts.number = history.last->number + 1, facts.before = history.last->now;
+    return facts;
+}
+
+std::shared_ptr<Access::FrameImpl>
+Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
+                      const FrameHooks& hooks,
+                      const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
     check_frame_spec(spec);
-    const std::vector<reflect::TechniquePlan>& plans = self.parse_and_cache_technique_plans(spec);
-    const bool follows = have_equal_plans(self.remembered, plans) &&
-                         self.remembered_model == spec.model;
-    if (!spec.keeps_history && !follows) {
-        self.runner.discard_persistent_image_contents();
-        self.kept.clear();
-        self.paces.clear(), self.timed.reset();
-        self.remembered = plans, self.remembered_model = spec.model;
-    }
-    double waited_ms = 0;
+    parse_and_cache_technique_plans(spec);
+    const bool follows = follows_last_frame(spec);
+    if (!spec.keeps_history && !follows)
+        exchange_history({.plans = history.read_plans,
+                          .work = spec.model,
+                          .texts = history.texts,
+                          .read_plans = history.read_plans});
+    auto frame = std::make_shared<Access::FrameImpl>();
+    frame->session = self, frame->spec = spec, frame->hooks = hooks;
     {
-        const Stopwatch watch(waited_ms);
-        self.wait_for_needed_results(spec);
+        const Stopwatch watch(frame->waited_ms);
+        wait_for_needed_results(spec);
     }
-    const double update_ms = self.update_device_scene(make_scene_key(spec));
+    const render::FrameFacts facts = make_frame_facts(spec);
+    frame->update_ms = update_device_scene(facts.now);
     const SteadyClock::time_point start = SteadyClock::now();
-    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_required_work_model(
-        spec.model, hooks.ablated != 0);
-    FrameGraph frame = declare_frame_graph(spec, hooks, plans, self.mirrors, *self.resident,
-                                           self.runner.make_history(),
-                                           self.find_capture_histories(spec, *model, follows));
-    const double declare_ms = compute_milliseconds_since(start);
-    if (self.resident->has_new_views()) self.wait_until_scene_copy_is_free(self.copy);
+    frame->model = find_required_work_model(spec.model, hooks.ablated != 0);
+    frame->frame = declare_frame_graph(spec, hooks, facts, history.read_plans, mirrors, *resident,
+                                       runner.make_history(),
+                                       find_capture_histories(spec, *frame->model, follows));
+    frame->declare_ms = compute_milliseconds_since(start);
+    if (resident->has_new_views()) wait_until_scene_copy_is_free(copy);
     const SteadyClock::time_point trees = SteadyClock::now();
-    self.resident->write_views_and_update_trees();
-    const double hierarchy_ms = compute_milliseconds_since(trees);
-    const graph::ExternalSemaphores outside = finish(frame);
-    const graph::SubmittedFrameTicket ticket = self.run_graph(frame.graph, spec, outside,
-                                                              hooks.counts_work);
-    self.last = ticket;
-    self.read_by[self.copy] = ticket.frame;
-    if (!spec.keeps_history) self.store_captures_of_frame(frame, ticket);
-    if (!spec.keeps_history && spec.budget_ms > 0)
-        self.mark_frame_for_capture_timing(frame, ticket);
-    ++self.counts.frames;
-    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{session.impl_,
-                                                           ticket,
-                                                           spec,
-                                                           hooks,
-                                                           std::move(frame),
-                                                           model,
-                                                           update_ms,
-                                                           declare_ms,
-                                                           hierarchy_ms,
-                                                           waited_ms,
-                                                           {}}));
+    resident->write_views_and_update_trees();
+    frame->hierarchy_ms = compute_milliseconds_since(trees);
+    const graph::ExternalSemaphores outside = finish ? finish(frame->frame)
+                                                     : graph::ExternalSemaphores{};
+    frame->ticket = run_graph(frame->frame.graph, spec, outside, hooks.counts_work);
+    last = frame->ticket;
+    read_by[copy] = frame->ticket.frame;
+    if (!spec.keeps_history) store_history_of_frame(spec, facts, frame->frame, frame->ticket);
+    ++counts.frames;
+    return frame;
+}
+
+History Session::Impl::exchange_history(History next) {
+    runner.release_images();
+    models.clear();
+    return std::exchange(history, std::move(next));
+}
+
+void Session::Impl::cut() {
+    exchange_history({.plans = history.plans,
+                      .work = history.work,
+                      .costs = history.costs,
+                      .timed = history.timed});
 }
 
 void Session::change(const scene::Edit& edit) {
@@ -250,9 +257,7 @@ void Session::change(const scene::Edit& edit) {
     if (removes || render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
         auto made = std::make_unique<render::GpuScene>(self.engine_impl.device, edited,
                                                        self.read_by.size());
-        self.runner.discard_persistent_image_contents(); // waits for frames in flight; captured
-                                                         // distances were in other units
-        self.kept.clear();
+        self.cut(); // captured distances were in other units
         self.resident = std::move(made);
         ++self.units;
     }
@@ -260,55 +265,31 @@ void Session::change(const scene::Edit& edit) {
     self.scene = std::move(edited);
     self.moved.reset();
     self.mirrors = list_mirror_names(self.scene);
-    self.scene_key.reset();
+    self.shown.reset();
     ++self.edits;
-    self.texts.clear(); // another plan may be suggested
+    self.history.texts.clear(); // another plan may be suggested
 }
 
 void Session::forget() {
-    impl_->runner.discard_persistent_image_contents();
-    impl_->kept.clear();
-    impl_->texts.clear(); // another plan may be suggested
-    impl_->resident->discard_needed_face_edges();
-    impl_->scene_key.reset();
+    impl_->cut();
+    impl_->shown.reset();
 }
 
 FrameSequence Access::suspend_sequence(Session& session) {
     Session::Impl& self = *session.impl_;
     self.read_capture_times();
-    auto sequence = std::make_unique<FrameSequence::Impl>(FrameSequence::Impl{
-        self.runner.suspend(), std::exchange(self.remembered, {}), self.remembered_model,
-        std::exchange(self.kept, {}), std::exchange(self.paces, {}),
-        self.resident->needed_face_edges(), self.scene_key, self.units, self.edits,
-        std::exchange(self.texts, {}), std::exchange(self.plans, {})});
-    self.models.clear();
-    self.resident->discard_needed_face_edges();
-    return FrameSequence(std::move(sequence));
+    self.history.units = self.units, self.history.edits = self.edits;
+    return FrameSequence(std::make_unique<FrameSequence::Impl>(self.exchange_history({})));
 }
 
 void Access::resume_frame_sequence(Session& session, FrameSequence sequence) {
     Session::Impl& self = *session.impl_;
-    if (sequence.sequence_impl_->units != self.units) {
-        session.forget();
-        return;
-    }
-    self.runner.resume(std::move(sequence.sequence_impl_->leavings));
-    self.remembered = std::move(sequence.sequence_impl_->remembered);
-    self.remembered_model = sequence.sequence_impl_->remembered_model;
-    self.kept = std::move(sequence.sequence_impl_->kept);
-    self.paces = std::move(sequence.sequence_impl_->paces);
-    self.resident->set_needed_face_edges(std::move(sequence.sequence_impl_->face_needs));
-    if (sequence.sequence_impl_->edits == self.edits) {
-        self.texts = std::move(sequence.sequence_impl_->texts);
-        self.plans = std::move(sequence.sequence_impl_->plans);
-        self.models.clear();
-    }
-    const std::optional<DeviceSceneKey>& scene_key = sequence.sequence_impl_->scene_key;
-    // Updating the scene for another picture size would discard the capture edges that were just
-    // set.
-    if (!scene_key || (self.scene_key && self.scene_key->size != scene_key->size))
-        self.scene_key.reset();
-    if (scene_key) self.update_device_scene(*scene_key);
+    History& next = sequence.sequence_impl_->history;
+    if (next.units != self.units) return session.forget();
+    if (next.edits != self.edits) next.texts.clear(); // another plan may be suggested
+    const std::optional<render::FrameFacts> last = next.last;
+    self.exchange_history(std::move(next));
+    if (last) self.update_device_scene(last->now);
 }
 
 std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
@@ -316,13 +297,14 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
     const std::vector<reflect::TechniquePlan>& plans = self.parse_and_cache_technique_plans(spec);
-    self.update_device_scene(make_scene_key(spec));
+    const render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
+    self.update_device_scene(facts.now);
     const std::shared_ptr<const require::RequiredWorkModel> model = self.find_required_work_model(
         spec.model, false);
     std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
                                                          {*model, nullptr, &self.comparisons});
-    FrameGraph frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident, {},
-                                           keeping);
+    FrameGraph frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident,
+                                           {}, keeping);
     // If captures are kept, the second frame compares them with those of the first. The returned
     // plan is that of the next frame, in which nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
@@ -330,7 +312,7 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
             keeping[i].before = frame.parts[i].outputs.kept;
             if (k > 0 && keeping[i].before) render::mark_captures_unchanged(*keeping[i].before);
         }
-        frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident,
+        frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident,
                                     frame.graph.graph_history_for_next_frame(), keeping);
     }
     const graph::GraphPlan& plan = self.runner.find_or_make_plan(frame.graph);

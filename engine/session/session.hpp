@@ -116,10 +116,9 @@ struct TechniqueResult {
     std::optional<AutoFace> auto_face; ///< only if the part chooses the cube edge (face=auto)
 };
 
-/// A frame that a session has submitted. Its results can be read until another frame takes its
-/// place: the session's next frame, or a later one if several are in flight. Look-ups can be read
-/// until the next frame. Reading later throws `internal`. Functions that wait throw `device_lost`
-/// and `exhausted`.
+/// A submitted frame. Its results can be read until another frame takes its place: the session's
+/// next frame, or a later one if several are in flight. Look-ups can be read until the next frame.
+/// Reading later throws `internal`. Functions that wait throw `device_lost` and `exhausted`.
 class Frame {
 public:
     /// Returns the frame's times. The first call waits for the device.
@@ -138,6 +137,7 @@ public:
 
 private:
     friend struct Access; // internal
+    friend class Session;
     struct Impl;
     explicit Frame(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
     std::shared_ptr<Impl> impl_;

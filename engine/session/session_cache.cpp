@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace catoptric::app {
 
@@ -40,48 +41,55 @@ std::vector<reflect::PreviousCaptureHistory>
 Session::Impl::find_capture_histories(const FrameSpec& spec,
                                       const require::RequiredWorkModel& model, bool follows) {
     std::vector<reflect::PreviousCaptureHistory> keeping(
-        plans.size(), {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
-    for (std::size_t i = 0; i < plans.size(); ++i) keeping[i].most = most_captures(spec, i, model);
-    for (std::size_t i = 0; follows && i < kept.size(); ++i) {
-        keeping[i].before = kept[i];
+        history.read_plans.size(), {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
+    for (std::size_t i = 0; i < keeping.size(); ++i)
+        keeping[i].most = most_captures(spec, i, model);
+    for (std::size_t i = 0; follows && i < history.captures.size(); ++i) {
+        keeping[i].before = history.captures[i];
         render::read_finished_face_comparisons(
-            kept[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
+            history.captures[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
     }
     return keeping;
 }
 
-void Session::Impl::store_captures_of_frame(const FrameGraph& frame,
-                                            graph::SubmittedFrameTicket ticket) {
-    kept.clear();
+void Session::Impl::store_history_of_frame(const FrameSpec& spec, const render::FrameFacts& facts,
+                                           const FrameGraph& frame,
+                                           graph::SubmittedFrameTicket ticket) {
+    history.last = facts;
+    history.captures.clear();
     for (const TechniqueGraphPart& part : frame.parts) {
-        kept.push_back(part.outputs.kept);
-        if (!kept.back()) continue;
-        kept.back()->frame = ticket.frame;
-        comparisons.mark_comparison_buffer_used(kept.back()->differing, ticket.frame);
+        history.captures.push_back(part.outputs.kept);
+        if (!part.outputs.kept) continue;
+        part.outputs.kept->frame = ticket.frame;
+        comparisons.mark_comparison_buffer_used(part.outputs.kept->differing, ticket.frame);
     }
+    if (spec.budget_ms == 0) return;
+    history.timed = {ticket.frame, {}};
+    for (const TechniqueGraphPart& part : frame.parts)
+        history.timed->drawn.emplace_back(part.prefix,
+                                          part.capture_budget ? part.capture_budget->drawn : 0);
 }
 
 void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
     const auto must_learn = [&](const std::shared_ptr<render::CaptureCache>& one) {
         return one && render::must_read_face_comparisons(*one, has_capture_limit(spec));
     };
-    const auto learns = std::ranges::find_if(kept, must_learn);
-    if (learns != kept.end() && !runner.has_ended({(*learns)->frame}))
+    const auto learns = std::ranges::find_if(history.captures, must_learn);
+    if (learns != history.captures.end() && !runner.has_ended({(*learns)->frame}))
         runner.wait_for_frame({(*learns)->frame});
     read_capture_times();
 }
 
 void Session::Impl::read_capture_times() {
-    if (!timed) return;
+    if (!history.timed) return;
+    const PendingTimedFrame timed = *std::exchange(history.timed, std::nullopt);
     // The times of the frame may have been overwritten by frames that keep the history unchanged.
-    if (last->frame < timed->ticket.frame + read_by.size()) {
-        const graph::GraphFrameTimes& times = runner.wait_for_frame(timed->ticket);
-        paces.resize(timed->drawn.size());
-        for (std::size_t i = 0; i < paces.size(); ++i)
-            paces[i].add(sum_capture_milliseconds(times, timed->drawn[i].first),
-                         timed->drawn[i].second);
-    }
-    timed.reset();
+    if (last->frame >= timed.frame + read_by.size()) return;
+    const graph::GraphFrameTimes& times = runner.wait_for_frame({timed.frame});
+    history.costs.resize(timed.drawn.size());
+    for (std::size_t i = 0; i < timed.drawn.size(); ++i)
+        history.costs[i].add(sum_capture_milliseconds(times, timed.drawn[i].first),
+                             timed.drawn[i].second);
 }
 
 std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t part,
@@ -90,16 +98,9 @@ std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t pa
     if (spec.budget_ms == 0) return spec.most_captures;
     const auto captured = static_cast<std::uint32_t>(
         std::ranges::count_if(model.mirrors, &require::MirrorRequirements::is_captured));
-    return part < paces.size() ? paces[part].count_affordable_captures(spec.budget_ms, captured)
-                               : captured;
-}
-
-void Session::Impl::mark_frame_for_capture_timing(const FrameGraph& frame,
-                                                  graph::SubmittedFrameTicket ticket) {
-    timed = {ticket, {}};
-    for (const TechniqueGraphPart& part : frame.parts)
-        timed->drawn.emplace_back(part.prefix,
-                                  part.capture_budget ? part.capture_budget->drawn : 0);
+    return part < history.costs.size()
+               ? history.costs[part].count_affordable_captures(spec.budget_ms, captured)
+               : captured;
 }
 
 } // namespace catoptric::app

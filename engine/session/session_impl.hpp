@@ -4,9 +4,9 @@
 #include "graph/graph_runner.hpp"
 #include "require/model.hpp"
 #include "session/access.hpp"
-#include "session/capture_cost.hpp"
 #include "session/engine_impl.hpp"
 #include "session/frame_graph.hpp"
+#include "session/history.hpp"
 #include "session/plan_file.hpp"
 #include "session/session.hpp"
 
@@ -17,17 +17,8 @@
 #include <vector>
 
 // Implementation of Session and Frame, only for session.cpp, session_cache.cpp, frame.cpp,
-// first_surface.cpp and screen.cpp.
+// first_surface.cpp and screen.cpp. What a later frame reads of earlier ones is in History.
 namespace catoptric::app {
-
-/// The data from which the device's copy of a scene is made. Equal keys mean an equal copy.
-struct DeviceSceneKey {
-    double time = 0;
-    scene::Camera camera;
-    uvec2 size{0, 0};
-    double ambient = 0;
-    bool operator==(const DeviceSceneKey&) const = default;
-};
 
 struct Session::Impl {
     Impl(Access::EngineImpl& shared, scene::Scene at_rest, std::uint32_t in_flight)
@@ -35,15 +26,26 @@ struct Session::Impl {
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
           comparisons(shared.device,
                       [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
-          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
+          runner(shared.device, shared.pipelines, in_flight, &history.images),
+          read_by(in_flight, 0) {
         mirrors = list_mirror_names(scene);
     }
 
-    /// Returns the scene at the instant of `scene_key`. A scene that is not animated is not copied.
+    /// Submits a frame. `finish` adds passes that belong to no technique; empty: none.
+    std::shared_ptr<Access::FrameImpl>
+    submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec, const FrameHooks& hooks,
+           const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
+    /// Replaces the history. The next frame follows the last frame of `next`. Waits for the frames
+    /// in flight. Returns the old history.
+    History exchange_history(History next);
+    /// Makes a cut: the next frame follows no other. What is known of costs stays.
+    void cut();
+    /// Returns the scene at the instant of `shown`. A scene that is not animated is not copied.
     const scene::Scene& scene_at_current_instant() const { return moved ? *moved : scene; }
     /// Writes the scene data that `wanted` needs and the device lacks. Returns the milliseconds of
     /// work.
-    double update_device_scene(const DeviceSceneKey& wanted);
+    double update_device_scene(const render::ShownInstant& wanted);
+    double write_device_scene(const render::ShownInstant& wanted);
     /// Waits until no frame in flight reads copy `of` of the scene data.
     void wait_until_scene_copy_is_free(std::size_t copy_index);
     /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
@@ -51,6 +53,8 @@ struct Session::Impl {
     /// frame.
     const std::vector<reflect::TechniquePlan>&
     parse_and_cache_technique_plans(const FrameSpec& spec);
+    /// Returns the facts of the next frame.
+    render::FrameFacts make_frame_facts(const FrameSpec& spec) const;
     /// Submits the graph of a frame. A frame that is stopped leaves the session without history.
     graph::SubmittedFrameTicket run_graph(const graph::Graph& graph, const FrameSpec& spec,
                                           const graph::ExternalSemaphores& outside,
@@ -62,6 +66,8 @@ struct Session::Impl {
     std::vector<reflect::PreviousCaptureHistory>
     find_capture_histories(const FrameSpec& spec, const require::RequiredWorkModel& model,
                            bool follows);
+    /// Returns whether a frame of these plans and this work follows the last frame.
+    bool follows_last_frame(const FrameSpec& spec) const;
     /// Waits for results of earlier frames that this frame needs.
     void wait_for_needed_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.
@@ -70,36 +76,23 @@ struct Session::Impl {
     /// Reads how long captures took in the last submitted frame under a budget. Waits for that
     /// frame.
     void read_capture_times();
-    /// Marks a submitted frame as the one that `read_capture_times` reads.
-    void mark_frame_for_capture_timing(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
-    /// Stores the captures of a submitted frame for the next one.
-    void store_captures_of_frame(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
+    /// Stores what a submitted frame leaves for the next one.
+    void store_history_of_frame(const FrameSpec& spec, const render::FrameFacts& facts,
+                                const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
 
     Access::EngineImpl& engine_impl;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
     render::CaptureComparisonBufferPool comparisons;
+    History history;
     graph::GraphRunner runner;
     std::vector<std::string> mirrors; ///< names of the mirrors
-    std::optional<DeviceSceneKey> scene_key;
-    /// `scene` at the instant of `scene_key`, if it is animated.
+    /// What the scene on the device shows; none: it must be written.
+    std::optional<render::ShownInstant> shown;
+    /// `scene` at the instant of `shown`, if it is animated.
     std::optional<scene::Scene> moved;
-    std::vector<std::string> texts;
-    std::vector<reflect::TechniquePlan> plans;      ///< parsed from `texts`
-    std::vector<reflect::TechniquePlan> remembered; ///< plans whose history the runner has
-    RenderedWork remembered_model = RenderedWork::everything;
-    /// Captures of `remembered`, by technique.
-    std::vector<std::shared_ptr<render::CaptureCache>> kept;
-    std::vector<CaptureCostEstimate> paces; ///< costs of captures, by technique
-    /// A frame under a budget whose times were not read yet. `drawn`: for each technique, the
-    /// prefix of its passes' names and the number of mirrors it drew.
-    struct PendingTimedFrame {
-        graph::SubmittedFrameTicket ticket;
-        std::vector<std::pair<std::string, std::uint32_t>> drawn;
-    };
-    std::optional<PendingTimedFrame> timed;
     std::optional<require::RequiredWorkModelBuilder> requirements; ///< computed at first use
-    /// Models of `scene_key` and `plans`.
+    /// Models of `shown` and the plans that were read last.
     std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::RequiredWorkModel>>
         models;
     std::optional<graph::SubmittedFrameTicket> last; ///< ticket of the frame submitted last
