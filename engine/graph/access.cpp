@@ -24,6 +24,7 @@ ResourceAccess make_resource_access_of_use(const ImageUse& use) {
 ResourceAccess make_resource_access_of_use(const BufferUse& use) {
     return {.is_buffer = true,
             .id = use.buffer.id,
+            .previous = use.buffer.previous,
             .use = use.use,
             .write = use.write,
             .needs = !use.write || use.use == ResourceUse::storage};
@@ -59,6 +60,11 @@ ResourceAccess make_access_to_image_part(const ImageHandle& image) {
             .layer_count = image.layer_count,
             .first_mip = image.first_mip,
             .mip_count = image.mip_count};
+}
+
+ResourceAccess make_access_to_whole_resource(const Graph& graph, const ResourceAccess& part) {
+    return part.is_buffer ? ResourceAccess{.is_buffer = true, .id = part.id}
+                          : make_access_to_whole_image(graph, part.id);
 }
 
 ResourceAccess make_access_to_whole_image(const Graph& graph, std::uint32_t image) {
@@ -106,7 +112,7 @@ std::string format_layer_range(const ImageDesc& desc, std::uint32_t first, std::
 
 std::string describe_access(const Graph& graph, const ResourceAccess& access) {
     const std::string name = quote_resource_name(graph, access);
-    if (access.is_buffer) return "buffer " + name;
+    if (access.is_buffer) return "buffer " + (access.previous ? "previous(" + name + ")" : name);
     std::string part = " " + format_number_range(access.first_layer, access.end_layer_of_access());
     const ImageDesc& desc = graph.list_images()[access.id];
     if (desc.mips > 1 || access.first_mip > 0)

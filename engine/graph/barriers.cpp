@@ -112,10 +112,9 @@ SubresourceAccessHistory make_history_with_readers(ResourceUse use) {
 
 /// Returns the state of an image at the start of a frame.
 SubresourceAccessHistory access_history_at_frame_start(const Graph& graph, std::uint32_t image) {
-    if (graph.image_lifetime(image) == ImageLifetime::persistent)
+    if (graph.image_lifetime(image) == Lifetime::persistent)
         return make_history_with_readers(ResourceUse::sampled);
-    if (graph.image_lifetime(image) == ImageLifetime::imported &&
-        graph.resource_use_on_import(image))
+    if (graph.image_lifetime(image) == Lifetime::imported && graph.resource_use_on_import(image))
         return make_history_with_readers(*graph.resource_use_on_import(image));
     return {};
 }
@@ -253,16 +252,16 @@ void add_frame_end_barriers(const Graph& graph, BarrierPlanningTracker& tracker,
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ResourceAccess whole = make_access_to_whole_image(graph, i);
         const bool stays = graph.image_lifetime(i) ==
-                           ImageLifetime::persistent; // also if no pass touches it
-        switch (plan.images[i].used || stays ? graph.image_lifetime(i) : ImageLifetime::frame) {
-        case ImageLifetime::frame: add_output_barriers(whole, wanted, tracker, plan.last); break;
-        case ImageLifetime::previous:
+                           Lifetime::persistent; // also if no pass touches it
+        switch (plan.images[i].used || stays ? graph.image_lifetime(i) : Lifetime::frame) {
+        case Lifetime::frame: add_output_barriers(whole, wanted, tracker, plan.last); break;
+        case Lifetime::previous:
             tracker.plan_layer_transition_to_use(whole, ResourceUse::sampled, true, plan.last);
             break;
-        case ImageLifetime::persistent:
+        case Lifetime::persistent:
             tracker.plan_layer_transition_to_use(whole, ResourceUse::sampled, false, plan.last);
             break;
-        case ImageLifetime::imported:
+        case Lifetime::imported:
             tracker.plan_layer_transition_to_use(
                 whole, graph.resource_use_on_release(i),
                 graph.resource_use_on_import(i) != graph.resource_use_on_release(i), plan.last);
@@ -271,10 +270,11 @@ void add_frame_end_barriers(const Graph& graph, BarrierPlanningTracker& tracker,
     }
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b) {
         const ResourceAccess whole{.is_buffer = true, .id = b};
-        if (plan.buffers[b].used && graph.is_imported({b}))
-            tracker.plan_layer_transition_to_use(whole, ResourceUse::copy_from, false, plan.last);
-        else
+        const Lifetime lifetime = plan.buffers[b].used ? graph.buffer_lifetime(b) : Lifetime::frame;
+        if (lifetime == Lifetime::frame)
             add_output_barriers(whole, wanted, tracker, plan.last);
+        else
+            tracker.plan_layer_transition_to_use(whole, ResourceUse::copy_from, false, plan.last);
     }
 }
 

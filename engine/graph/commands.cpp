@@ -89,7 +89,7 @@ void PassCommands::bind_resource(std::string_view name, TextureFilter sampler) {
 
 void PassCommands::check_pass_declares_resource(BufferHandle buffer, std::string_view name) const {
     check(std::ranges::any_of(pass_.buffers,
-                              [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
+                              [&](const BufferUse& use) { return use.buffer == buffer; }),
           Failure::internal, "pass '", pass_.name, "' uses buffer '",
           pass_graph_.list_buffers()[buffer.id].name, "' as '", name, "' but does not declare it");
 }

@@ -13,7 +13,7 @@ constexpr std::uint32_t kMaxFramesInFlight = 3;
 
 /// An image that outlives the frame: a persistent image, or one with a `previous`.
 struct PersistentImage {
-    ImageLifetime lifetime = ImageLifetime::previous;
+    Lifetime lifetime = Lifetime::previous;
     /// Device images: this frame's and the last frame's if the image has a `previous`, else one.
     std::vector<PhysicalImage> copies;
     gpu::UniqueMemory memory;
@@ -23,9 +23,18 @@ struct PersistentImage {
     ContentHashPerLayer stamps; ///< content hashes of a persistent image
 
     PhysicalImage& persistent_image_of_frame(bool previous) {
-        return lifetime == ImageLifetime::persistent ? copies[0]
-                                                     : copies[previous ? last : 1 - last];
+        return lifetime == Lifetime::persistent ? copies[0] : copies[previous ? last : 1 - last];
     }
+};
+
+/// A buffer with a `previous`.
+struct PersistentBuffer {
+    BufferDesc desc;
+    std::array<gpu::UniqueBuffer, 2> copies; ///< this frame's and the last frame's
+    gpu::UniqueMemory memory;
+    std::uint64_t bytes = 0; ///< bytes of `memory`
+    std::size_t last = 0;    ///< index of the copy that holds the last frame
+    bool valid = false;      ///< whether a last frame exists
 };
 
 /// Device images and buffers of a graph, indexed by their number in the graph. Entries are empty if
@@ -51,17 +60,27 @@ struct CompiledRenderGraph {
     /// For each image number, the image that outlives frames, as the last submitted frame used it;
     /// null for other images.
     std::vector<PersistentImage*> kept;
+    std::vector<PersistentBuffer*> kept_buffers; ///< the same for each buffer number
 
     /// Returns whether the image has its own memory across frames. A persistent image always does:
     /// it may be read after a frame whose passes do not touch it.
     bool outlives_frames(std::uint32_t image) const {
-        const ImageLifetime lifetime = outline.image_lifetime(image);
-        return lifetime == ImageLifetime::persistent ||
-               (lifetime == ImageLifetime::previous && plan.images[image].used);
+        const Lifetime lifetime = outline.image_lifetime(image);
+        return lifetime == Lifetime::persistent ||
+               (lifetime == Lifetime::previous && plan.images[image].used);
+    }
+    bool outlives_frames(BufferHandle buffer) const {
+        return outline.buffer_lifetime(buffer.id) == Lifetime::previous &&
+               plan.buffers[buffer.id].used;
+    }
+    /// Forgets the resources that outlive frames.
+    void release_retained() {
+        kept.assign(kept.size(), nullptr);
+        kept_buffers.assign(kept_buffers.size(), nullptr);
     }
     /// Returns whether the image is used and the runner owns its memory.
     bool is_allocated_by_runner(std::uint32_t image) const {
-        return plan.images[image].used && outline.image_lifetime(image) != ImageLifetime::imported;
+        return plan.images[image].used && outline.image_lifetime(image) != Lifetime::imported;
     }
     bool is_allocated_by_runner(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
@@ -73,6 +92,8 @@ struct CompiledRenderGraph {
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }
     VkBuffer vulkan_buffer(BufferHandle buffer, std::size_t slot) const {
+        if (const PersistentBuffer* const k = kept_buffers[buffer.id])
+            return k->copies[buffer.previous ? k->last : 1 - k->last];
         return (plan.buffers[buffer.id].alone ? own[slot] : shared).buffers[buffer.id];
     }
 };

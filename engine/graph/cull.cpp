@@ -10,8 +10,8 @@ namespace {
 ValuesPerSubresource<char> mark_parts_live_at_frame_end(const Graph& graph) {
     ValuesPerSubresource<char> live = mark_output_image_parts(graph);
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
-        if (graph.image_lifetime(i) == ImageLifetime::persistent ||
-            graph.image_lifetime(i) == ImageLifetime::imported)
+        if (graph.image_lifetime(i) == Lifetime::persistent ||
+            graph.image_lifetime(i) == Lifetime::imported)
             live.set_subresource_values_of_access(make_access_to_whole_image(graph, i), true);
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
         if (graph.is_imported({b}))

@@ -110,9 +110,12 @@ void write_memory_placement_text(std::ostream& out, const ResourcesSharingMemory
 }
 
 Json make_access_json(const Graph& graph, const ResourceAccess& a) {
-    if (a.is_buffer)
-        return {{"buffer", graph.list_buffers()[a.id].name},
-                {"use", graph::resource_use_name(a.use)}};
+    if (a.is_buffer) {
+        Json json{{"buffer", graph.list_buffers()[a.id].name},
+                  {"use", graph::resource_use_name(a.use)}};
+        if (a.previous) json["previous"] = true;
+        return json;
+    }
     Json json{{"image", graph.list_images()[a.id].name},
               {"layers", {a.first_layer, a.layer_count}},
               {"use", graph::resource_use_name(a.use)}};
@@ -146,16 +149,15 @@ void add_memory_placement_json(Json& json, const MemoryPlacement& placement) {
     json["alone"] = placement.alone;
 }
 
-Json make_image_json(const ImageDesc& desc, ImageLifetime lifetime,
-                     const MemoryPlacement& placement) {
+Json make_image_json(const ImageDesc& desc, Lifetime lifetime, const MemoryPlacement& placement) {
     Json json{{"name", desc.name},
               {"format", catoptric::texel_format_name(desc.format)},
               {"size", {desc.width, desc.height}},
               {"layers", desc.layers},
               {"cube", desc.cube}};
     if (desc.mips > 1) json["mips"] = desc.mips;
-    if (lifetime == ImageLifetime::persistent) json["kept"] = true;
-    if (lifetime == ImageLifetime::imported) json["imported"] = true;
+    if (lifetime == Lifetime::persistent) json["kept"] = true;
+    if (lifetime == Lifetime::imported) json["imported"] = true;
     add_memory_placement_json(json, placement);
     return json;
 }
@@ -216,8 +218,8 @@ std::string graph_plan_to_text(const Graph& graph, const GraphPlan& plan) {
             << format_count_with_plural_noun(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");
         if (desc.mips > 1) out << ", " << format_count_with_plural_noun(desc.mips, "mip", "s");
-        if (graph.image_lifetime(i) == ImageLifetime::persistent) out << ", kept";
-        if (graph.image_lifetime(i) == ImageLifetime::imported) out << ", imported";
+        if (graph.image_lifetime(i) == Lifetime::persistent) out << ", kept";
+        if (graph.image_lifetime(i) == Lifetime::imported) out << ", imported";
         write_memory_placement_text(out, sharers, plan.images[i]);
     }
     if (!plan.buffers.empty()) out << "\nbuffers\n";

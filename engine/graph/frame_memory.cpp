@@ -9,7 +9,7 @@ namespace catoptric::graph {
 namespace {
 
 /// Calls visit(placement) for each image and buffer in the memory of frames whose member `alone`
-/// equals the given value. Images that outlive frames are skipped.
+/// equals the given value. Those that outlive frames are skipped.
 template <typename Visit>
 void for_each_memory_placement(const CompiledRenderGraph& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
@@ -19,7 +19,8 @@ void for_each_memory_placement(const CompiledRenderGraph& shape, bool alone, con
             visit(placement);
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
-        if (shape.is_allocated_by_runner(BufferHandle{b}) && shape.plan.buffers[b].alone == alone)
+        if (shape.is_allocated_by_runner(BufferHandle{b}) && shape.plan.buffers[b].alone == alone &&
+            !shape.outlives_frames(BufferHandle{b}))
             visit(shape.plan.buffers[b]);
 }
 
@@ -99,7 +100,9 @@ void SharedGraphMemoryArena::create_resources(CompiledRenderGraph& shape,
         const MemoryPlacement& p = shape.plan.buffers[b];
         const BufferDesc& desc = shape.outline.list_buffers()[b];
         resources.buffers.emplace_back();
-        if (!shape.is_allocated_by_runner(BufferHandle{b}) || p.alone != alone) continue;
+        if (!shape.is_allocated_by_runner(BufferHandle{b}) || p.alone != alone ||
+            shape.outlives_frames(BufferHandle{b}))
+            continue;
         resources.buffers.back() = make_unbound_buffer(memory_device_, desc);
         gpu::throw_unless_vk_success(vkBindBufferMemory(memory_device_.device_handle(),
                                                         resources.buffers.back(),

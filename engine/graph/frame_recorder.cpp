@@ -180,7 +180,7 @@ void FrameRecorder::add_barrier(const PlannedBarrier& barrier, bool last) {
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
         set_vulkan_barrier_scopes(b, sides);
-        b.buffer = vulkan_buffer({barrier.id});
+        b.buffer = vulkan_buffer({barrier.id, barrier.previous});
         b.size = VK_WHOLE_SIZE;
         buffer_barriers_.push_back(b);
         return;
@@ -235,7 +235,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
 }
 
 PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
-    if (graph_->image_lifetime(image.id) != ImageLifetime::imported)
+    if (graph_->image_lifetime(image.id) != Lifetime::imported)
         return shape_->physical_image_of_handle(image, slot_index_);
     PhysicalImage* const outside = graph_->find_imported_resource(image.id);
     const ImageDesc& wanted = graph_->list_images()[image.id];

@@ -91,7 +91,7 @@ ImageHandle Graph::add_image(ImageDesc desc) {
 
 BufferHandle Graph::add_buffer(BufferDesc desc) {
     buffers_.push_back(std::move(desc));
-    imported_buffers_.push_back(false);
+    buffer_lives_.push_back(Lifetime::frame);
     outside_buffers_.push_back(nullptr);
     return {static_cast<std::uint32_t>(buffers_.size() - 1)};
 }
@@ -102,7 +102,7 @@ ImageHandle Graph::add_persistent_image(ImageDesc desc) {
     if (found != history_.persistent.end() && found->second.desc == desc)
         held = found->second.stamps;
     const ImageHandle handle = add_image(std::move(desc));
-    lives_.back().lifetime = ImageLifetime::persistent;
+    lives_.back().lifetime = Lifetime::persistent;
     lives_.back().held = std::move(held);
     return handle;
 }
@@ -113,9 +113,15 @@ const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) co
     return images_[image.id];
 }
 
+const BufferDesc& Graph::find_buffer_desc(BufferHandle buffer, const char* asked) const {
+    check(buffer.id < buffers_.size(), Failure::internal, asked, " of buffer number ", buffer.id,
+          ", but the graph has ", buffers_.size(), " buffers");
+    return buffers_[buffer.id];
+}
+
 bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const {
     const ImageDesc& desc = find_image_desc(part, "has_image_part_content_hash()");
-    check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
+    check(image_lifetime(part.id) == Lifetime::persistent, Failure::internal,
           "has_image_part_content_hash() of image '", desc.name, "', which is not persistent");
     bool all = true;
     for_each_contiguous_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
@@ -129,7 +135,7 @@ bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_
 
 void Graph::set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash) {
     const ImageDesc& desc = find_image_desc(part, "set_content_hash_of_image_part()");
-    check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
+    check(image_lifetime(part.id) == Lifetime::persistent, Failure::internal,
           "set_content_hash_of_image_part() of image '", desc.name, "', which is not persistent");
     stamped_.push_back({part, content_hash});
 }
@@ -138,7 +144,7 @@ ImageHandle Graph::import_external_resource(ImageDesc desc, PhysicalImage* outsi
                                             std::optional<ResourceUse> arrives,
                                             ResourceUse leaves) {
     const ImageHandle handle = add_image(std::move(desc));
-    lives_.back() = {.lifetime = ImageLifetime::imported,
+    lives_.back() = {.lifetime = Lifetime::imported,
                      .arrives = arrives,
                      .leaves = leaves,
                      .outside = outside,
@@ -148,7 +154,7 @@ ImageHandle Graph::import_external_resource(ImageDesc desc, PhysicalImage* outsi
 
 BufferHandle Graph::import_external_resource(BufferDesc desc, const gpu::GpuBuffer* outside) {
     const BufferHandle handle = add_buffer(std::move(desc));
-    imported_buffers_.back() = true;
+    buffer_lives_.back() = Lifetime::imported;
     outside_buffers_.back() = outside;
     return handle;
 }
@@ -162,11 +168,11 @@ PassBuilder Graph::add_pass(std::string name, PassPurpose tag) {
 
 ImageHandle Graph::previous_contents(ImageHandle image) {
     const ImageDesc& desc = find_image_desc(image, "previous_contents()");
-    ImageLifetime& lifetime = lives_[image.id].lifetime;
-    check(lifetime == ImageLifetime::frame || lifetime == ImageLifetime::previous,
-          Failure::internal, "previous_contents() of image '", desc.name, "', which is ",
-          lifetime == ImageLifetime::persistent ? "persistent" : "imported", " and has one copy");
-    lifetime = ImageLifetime::previous;
+    Lifetime& lifetime = lives_[image.id].lifetime;
+    check(lifetime == Lifetime::frame || lifetime == Lifetime::previous, Failure::internal,
+          "previous_contents() of image '", desc.name, "', which is ",
+          lifetime == Lifetime::persistent ? "persistent" : "imported", " and has one copy");
+    lifetime = Lifetime::previous;
     image.previous = true;
     return image;
 }
@@ -175,17 +181,32 @@ bool Graph::has_history(ImageHandle image) const {
     return history_.previous.contains(find_image_desc(image, "has_history()").name);
 }
 
+BufferHandle Graph::previous_contents(BufferHandle buffer) {
+    const BufferDesc& desc = find_buffer_desc(buffer, "previous_contents()");
+    check(!is_imported(buffer), Failure::internal, "previous_contents() of buffer '", desc.name,
+          "', which is imported and has one copy");
+    buffer_lives_[buffer.id] = Lifetime::previous;
+    buffer.previous = true;
+    return buffer;
+}
+
+bool Graph::has_history(BufferHandle buffer) const {
+    return history_.previous.contains(find_buffer_desc(buffer, "has_history()").name);
+}
+
 void Graph::mark_as_graph_output(ImageHandle image) { wanted_images_.push_back(image); }
 void Graph::mark_as_graph_output(BufferHandle buffer) { wanted_buffers_.push_back(buffer); }
 
 GraphHistory Graph::graph_history_for_next_frame() const {
     GraphHistory left = history_;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
-        if (lives_[i].lifetime == ImageLifetime::previous) left.previous.insert(images_[i].name);
-        if (lives_[i].lifetime == ImageLifetime::persistent)
+        if (lives_[i].lifetime == Lifetime::previous) left.previous.insert(images_[i].name);
+        if (lives_[i].lifetime == Lifetime::persistent)
             left.persistent.insert_or_assign(
                 images_[i].name, GraphHistory::PersistentImage{images_[i], lives_[i].held});
     }
+    for (std::uint32_t b = 0; b < buffers_.size(); ++b)
+        if (buffer_lives_[b] == Lifetime::previous) left.previous.insert(buffers_[b].name);
     for (const auto& [part, content_hash] : stamped_)
         for_each_contiguous_layer_range(part, images_[part.id].layers,
                                         [&](std::uint32_t first, std::uint32_t end) {

@@ -66,12 +66,12 @@ struct BufferDesc {
     friend bool operator==(const BufferDesc&, const BufferDesc&) = default;
 };
 
-/// How long the contents of an image live.
-enum class ImageLifetime {
+/// How long the contents of an image or a buffer live.
+enum class Lifetime {
     frame, ///< the contents live until the last pass of the frame that uses them
     /// Until the end of the next frame, which can read both this frame's and its own contents.
     previous,
-    persistent, ///< contents last until a pass writes them again
+    persistent, ///< contents last until a pass writes them again; images only
     imported,   ///< contents last as long as the owner outside the graph says
 };
 
@@ -100,8 +100,10 @@ struct ImageHandle {
     friend bool operator==(const ImageHandle&, const ImageHandle&) = default;
 };
 
+/// Handle of a buffer of one graph, or of its contents in the previous frame.
 struct BufferHandle {
     std::uint32_t id = 0;
+    bool previous = false;
     friend bool operator==(const BufferHandle&, const BufferHandle&) = default;
 };
 
@@ -179,7 +181,8 @@ struct GraphHistory {
         ImageDesc desc;
         ContentHashPerLayer stamps;
     };
-    std::set<std::string> previous; ///< names of images whose contents in the last frame exist
+    /// Names of images and buffers whose contents in the last frame exist.
+    std::set<std::string> previous;
     std::map<std::string, PersistentImage> persistent; ///< persistent images by name
 };
 
@@ -220,12 +223,14 @@ public:
     BufferHandle import_external_resource(BufferDesc desc, const gpu::GpuBuffer* outside);
     PassBuilder add_pass(std::string name, PassPurpose tag = PassPurpose::none);
 
-    /// Returns a handle of the image's contents at the end of the last frame (black on the first).
-    /// Costs a second copy of the image, whose memory is not shared.
+    /// Returns a handle of the contents at the end of the last frame: on the first, a black image,
+    /// or a buffer of zeros. Costs a second copy, whose memory is not shared.
     ImageHandle previous_contents(ImageHandle image);
-    /// Returns whether the last frame left contents of the image. If not, `previous_contents` shows
-    /// black.
+    BufferHandle previous_contents(BufferHandle buffer);
+    /// Returns whether the last frame left contents of the resource. If not, `previous_contents`
+    /// shows zeros.
     bool has_history(ImageHandle image) const;
+    bool has_history(BufferHandle buffer) const;
     /// Marks an image as an output of the frame. Passes that no output depends on are culled.
     void mark_as_graph_output(ImageHandle image);
     void mark_as_graph_output(BufferHandle buffer);
@@ -238,8 +243,11 @@ public:
     const std::vector<ImageContentHashRecord>& list_image_content_hashes() const {
         return stamped_;
     }
-    ImageLifetime image_lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
-    bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
+    Lifetime image_lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
+    Lifetime buffer_lifetime(std::uint32_t buffer) const { return buffer_lives_[buffer]; }
+    bool is_imported(BufferHandle buffer) const {
+        return buffer_lives_[buffer.id] == Lifetime::imported;
+    }
     /// Returns the use in whose layout an imported image arrives.
     std::optional<ResourceUse> resource_use_on_import(std::uint32_t image) const {
         return lives_[image].arrives;
@@ -262,19 +270,20 @@ public:
 
 private:
     struct ImageState {
-        ImageLifetime lifetime = ImageLifetime::frame;
+        Lifetime lifetime = Lifetime::frame;
         std::optional<ResourceUse> arrives;
         ResourceUse leaves = ResourceUse::sampled;
         PhysicalImage* outside = nullptr;
         ContentHashPerLayer held;
     };
     const ImageDesc& find_image_desc(ImageHandle image, const char* asked) const;
+    const BufferDesc& find_buffer_desc(BufferHandle buffer, const char* asked) const;
 
     GraphHistory history_;
     std::vector<ImageDesc> images_;
     std::vector<ImageState> lives_; // one per entry of `images_`
     std::vector<BufferDesc> buffers_;
-    std::vector<char> imported_buffers_; // one per entry of `buffers_`
+    std::vector<Lifetime> buffer_lives_; // one per entry of `buffers_`
     std::vector<const gpu::GpuBuffer*> outside_buffers_;
     std::deque<Pass> passes_; // a deque, because builders hold references
     std::vector<ImageHandle> wanted_images_;

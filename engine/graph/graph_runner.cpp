@@ -45,10 +45,10 @@ void read_timestamps(gpu::GpuDevice& device, FrameInFlightResources& slot, Graph
 } // namespace
 
 GraphRunner::GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
-                         std::uint32_t in_flight, RetainedImages* images)
+                         std::uint32_t in_flight, RetainedResources* retained)
     : runner_device_(device), frame_recorder_(device, pipelines), pieces_(device),
       timeline_(make_timeline_semaphore(device)), memory_(device),
-      kept_(device, images ? *images : own_images_) {
+      kept_(device, retained ? *retained : own_retained_) {
     check(in_flight >= 1 && in_flight <= kMaxFramesInFlight, Failure::usage,
           "frames in flight must be 1 to ", kMaxFramesInFlight, ", not ", in_flight);
     slots_.reserve(in_flight);
@@ -64,15 +64,15 @@ GraphRunner::~GraphRunner() {
     }
 }
 
-void GraphRunner::release_images() {
+void GraphRunner::release_retained() {
     finish_all_frames_in_flight();
     for (FrameInFlightResources& slot : slots_)
-        if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
+        if (slot.shape) slot.shape->release_retained();
 }
 
 void GraphRunner::discard_persistent_image_contents() {
-    release_images();
-    kept_.release_all_images();
+    release_retained();
+    kept_.release_all();
 }
 
 GraphLimits GraphRunner::limits() const {
@@ -121,11 +121,15 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     const double waited_for_place = wait_ms_;
     const auto wait = [this] { finish_all_frames_in_flight(); };
     memory_.find_or_make_resources(shape, index, shapes_, wait);
-    kept_.find_or_create_images(shape, [this](const PersistentImage& replaced) {
-        finish_all_frames_in_flight();
-        for (FrameInFlightResources& other : slots_)
-            if (other.shape) std::ranges::replace(other.shape->kept, &replaced, nullptr);
-    });
+    kept_.find_or_create(shape,
+                         [this](const PersistentImage* image, const PersistentBuffer* buffer) {
+                             finish_all_frames_in_flight();
+                             for (FrameInFlightResources& other : slots_) {
+                                 if (!other.shape) continue;
+                                 std::ranges::replace(other.shape->kept, image, nullptr);
+                                 std::ranges::replace(other.shape->kept_buffers, buffer, nullptr);
+                             }
+                         });
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
     times.compile_ms = compile_ms_ + elapsed_milliseconds(begin) - (wait_ms_ - waited_for_place);
@@ -162,7 +166,7 @@ void GraphRunner::record_frame(const Graph& graph, CompiledRenderGraph& shape,
         // The pieces before have changed images that outlive the frame, and their layouts.
         if (pieces_.submitted() > 0 && !runner_device_.is_abandoned()) {
             has_dropped_contents_ = true;
-            shape.kept.assign(shape.kept.size(), nullptr);
+            shape.release_retained();
             discard_persistent_image_contents();
         }
         throw;

@@ -5,7 +5,7 @@
 #include "graph/frame_memory.hpp"
 #include "graph/frame_pieces.hpp"
 #include "graph/frame_recorder.hpp"
-#include "graph/persistent_images.hpp"
+#include "graph/persistent_resources.hpp"
 
 namespace catoptric::graph {
 
@@ -29,10 +29,10 @@ class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
     /// kMaxFramesInFlight. Each has its own command buffer and its own copy of the outputs.
-    /// `images`: where images that outlive frames are kept; null: in the runner. The caller may
-    /// exchange them for those of other frames after `release_images`.
+    /// `retained`: where images and buffers that outlive frames are; null: in the runner. The
+    /// caller may exchange them for those of other frames after `release_retained`.
     GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines, std::uint32_t in_flight = 1,
-                RetainedImages* images = nullptr);
+                RetainedResources* retained = nullptr);
     GraphRunner(const GraphRunner&) = delete;
     GraphRunner& operator=(const GraphRunner&) = delete;
     /// Waits for the frames in flight.
@@ -43,9 +43,9 @@ public:
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
     void discard_persistent_image_contents();
-    /// Waits for the frames in flight, and drops all references to images that outlive frames. The
-    /// caller may then exchange the images: the next frame continues from the contents it finds.
-    void release_images();
+    /// Waits for the frames in flight, and forgets the images and buffers that outlive frames. The
+    /// caller may then exchange them: the next frame continues from the contents it finds.
+    void release_retained();
     GraphLimits limits() const;
     /// Returns the plan of the graph. The plans of the last 8 different graphs are cached. The
     /// reference is valid until 8 other graphs were planned. Throws the errors of
@@ -55,7 +55,7 @@ public:
     }
     std::uint64_t compiled_graph_plan_count() const { return plans_made_; }
     /// Returns the bytes of device memory for images and buffers: as much as the largest of the
-    /// last 8 graphs that ran, plus all images that outlive frames.
+    /// last 8 graphs that ran, plus all that outlive frames.
     std::uint64_t allocated_device_bytes() const {
         return memory_.allocated_device_bytes() + kept_.allocated_device_bytes();
     }
@@ -98,8 +98,8 @@ public:
     std::vector<std::byte> read_back_resource(BufferHandle buffer) {
         return read_back_resource(SubmittedFrameTicket{frame_}, buffer);
     }
-    /// Returns the texels of all images with `previous` contents, one after another. These are all
-    /// contents of the last frame that the next frame can read. Empty if no such image exists.
+    /// Returns all images and buffers with `previous` contents, one after another. These are all
+    /// contents of the last frame that the next frame can read. Empty if there are none.
     std::vector<std::byte> read_history();
 
 private:
@@ -121,8 +121,8 @@ private:
     FramePieces pieces_;
     gpu::UniqueSemaphore timeline_;
     SharedGraphMemoryArena memory_;
-    RetainedImages own_images_;
-    PersistentImages kept_;
+    RetainedResources own_retained_;
+    PersistentResources kept_;
     /// Compiled graphs, the most recently used first.
     std::vector<std::shared_ptr<CompiledRenderGraph>> shapes_;
     std::vector<FrameInFlightResources> slots_;

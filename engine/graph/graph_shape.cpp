@@ -55,7 +55,8 @@ void add_members_to_hash(OrderDependentHash& hash, const Pass& pass) {
                                                          use.clear.has_value());
     }
     for (const BufferUse& use : pass.buffers)
-        hash.add_value(use.buffer.id, enum_to_hash_number(use.use) << 1 | use.write);
+        hash.add_value(use.buffer.id << 1 | use.buffer.previous,
+                       enum_to_hash_number(use.use) << 1 | use.write);
 }
 
 /// Returns the ranges of a persistent image that have contents.
@@ -75,22 +76,22 @@ std::vector<std::uint32_t> list_ranges_with_contents(const Graph& graph, std::ui
 void add_image_lifetime_to_shape_hash(OrderDependentHash& hash, const Graph& graph,
                                       std::uint32_t image) {
     hash.add_value(enum_to_hash_number(graph.image_lifetime(image)));
-    if (graph.image_lifetime(image) == ImageLifetime::imported) {
+    if (graph.image_lifetime(image) == Lifetime::imported) {
         const std::optional<ResourceUse> arrives = graph.resource_use_on_import(image);
         hash.add_value(arrives ? 1 + enum_to_hash_number(*arrives) : 0,
                        enum_to_hash_number(graph.resource_use_on_release(image)));
     }
-    if (graph.image_lifetime(image) == ImageLifetime::persistent)
+    if (graph.image_lifetime(image) == Lifetime::persistent)
         for (const std::uint32_t end : list_ranges_with_contents(graph, image)) hash.add_value(end);
 }
 
 bool have_equal_lifetimes(const Graph& a, const Graph& b, std::uint32_t image) {
-    const ImageLifetime lifetime = a.image_lifetime(image);
+    const Lifetime lifetime = a.image_lifetime(image);
     if (lifetime != b.image_lifetime(image)) return false;
-    if (lifetime == ImageLifetime::imported)
+    if (lifetime == Lifetime::imported)
         return a.resource_use_on_import(image) == b.resource_use_on_import(image) &&
                a.resource_use_on_release(image) == b.resource_use_on_release(image);
-    return lifetime != ImageLifetime::persistent ||
+    return lifetime != Lifetime::persistent ||
            list_ranges_with_contents(a, image) == list_ranges_with_contents(b, image);
 }
 
@@ -118,7 +119,8 @@ std::uint64_t hash_graph_shape(const Graph& graph) {
     }
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b) {
         hash.add_value(graph.list_buffers()[b].name);
-        hash.add_value(graph.list_buffers()[b].bytes << 1 | graph.is_imported({b}));
+        hash.add_value(graph.list_buffers()[b].bytes);
+        hash.add_value(enum_to_hash_number(graph.buffer_lifetime(b)));
     }
     for (const ImageContentHashRecord& stamped : graph.list_image_content_hashes())
         add_members_to_hash(hash, stamped.part);
@@ -137,7 +139,7 @@ bool have_equal_graph_declarations(const Graph& graph, const Graph& known) {
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
         if (!have_equal_lifetimes(graph, known, i)) return false;
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
-        if (graph.is_imported({b}) != known.is_imported({b})) return false;
+        if (graph.buffer_lifetime(b) != known.buffer_lifetime(b)) return false;
     if (!std::ranges::equal(graph.list_image_content_hashes(), known.list_image_content_hashes(),
                             {}, &ImageContentHashRecord::part, &ImageContentHashRecord::part))
         return false;

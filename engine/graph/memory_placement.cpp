@@ -67,15 +67,14 @@ void place_resource_at_shared_offset(HeapShelves& shelves, const MemoryPlacement
 }
 
 ResourceToPlaceInHeap make_resource_to_place(MemoryPlacement& placement,
-                                             const MemoryRequirements& wanted,
-                                             ImageLifetime lifetime) {
+                                             const MemoryRequirements& wanted, Lifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
     placement.alignment = alignment;
-    placement.bytes = lifetime == ImageLifetime::previous
+    placement.bytes = lifetime == Lifetime::previous
                           ? 2 * align_up_to_multiple(wanted.bytes, alignment)
                           : wanted.bytes;
-    return {&placement, lifetime != ImageLifetime::frame ? 2 : placement.alone ? 1 : 0};
+    return {&placement, lifetime != Lifetime::frame ? 2 : placement.alone ? 1 : 0};
 }
 
 /// Returns the used resources by rank, then the largest first, so that small ones fill the gaps.
@@ -84,13 +83,13 @@ list_resources_largest_first(const Graph& graph, const MemoryRequirementQueries&
                              GraphPlan& plan) {
     std::vector<ResourceToPlaceInHeap> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used && graph.image_lifetime(i) != ImageLifetime::imported)
+        if (plan.images[i].used && graph.image_lifetime(i) != Lifetime::imported)
             items.push_back(make_resource_to_place(
                 plan.images[i], sizer.image(graph.list_images()[i]), graph.image_lifetime(i)));
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         if (plan.buffers[b].used && !graph.is_imported({b}))
             items.push_back(make_resource_to_place(
-                plan.buffers[b], sizer.buffer(graph.list_buffers()[b]), ImageLifetime::frame));
+                plan.buffers[b], sizer.buffer(graph.list_buffers()[b]), graph.buffer_lifetime(b)));
     std::ranges::stable_sort(
         items, [](const ResourceToPlaceInHeap& a, const ResourceToPlaceInHeap& b) {
             return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
@@ -113,10 +112,9 @@ void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, Graph
         for (const ResourceAccess& a : all.accesses_of_pass(plan.passes[position].pass))
             extend_lifetime(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        plan.images[i].alone = plan.images[i].used &&
-                               graph.image_lifetime(i) != ImageLifetime::frame;
+        plan.images[i].alone = plan.images[i].used && graph.image_lifetime(i) != Lifetime::frame;
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
-        plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
+        plan.buffers[b].alone = plan.buffers[b].used && graph.buffer_lifetime(b) != Lifetime::frame;
     for (const ImageHandle& image : graph.list_output_images()) plan.images[image.id].alone = true;
     for (const BufferHandle& buffer : graph.list_output_buffers())
         plan.buffers[buffer.id].alone = true;

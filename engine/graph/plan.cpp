@@ -26,11 +26,11 @@ void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) 
     }
 }
 
-bool does_image_outlive_frame(ImageLifetime lifetime) {
-    return lifetime == ImageLifetime::previous || lifetime == ImageLifetime::persistent;
+bool outlives_frame(Lifetime lifetime) {
+    return lifetime == Lifetime::previous || lifetime == Lifetime::persistent;
 }
 
-/// Returns the bytes of the largest allocation. Each image that outlives the frame has its own
+/// Returns the bytes of the largest allocation. Each resource that outlives the frame has its own
 /// allocation. A heap has one for all other outputs, and one for the rest.
 std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan) {
     std::uint64_t largest = 0;
@@ -46,12 +46,16 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
             alignment[placement.heap] = std::max(alignment[placement.heap], placement.alignment);
         }
     };
-    for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (does_image_outlive_frame(graph.image_lifetime(i)))
-            largest = std::max(largest, plan.images[i].used ? plan.images[i].bytes : 0);
+    const auto add_by_lifetime = [&](const MemoryPlacement& placement, Lifetime lifetime) {
+        if (outlives_frame(lifetime))
+            largest = std::max(largest, placement.used ? placement.bytes : 0);
         else
-            add(plan.images[i]);
-    for (const MemoryPlacement& buffer : plan.buffers) add(buffer);
+            add(placement);
+    };
+    for (std::uint32_t i = 0; i < plan.images.size(); ++i)
+        add_by_lifetime(plan.images[i], graph.image_lifetime(i));
+    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
+        add_by_lifetime(plan.buffers[b], graph.buffer_lifetime(b));
     for (std::size_t heap = 0; heap < begin.size(); ++heap)
         if (end[heap] > 0)
             largest = std::max(largest,

@@ -48,7 +48,7 @@ struct AccessState {
 struct PlannedBarrier {
     bool is_buffer = false;
     std::uint32_t id = 0;
-    bool previous = false; ///< the image's contents in the last frame
+    bool previous = false; ///< the contents in the last frame
     std::uint32_t first_layer = 0;
     std::uint32_t layer_count = 0;
     std::uint32_t first_mip = 0;
@@ -75,7 +75,7 @@ struct MemoryPlacement {
     bool alone = false; ///< outlives the frame or is an output: shares no memory
     std::uint32_t first = 0, last = 0;
     std::uint32_t heap = 0;
-    /// Bytes in the heap. Resources with `alone` set start after the shared part. An image with a
+    /// Bytes in the heap. Resources with `alone` set start after the shared part. A resource with a
     /// `previous` has two copies, at `offset` and at `offset + bytes / 2`. Imported resources take
     /// no bytes.
     std::uint64_t offset = 0, bytes = 0;
@@ -94,7 +94,7 @@ struct GraphPlan {
     /// - all layers of images with a `previous`: sampled, also if they are outputs
     /// - touched layers of persistent images: sampled
     /// - imported images: as the import says
-    /// - touched imported buffers: copy_from
+    /// - touched buffers that are imported or have a `previous`: copy_from
     ///
     /// A layer gets a barrier even if its layout is right already. `after` means every stage, also
     /// of the next frame, where `previous` is sampled without a barrier.

@@ -77,8 +77,16 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
 std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket ticket,
                                                        BufferHandle buffer) {
     wait_for_frame(ticket);
-    const CompiledRenderGraph& shape = *resources_of_submitted_frame(ticket).shape;
+    const FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
+    const CompiledRenderGraph& shape = *slot.shape;
     const auto& [name, bytes] = shape.outline.list_buffers()[buffer.id];
+    const bool kept = shape.outlives_frames(buffer);
+    check(!kept || ticket.frame == frame_, Failure::internal, "buffer '", name, "' of frame ",
+          ticket.frame, " is read after frame ", frame_,
+          " was submitted, which may have changed it");
+    check(!kept || shape.kept_buffers[buffer.id], Failure::internal, "buffer '", name,
+          "' is read after it was released");
+    buffer.previous = kept && !slot.stays; // as for images
     const VkBuffer source = shape.vulkan_buffer(buffer, slot_index_of_frame(ticket.frame));
     gpu::GpuBuffer target(runner_device_, "read-back of " + name, bytes,
                           gpu::BufferUsage::read_back);
@@ -97,13 +105,17 @@ std::vector<std::byte> GraphRunner::read_history() {
     if (frame_ == 0) return history;
     const CompiledRenderGraph& shape = *resources_of_submitted_frame({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.list_images().size(); ++id) {
-        if (!shape.outlives_frames(id) ||
-            shape.outline.image_lifetime(id) != ImageLifetime::previous)
+        if (!shape.outlives_frames(id) || shape.outline.image_lifetime(id) != Lifetime::previous)
             continue;
         const ImageDesc& desc = shape.outline.list_images()[id];
         const std::vector<std::byte> image = read_back_resource(
             ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
         history.insert(history.end(), image.begin(), image.end());
+    }
+    for (std::uint32_t id = 0; id < shape.outline.list_buffers().size(); ++id) {
+        if (!shape.outlives_frames(BufferHandle{id})) continue;
+        const std::vector<std::byte> buffer = read_back_resource(BufferHandle{id});
+        history.insert(history.end(), buffer.begin(), buffer.end());
     }
     return history;
 }

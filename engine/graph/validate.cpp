@@ -80,9 +80,9 @@ ValuesPerSubresource<char> mark_contents_at_frame_start(const Graph& graph) {
     ValuesPerSubresource<char> there(graph, false);
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
         const ResourceAccess all = make_access_to_whole_image(graph, i);
-        if (graph.image_lifetime(i) == ImageLifetime::imported && graph.resource_use_on_import(i))
+        if (graph.image_lifetime(i) == Lifetime::imported && graph.resource_use_on_import(i))
             there.set_subresource_values_of_access(all, true);
-        if (graph.image_lifetime(i) != ImageLifetime::persistent) continue;
+        if (graph.image_lifetime(i) != Lifetime::persistent) continue;
         graph.list_content_hashes_at_start(i).for_each_run(
             [&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
                 if (stamp) there.layer_runs_of_resource(all).fill_cell_range(first, end, true);
@@ -129,7 +129,7 @@ void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses
     }
     for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
         for (const ResourceAccess& a : all.accesses_of_pass(p)) {
-            if (!a.write || a.is_buffer || graph.image_lifetime(a.id) != ImageLifetime::persistent)
+            if (!a.write || a.is_buffer || graph.image_lifetime(a.id) != Lifetime::persistent)
                 continue;
             if (stamped.has_any_equal_value(a, false))
                 fail(kInvalidGraphFailure, "pass '", graph.list_passes()[p].name, "' writes ",
@@ -150,7 +150,7 @@ void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses
                                                  const ResourceAccess& a,
                                                  const ValuesPerSubresource<char>& written) {
     const std::string name = quote_resource_name(graph, a);
-    check(written.has_any_equal_value(make_access_to_whole_image(graph, a.id), true),
+    check(written.has_any_equal_value(make_access_to_whole_resource(graph, a), true),
           kInvalidGraphFailure, "pass '", pass.name, "' reads previous(", name, ") as ",
           resource_use_name(a.use), " but no pass writes ", name);
     fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
@@ -179,7 +179,7 @@ void check_outputs_are_written(const Graph& graph, const ValuesPerSubresource<ch
               what, " is an output, but the image has layers [0,", desc.layers, ")");
         check(a.mip_count > 0 && a.end_mip_of_access() <= desc.mips, kInvalidGraphFailure, what,
               " is an output, but the image has mips [0,", desc.mips, ")");
-        check(graph.image_lifetime(a.id) != ImageLifetime::imported, kInvalidGraphFailure, what,
+        check(graph.image_lifetime(a.id) != Lifetime::imported, kInvalidGraphFailure, what,
               " is an output, but imported: read it where it comes from");
         const std::string missing = describe_missing_layers(graph, written, a);
         check(missing.empty(), kInvalidGraphFailure, what, " is an output, but no pass writes ",
@@ -188,7 +188,9 @@ void check_outputs_are_written(const Graph& graph, const ValuesPerSubresource<ch
     for (const BufferHandle& buffer : graph.list_output_buffers()) {
         check(buffer.id < graph.list_buffers().size(), kInvalidGraphFailure, "buffer number ",
               buffer.id, " is an output, but the graph has ", graph.list_buffers().size());
-        const ResourceAccess a{.is_buffer = true, .id = buffer.id};
+        const ResourceAccess a{.is_buffer = true, .id = buffer.id, .previous = buffer.previous};
+        check(!buffer.previous, kInvalidGraphFailure, describe_access(graph, a),
+              " is an output: only this frame's contents can be");
         check(!graph.is_imported(buffer), kInvalidGraphFailure, describe_access(graph, a),
               " is an output, but imported: read it where it comes from");
         check(written.has_any_equal_value(a, true), kInvalidGraphFailure, describe_access(graph, a),
@@ -209,7 +211,7 @@ void validate_graph(const Graph& graph, const GraphAccesses& all, const GraphLim
     check_reads_of_previous_frame(graph, all, written);
     check_outputs_are_written(graph, written);
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
-        if (graph.image_lifetime(i) == ImageLifetime::persistent)
+        if (graph.image_lifetime(i) == Lifetime::persistent)
             return check_content_hashes_match_accesses(graph, all);
 }
 

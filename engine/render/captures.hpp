@@ -81,7 +81,7 @@ struct MirrorCaptures {
 /// layers. If that exceeds kMaxCubeArrays, enlarges the captures for which the next larger edge
 /// adds the fewest texels, and says so in `notes`. `options`: by mirror; at least one mirror must
 /// have a capture. `set`: if not empty, the arrays persist until they are overwritten
-/// (graph::ImageLifetime::persistent). The name tells them from other arrays of the same
+/// (graph::Lifetime::persistent). The name tells them from other arrays of the same
 /// captures. Throws `exhausted` if kMaxCubeArrays arrays cannot hold the captures. Costs
 /// O(mirrors).
 MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& inputs,

@@ -252,9 +252,9 @@ private:
     std::vector<std::vector<std::size_t>> within_; ///< objects within each mirror's bounds
     std::map<std::size_t, double> closed_volumes_; ///< volumes of meshes of glass, by
                                                    ///< mesh
-    std::vector<bool> hides_all_; ///< result of does_object_enclose_camera for each object
+    std::vector<bool> hides_all_;    ///< result of does_object_enclose_camera for each object
     std::vector<double> face_needs_; ///< see use_face_edges
-    scene::Camera camera_; ///< camera of the last update
+    scene::Camera camera_;           ///< camera of the last update
     uvec2 size_{0};
     double ambient_ = 0;    ///< ambient light of the last update
     bool complete_ = false; ///< the last update finished without an exception

@@ -147,8 +147,8 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
     for (const reflect::TechniquePlan& plan : plans) {
         const reflect::PreviousCaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
-        const render::FrameInputs inputs{
-            scene, spec.size, prefix, facts.seed, hooks.ablated, spec.with_lookup, facts};
+        const render::FrameInputs inputs{scene,         spec.size,        prefix, facts.seed,
+                                         hooks.ablated, spec.with_lookup, facts};
         const reflect::TechniqueOfEachMirror assignment =
             reflect::replace_techniques_unfit_for_mirror(
                 reflect::assign_techniques_to_mirrors(plan, mirrors),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graph/persistent_images.hpp"
+#include "graph/persistent_resources.hpp"
 #include "reflect/plan.hpp"
 #include "render/capture_cache.hpp"
 #include "render/frame_facts.hpp"
@@ -33,7 +33,7 @@ struct SequenceFaceEdges {
 };
 
 struct History {
-    graph::RetainedImages images;
+    graph::RetainedResources retained; ///< images and buffers
     /// Techniques and work of the frames. A frame with others begins without history.
     std::vector<reflect::TechniquePlan> plans;
     RenderedWork work = RenderedWork::everything;

@@ -175,13 +175,10 @@ SetupTimes Access::setup_times(const Session& session) {
     return {resident.first_scene_upload_ms(), resident.first_bvh_build_ms()};
 }
 
-Frame Session::frame(const FrameSpec& spec) {
-    return Frame(impl_->submit(impl_, spec, {}, {}));
-}
+Frame Session::frame(const FrameSpec& spec) { return Frame(impl_->submit(impl_, spec, {}, {})); }
 
-Frame Access::render_frame(
-    Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-    const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
+Frame Access::render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
+                           const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
     return Frame(session.impl_->submit(session.impl_, spec, hooks, finish));
 }
 
@@ -236,7 +233,7 @@ Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
 }
 
 History Session::Impl::exchange_history(History next) {
-    runner.release_images();
+    runner.release_retained();
     models.clear();
     return std::exchange(history, std::move(next));
 }
@@ -303,8 +300,8 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
         spec.model, false);
     std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
                                                          {*model, nullptr, &self.comparisons});
-    FrameGraph frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident,
-                                           {}, keeping);
+    FrameGraph frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident, {},
+                                           keeping);
     // If captures are kept, the second frame compares them with those of the first. The returned
     // plan is that of the next frame, in which nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {

@@ -26,7 +26,7 @@ struct Session::Impl {
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
           comparisons(shared.device,
                       [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
-          runner(shared.device, shared.pipelines, in_flight, &history.images),
+          runner(shared.device, shared.pipelines, in_flight, &history.retained),
           read_by(in_flight, 0) {
         mirrors = list_mirror_names(scene);
     }

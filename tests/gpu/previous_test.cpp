@@ -1,5 +1,5 @@
-// Tests of the previous frame's images and of images that share memory: both must hold the right
-// content.
+// Tests of the previous frame's images and buffers, and of images that share memory: all must hold
+// the right content.
 #include "gpu/steps.hpp"
 
 #include <stdexcept>
@@ -98,6 +98,86 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
         expected = expected_step_texels(expected, 2);
         EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
     }
+}
+
+constexpr std::size_t kStepBufferWords = 100;
+
+/// Adds a pass that makes the words of `buffer` from its words in the last frame, and makes it an
+/// output.
+graph::BufferHandle add_buffer_step(graph::Graph& graph, std::uint32_t number) {
+    const graph::BufferHandle buffer = graph.add_buffer({"words", 4 * kStepBufferWords}),
+                              before = graph.previous_contents(buffer);
+    graph.add_pass("step")
+        .reads(before, graph::ResourceUse::storage_read)
+        .writes(buffer, graph::ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/step_buffer.comp", {}});
+            commands.bind_resource("Before", before);
+            commands.bind_resource("After", buffer);
+            commands.push_constants(number);
+            commands.dispatch(2, 1, 1);
+        });
+    graph.mark_as_graph_output(buffer);
+    return buffer;
+}
+
+/// Returns the words after one more step.
+std::vector<std::uint32_t> expected_step_words(std::vector<std::uint32_t> words,
+                                               std::uint32_t number) {
+    for (std::uint32_t i = 0; i < words.size(); ++i)
+        words[i] = (3 * words[i] + i + number) % (1u << 20);
+    return words;
+}
+
+TEST(Previous, BufferIsZeroInTheFirstFrameAndThenTheLastFrame) {
+    for (const std::uint32_t in_flight : {1, 3}) {
+        graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines,
+                                  in_flight);
+        std::vector<std::uint32_t> expected(kStepBufferWords, 0);
+        for (std::uint32_t frame = 1; frame <= 7; ++frame) {
+            const bool stays = frame == 3 || frame == 6; // the next frame sees the same last frame
+            graph::Graph graph(runner.make_history());
+            const graph::BufferHandle buffer = add_buffer_step(graph, frame);
+            EXPECT_EQ(graph.has_history(buffer), frame > 1);
+            runner.submit_frame(graph, graph::PassTiming::pipelined, stays);
+            const std::vector<std::uint32_t> next = expected_step_words(expected, frame);
+            EXPECT_EQ(test::read_resource_values<std::uint32_t>(runner, buffer), next)
+                << "frame " << frame << ", " << in_flight << " in flight";
+            if (!stays) expected = next;
+        }
+        EXPECT_EQ(runner.read_history().size(), 4 * kStepBufferWords);
+        runner.discard_persistent_image_contents();
+        graph::Graph graph(runner.make_history());
+        const graph::BufferHandle buffer = add_buffer_step(graph, 9);
+        test::run_graph(runner, graph);
+        EXPECT_EQ(test::read_resource_values<std::uint32_t>(runner, buffer),
+                  expected_step_words(std::vector<std::uint32_t>(kStepBufferWords, 0), 9));
+    }
+}
+
+TEST(Previous, RetainedResourcesCanBeExchanged) {
+    graph::RetainedResources retained, aside;
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines, 2,
+                              &retained);
+    std::vector<std::uint32_t> expected[2]{std::vector<std::uint32_t>(kStepBufferWords, 0),
+                                           std::vector<std::uint32_t>(kStepBufferWords, 0)};
+    for (std::uint32_t frame = 0; frame < 8; ++frame) { // two sequences, in turn
+        graph::Graph graph(runner.make_history());
+        const graph::BufferHandle buffer = add_buffer_step(graph, frame);
+        runner.submit_frame(graph, graph::PassTiming::pipelined);
+        std::vector<std::uint32_t>& words = expected[frame % 2];
+        words = expected_step_words(words, frame);
+        EXPECT_EQ(test::read_resource_values<std::uint32_t>(runner, buffer), words) << frame;
+        runner.release_retained();
+        std::swap(retained, aside);
+    }
+}
+
+TEST(Previous, PreviousOfAnImportedBufferIsRefused) {
+    graph::Graph graph;
+    const graph::BufferHandle buffer = graph.import_external_resource({"outside", 16}, nullptr);
+    test::expect_error([&] { graph.previous_contents(buffer); }, Failure::internal,
+                       {"buffer 'outside'", "imported"});
 }
 
 /// Adds a chain of `length` steps. With `apart` all images are outputs, so none share memory.

@@ -156,8 +156,7 @@ TEST(RandomGraphs, RandomGraphsUseEveryFeatureOfPlans) {
         culled += plan.culled.empty() ? 0 : 1;
         empty += plan.passes.empty() ? 1 : 0;
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-            kept += plan.images[i].used && (graph.image_lifetime(i) == ImageLifetime::previous) ? 1
-                                                                                                : 0;
+            kept += plan.images[i].used && (graph.image_lifetime(i) == Lifetime::previous) ? 1 : 0;
         for (const PlannedPass& pass : plan.passes)
             for (const PlannedBarrier& b : pass.barriers) {
                 const bool read_after_read = !b.before.nothing && !b.before.write && !b.after.write;

@@ -17,8 +17,7 @@ public:
         const std::uint32_t passes = random_number_below(14) + 2;
         for (std::uint32_t p = 0; p < passes; ++p) add_random_pass(p);
         for (std::uint32_t i = 0; i < images_.size(); ++i)
-            if ((graph_.image_lifetime(i) == ImageLifetime::previous))
-                add_pass_writing_whole_image(i);
+            if ((graph_.image_lifetime(i) == Lifetime::previous)) add_pass_writing_whole_image(i);
         mark_random_output();
         return std::move(graph_);
     }

@@ -160,7 +160,7 @@ private:
         if (subresource.kind == GraphSubresourceKind::buffer)
             return std::ranges::count(replayed_graph_.list_output_buffers(), subresource.id,
                                       &BufferHandle::id) > 0;
-        return (replayed_graph_.image_lifetime(subresource.id) == ImageLifetime::previous) ||
+        return (replayed_graph_.image_lifetime(subresource.id) == Lifetime::previous) ||
                std::ranges::count(replayed_graph_.list_output_images(), subresource.id,
                                   &ImageHandle::id) > 0;
     }
@@ -172,8 +172,7 @@ private:
             is_buffer ? sizer_.buffer(replayed_graph_.list_buffers()[subresource.id])
                       : sizer_.image(replayed_graph_.list_images()[subresource.id]);
         std::uint64_t bytes = wanted.bytes;
-        if (!is_buffer &&
-            (replayed_graph_.image_lifetime(subresource.id) == ImageLifetime::previous)) {
+        if (!is_buffer && (replayed_graph_.image_lifetime(subresource.id) == Lifetime::previous)) {
             const std::uint64_t padding = wanted.alignment - 1;
             bytes = 2 * ((bytes + padding) / wanted.alignment * wanted.alignment);
         }
@@ -302,13 +301,13 @@ private:
         for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
             for (std::uint32_t l = 0; l < replayed_graph_.list_images()[i].layers; ++l)
                 if (plan_.images[i].used &&
-                    (replayed_graph_.image_lifetime(i) == ImageLifetime::previous))
+                    (replayed_graph_.image_lifetime(i) == Lifetime::previous))
                     check_no_access_left_unordered({GraphSubresourceKind::image, i, l});
     }
 
     void check_no_access_left_unordered(const GraphSubresource& subresource) {
         const ResourceUse use = (replayed_graph_.image_lifetime(subresource.id) ==
-                                 ImageLifetime::previous)
+                                 Lifetime::previous)
                                     ? ResourceUse::sampled
                                     : ResourceUse::copy_from;
         record_fault_of_subresource_unless(layouts_.contains(subresource) &&

@@ -1,4 +1,4 @@
-#include "graph/persistent_images.hpp"
+#include "graph/persistent_resources.hpp"
 
 #include "graph/access.hpp"
 #include "graph/device_memory.hpp"
@@ -37,8 +37,8 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
 } // namespace
 
 /// Creates the copies of the image, cleared to black and in the layout for sampling.
-void PersistentImages::create_image(const ImageDesc& desc, PersistentImage& kept) {
-    const std::size_t copies = kept.lifetime == ImageLifetime::previous ? 2 : 1;
+void PersistentResources::create_image(const ImageDesc& desc, PersistentImage& kept) {
+    const std::size_t copies = kept.lifetime == Lifetime::previous ? 2 : 1;
     const MemoryRequirements needs = make_device_requirement_queries(image_device_).image(desc);
     const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
                                  needs.alignment;
@@ -59,35 +59,68 @@ void PersistentImages::create_image(const ImageDesc& desc, PersistentImage& kept
     kept.stamps = ContentHashPerLayer(desc.layers * desc.mips);
 }
 
-PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
-                                                         ImageLifetime lifetime,
-                                                         const ReplaceHandler& release) {
-    auto found = all_.find(desc.name);
-    if (found != all_.end() &&
+PersistentImage& PersistentResources::find_or_create(const ImageDesc& desc, Lifetime lifetime,
+                                                     const ReplaceHandler& release) {
+    auto found = all_.images.find(desc.name);
+    if (found != all_.images.end() &&
         (found->second.copies[0].desc != desc || found->second.lifetime != lifetime)) {
-        release(found->second);
-        all_.erase(found);
-        found = all_.end();
+        release(&found->second, nullptr);
+        all_.images.erase(found);
+        found = all_.images.end();
     }
-    if (found == all_.end()) {
+    if (found == all_.images.end()) {
         PersistentImage kept;
         kept.lifetime = lifetime;
         create_image(desc, kept);
-        found = all_.emplace(desc.name, std::move(kept)).first;
+        found = all_.images.emplace(desc.name, std::move(kept)).first;
     }
     return found->second;
 }
 
-void PersistentImages::find_or_create_images(CompiledRenderGraph& shape,
-                                             const ReplaceHandler& release) {
+/// Finds the buffer, or creates its copies, filled with zeros.
+PersistentBuffer& PersistentResources::find_or_create(const BufferDesc& desc,
+                                                      const ReplaceHandler& release) {
+    const auto found = all_.buffers.find(desc.name);
+    if (found != all_.buffers.end()) {
+        if (found->second.desc == desc) return found->second;
+        release(nullptr, &found->second);
+        all_.buffers.erase(found);
+    }
+    PersistentBuffer kept{.desc = desc};
+    const MemoryRequirements needs = make_device_requirement_queries(image_device_).buffer(desc);
+    const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
+                                 needs.alignment;
+    kept.bytes = second + needs.bytes;
+    kept.memory = image_device_.allocate(kept.bytes, needs.heap, desc.name);
+    for (std::size_t i = 0; i < kept.copies.size(); ++i) {
+        kept.copies[i] = make_unbound_buffer(image_device_, desc);
+        gpu::throw_unless_vk_success(vkBindBufferMemory(image_device_.device_handle(),
+                                                        kept.copies[i], kept.memory, i * second),
+                                     "place buffer '" + desc.name + "'");
+    }
+    image_device_.submit_one_time_commands(
+        "clear buffer '" + desc.name + "'", [&](VkCommandBuffer commands) {
+            for (const gpu::UniqueBuffer& copy : kept.copies)
+                vkCmdFillBuffer(commands, copy, 0, VK_WHOLE_SIZE, 0);
+        });
+    return all_.buffers.emplace(desc.name, std::move(kept)).first->second;
+}
+
+void PersistentResources::find_or_create(CompiledRenderGraph& shape,
+                                         const ReplaceHandler& release) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
         if (shape.outlives_frames(i))
-            shape.kept[i] = &find_or_create_images(shape.outline.list_images()[i],
-                                                   shape.outline.image_lifetime(i), release);
+            shape.kept[i] = &find_or_create(shape.outline.list_images()[i],
+                                            shape.outline.image_lifetime(i), release);
+    shape.kept_buffers.assign(shape.plan.buffers.size(), nullptr);
+    for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
+        if (shape.outlives_frames(BufferHandle{b}))
+            shape.kept_buffers[b] = &find_or_create(shape.outline.list_buffers()[b], release);
 }
 
-void PersistentImages::store_content_hashes(const Graph& graph, const CompiledRenderGraph& shape) {
+void PersistentResources::store_content_hashes(const Graph& graph,
+                                               const CompiledRenderGraph& shape) {
     for (const auto& [part, content_hash] : graph.list_image_content_hashes()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
@@ -98,24 +131,32 @@ void PersistentImages::store_content_hashes(const Graph& graph, const CompiledRe
     }
 }
 
-void PersistentImages::swap_previous_copies(const CompiledRenderGraph& shape) {
+void PersistentResources::swap_previous_copies(const CompiledRenderGraph& shape) {
     for (PersistentImage* const kept : shape.kept) {
-        if (!kept || kept->lifetime != ImageLifetime::previous) continue;
+        if (!kept || kept->lifetime != Lifetime::previous) continue;
+        kept->last = 1 - kept->last;
+        kept->valid = true;
+    }
+    for (PersistentBuffer* const kept : shape.kept_buffers) {
+        if (!kept) continue;
         kept->last = 1 - kept->last;
         kept->valid = true;
     }
 }
 
-std::uint64_t PersistentImages::allocated_device_bytes() const {
+std::uint64_t PersistentResources::allocated_device_bytes() const {
     std::uint64_t sum = 0;
-    for (const auto& [name, kept] : all_) sum += kept.bytes;
+    for (const auto& [name, kept] : all_.images) sum += kept.bytes;
+    for (const auto& [name, kept] : all_.buffers) sum += kept.bytes;
     return sum;
 }
 
-GraphHistory PersistentImages::make_history() const {
+GraphHistory PersistentResources::make_history() const {
     GraphHistory history;
-    for (const auto& [name, kept] : all_) {
-        if (kept.lifetime == ImageLifetime::persistent)
+    for (const auto& [name, kept] : all_.buffers)
+        if (kept.valid) history.previous.insert(name);
+    for (const auto& [name, kept] : all_.images) {
+        if (kept.lifetime == Lifetime::persistent)
             history.persistent.emplace(
                 name, GraphHistory::PersistentImage{kept.copies[0].desc, kept.stamps});
         else if (kept.valid)
