@@ -41,9 +41,10 @@ std::string check_technique_choice(const TechniqueOption& drawn, const std::stri
               "'; --plan takes several");
         return technique;
     }
-    std::string text = plan.ends_with(".json") ? "plan:" + plan : plan;
+    const bool is_file = plan.ends_with(".json"); // may hold `auto` for all mirrors
+    std::string text = is_file ? "plan:" + plan : plan;
     const auto parse = [&] { return app::parse_technique(text); };
-    check(parse_option("--plan", parse).technique == "plan", Failure::usage,
+    check(parse_option("--plan", parse).technique == "plan" || is_file, Failure::usage,
           "--plan: wanted \"PATTERN=TECHNIQUE ...\" or a file that ends in .json, found '", plan,
           "'; --technique takes one technique for all mirrors");
     return text;

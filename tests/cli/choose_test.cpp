@@ -156,6 +156,24 @@ TEST_F(Choose, LimitOfTimeAsksForTheLeastErrorAndProvesItsBound) {
     EXPECT_NEAR(plan["certificate"]["error_bound"], std::ranges::max(errors), 1e-6);
 }
 
+/// `choose` may choose `auto`, for all mirrors. Every verb with --plan takes its file.
+TEST_F(Choose, ChosenAutoIsDrawnFromItsFile) {
+    write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "auto"}]})");
+    const auto draw = [&](const std::string& option, const std::string& value) {
+        const test::ProcessResult ended = run_cli(
+            {"render", "flat", "--size", "16x16", option, value, "-o", "x.exr"});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return read_file_at_path(folder / "x.exr");
+    };
+    EXPECT_EQ(draw("--plan", "plan.json"), draw("--technique", "auto"));
+    for (const Words& more : {Words{}, Words{"--why"}}) {
+        Words words{"graph", "flat", "--size", "16x16", "--plan", "plan.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const test::ProcessResult ended = run_cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    }
+}
+
 TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
     const auto certify = [&](const Words& more) {
         Words words{"--certify", "plan.json"};
