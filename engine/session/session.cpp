@@ -78,7 +78,9 @@ void Session::Impl::wait_until_scene_copy_is_free(std::size_t of) {
 double Session::Impl::update_device_scene(const render::ShownInstant& wanted) {
     double update_ms = 0;
     if (shown != wanted) update_ms = write_device_scene(wanted);
-    if (history.face_edges && history.face_edges->size != wanted.size) history.face_edges.reset();
+    if (history.face_edges && (history.face_edges->size != wanted.size ||
+                               history.face_edges->needs.size() != resident->mirror_count()))
+        history.face_edges.reset(); // an edit may have made or unmade a mirror
     if (!history.face_edges)
         history.face_edges = SequenceFaceEdges{wanted.size, resident->find_needed_face_edges()};
     resident->use_face_edges(history.face_edges->needs);

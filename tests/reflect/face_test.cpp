@@ -51,6 +51,23 @@ TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
     EXPECT_EQ(part.auto_face->edge, 16u);
 }
 
+/// An edit that makes a mirror, or ends one, changes the list of edges as a new session would.
+TEST(AutoFace, EditsOfMirrorsAreFollowed) {
+    const scene::Scene room = test::make_lit_room(2, 1);
+    const app::FrameSpec spec = test::make_test_request(room, {"reuse:face=auto"}, {32, 32});
+    app::Session session(test::get_test_engine(), room);
+    ASSERT_EQ(session.frame(spec).read().auto_face->needs.size(), 2u);
+    const std::size_t mirror = scene::mirrors(room).front();
+    std::size_t diffuse = 0;
+    while (room.materials[diffuse].mirror) ++diffuse;
+    for (const std::size_t material : {diffuse, room.objects[mirror].material}) {
+        session.change(scene::paint(mirror, material));
+        const app::TechniqueResult edited = session.frame(spec).read();
+        app::Session fresh(test::get_test_engine(), session.scene());
+        EXPECT_EQ(edited.auto_face->needs, fresh.frame(spec).read().auto_face->needs);
+    }
+}
+
 /// The lobe of a rough mirror blurs details that are smaller than the lobe, so a finer capture
 /// would not improve the picture. If a texture varies the roughness, some parts of the mirror may
 /// be smooth.
