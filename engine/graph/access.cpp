@@ -62,7 +62,7 @@ ResourceAccess make_access_to_image_part(const ImageHandle& image) {
             .mip_count = image.mip_count};
 }
 
-ResourceAccess make_access_to_whole_resource(const Graph& graph, const ResourceAccess& part) {
+ResourceAccess whole_resource(const Graph& graph, const ResourceAccess& part) {
     return part.is_buffer ? ResourceAccess{.is_buffer = true, .id = part.id}
                           : make_access_to_whole_image(graph, part.id);
 }

@@ -148,7 +148,7 @@ ResourceAccess make_access_to_image_part(const ImageHandle& image);
 /// default.
 ResourceAccess make_access_to_whole_image(const Graph& graph, std::uint32_t image);
 /// Returns an access to all of the image or buffer of an access, in this frame.
-ResourceAccess make_access_to_whole_resource(const Graph& graph, const ResourceAccess& part);
+ResourceAccess whole_resource(const Graph& graph, const ResourceAccess& part);
 /// Returns a table that is true for each image layer and each buffer that is an output of the
 /// graph.
 ValuesPerSubresource<char> mark_output_image_parts(const Graph& graph);

@@ -150,9 +150,9 @@ void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses
                                                  const ResourceAccess& a,
                                                  const ValuesPerSubresource<char>& written) {
     const std::string name = quote_resource_name(graph, a);
-    check(written.has_any_equal_value(make_access_to_whole_resource(graph, a), true),
-          kInvalidGraphFailure, "pass '", pass.name, "' reads previous(", name, ") as ",
-          resource_use_name(a.use), " but no pass writes ", name);
+    check(written.has_any_equal_value(whole_resource(graph, a), true), kInvalidGraphFailure,
+          "pass '", pass.name, "' reads previous(", name, ") as ", resource_use_name(a.use),
+          " but no pass writes ", name);
     fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
          resource_use_name(a.use), " but no pass writes ",
          describe_missing_layers(graph, written, a), " of ", name);
