@@ -29,7 +29,7 @@ void add_copy_pass_to_caller_image(app::FrameGraph& frame, const Target& target,
         .name = "target", .format = TexelFormat::rgba8_unorm, .width = size.x, .height = size.y};
     frame.target = std::make_shared<graph::PhysicalImage>(
         graph::wrap_external_image(desc, target.image));
-    const graph::ImageHandle display = frame.parts.front().display;
+    const graph::ImageHandle display = frame.parts.front().outputs.display;
     const graph::ImageHandle image = frame.graph.import_external_resource(
         desc, frame.target.get(), std::nullopt, resource_use_for_vulkan_layout(target.leaves));
     frame.graph.add_pass("target")

@@ -1,4 +1,7 @@
-#include "reflect/mirrored.hpp"
+// Mirrored views for flat mirrors: a view for each visible mirror whose technique has
+// Technique::mirrored_views, and views within these views.
+#include "reflect/captures.hpp"
+#include "reflect/feature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -140,19 +143,36 @@ add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const Flat
     return looks;
 }
 
-} // namespace
+bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
+    return choice.technique->mirrored_views != nullptr;
+}
 
-std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
-                                            const TechniqueOfEachMirror& assignment,
-                                            const render::ShadingLights& lighting,
-                                            const render::ShaderOfEachMirror& others,
-                                            render::ShaderOfEachMirror& looks) {
-    const FlatMirrorFaceList all = list_flat_mirror_faces_to_view(inputs.scene, assignment);
-    int asked = 0;
-    for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
-    int most = asked;
-    const std::vector<MirroredView> views = render::find_mirrored_views(
-        inputs.scene.eye(), all.planes, inputs.size, most);
+/// Returns how all other mirrors inside mirrored views are drawn: as in the picture, but without
+/// ray tracing. Mirrors that are only ray traced in the picture are drawn from their captures, if
+/// they have any.
+render::ShaderOfEachMirror choose_looks_in_mirrored_views(const FrameDeclaration& frame) {
+    render::ShaderOfEachMirror looks = frame.looks;
+    for (std::size_t i = 0; i < looks.looks.size(); ++i) {
+        const TechniqueChoice& choice = frame.choices()[i];
+        render::MirrorShader& look = looks.looks[i];
+        std::erase_if(look.constants,
+                      [](const auto& constant) { return constant.first == "tracer"; });
+        remove_images_of_camera_view(look);
+        if (is_drawn_by_mirrored_views(choice)) look = {};
+        if (choice.technique->capture || !choice.technique->picture) continue;
+        look = {};
+        if (choice.shared.is_black_in_others || !frame.outputs.captures) continue;
+        look.fragment = "reflect/parallax.frag";
+        look.constants.emplace_back("refract_model",
+                                    choose_refraction_model_of_other_views(choice.shared.refract));
+        look.captures = frame.outputs.captures;
+    }
+    return looks;
+}
+
+/// Returns the images that each view has besides its colour.
+std::vector<render::MirroredViewImageWishes>
+choose_images_of_views(const FlatMirrorFaceList& all, const std::vector<MirroredView>& views) {
     std::vector<render::MirroredViewImageWishes> wanted;
     for (const MirroredView& view : views) {
         const FlatMirrorFace& face = all.faces[view.plane_index];
@@ -163,24 +183,52 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
                               (view.within && wanted[*view.within].has_distances),
                           face.is_blurred()});
     }
+    return wanted;
+}
+
+void add_mirrored_views(FrameDeclaration& frame) {
+    const render::FrameInputs& inputs = frame.inputs;
+    const render::ShaderOfEachMirror others = choose_looks_in_mirrored_views(frame);
+    const FlatMirrorFaceList all = list_flat_mirror_faces_to_view(inputs.scene, frame.assignment);
+    int asked = 0;
+    for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
+    int most = asked;
+    const std::vector<MirroredView> views = render::find_mirrored_views(
+        inputs.scene.eye(), all.planes, inputs.size, most);
+    const std::vector<render::MirroredViewImageWishes> wanted = choose_images_of_views(all, views);
     std::vector<render::MirroredViewImages> made(views.size());
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
-        const std::uint32_t number = inputs.scene.add_view(views[i].view);
+        const std::uint32_t number = inputs.requests.add_view(views[i].view);
         const FlatMirrorFace& face = all.faces[views[i].plane_index];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;
         made[i] = render::add_mirrored_view(
-            graph, inputs, mirrored_view_name(all, views, i), views[i], number, lighting,
+            frame.graph, inputs, mirrored_view_name(all, views, i), views[i], number,
+            frame.lighting,
             add_mirror_shaders_of_mirrored_view(others, all, views, made, inputs.size, i), whole,
             wanted[i]);
     }
-    looks = add_mirror_shaders_of_mirrored_view(std::move(looks), all, views, made, inputs.size,
-                                                {});
-    if (most == asked) return {};
-    return {"flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
+    frame.looks = add_mirror_shaders_of_mirrored_view(std::move(frame.looks), all, views, made,
+                                                      inputs.size, {});
+    if (most < asked)
+        frame.outputs.notes.push_back(
+            "flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
             std::to_string(asked) + ": a frame has at most " +
-            std::to_string(render::kMaxMirroredViews) + " views in mirrors"};
+            std::to_string(render::kMaxMirroredViews) + " views in mirrors");
 }
+
+constexpr FrameFeature kMirroredViewFeature{
+    .name = "mirrored views",
+    .order = feature_order::kMirroredViews,
+    .applies =
+        [](const FrameDeclaration& frame) {
+            return is_rasterised(frame) && !frame.assignment.of_mirror.empty() &&
+                   std::ranges::any_of(frame.choices(), is_drawn_by_mirrored_views);
+        },
+    .add = add_mirrored_views};
+const RegisteredFeature kMirroredViewRegistration{kMirroredViewFeature};
+
+} // namespace
 
 } // namespace catoptric::reflect

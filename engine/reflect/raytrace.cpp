@@ -169,7 +169,7 @@ TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::Frame
                                         const render::ShadingLights& lighting) {
     const TracedPicture traced = add_picture_tracing(graph, inputs,
                                                      make_ray_tracer_settings(settings, lighting));
-    return {traced.hdr, true, {traced.counters}, {}, {}};
+    return {.hdr = traced.hdr, .has_hits = true, .counters = {traced.counters}};
 }
 
 MirrorShadingSetup make_ray_traced_shading(graph::Graph&, const render::FrameInputs& inputs,

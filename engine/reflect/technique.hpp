@@ -19,7 +19,8 @@ namespace catoptric::reflect {
 
 /// Images and buffers that a technique adds to the graph, with notes for the user.
 struct TechniqueOutputs {
-    graph::ImageHandle hdr; ///< linear radiance, rgba32f
+    graph::ImageHandle hdr;     ///< linear radiance, rgba32f
+    graph::ImageHandle display; ///< the displayed picture, rgba8_unorm
     /// Whether the alpha of `hdr` says which surface the ray met (shared::kBitsPerMirrorHit).
     bool has_hits = false;
     std::vector<graph::BufferHandle> counters; ///< shared::Counters of each tracing pass
@@ -112,7 +113,7 @@ struct KnobsSharedByTechniques {
     bool is_black_in_others = false; ///< capture=none
 };
 
-/// How a technique with mirrored views draws flat mirrors (reflect/mirrored.hpp).
+/// How a technique with mirrored views draws flat mirrors (reflect/mirrored.cpp).
 struct MirroredViewOptions {
     int bounces = 0; ///< number of flat mirrors one behind the other that a mirrored view shows
     /// How rough mirrors show their view: RoughMirrorLookup::none, mips or prefilter.
@@ -151,7 +152,7 @@ struct Technique {
                                const TechniqueKnobSettings& settings,
                                const MirrorShadingInputs& around) = nullptr;
     /// Returns how flat mirrors show mirrored views. Null: the technique has no mirrored views
-    /// (reflect/mirrored.hpp).
+    /// (reflect/mirrored.cpp).
     MirroredViewOptions (*mirrored_views)(const TechniqueKnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
     /// Null: the technique draws any mirror. `tolerance`: scene::compute_flat_tolerance.

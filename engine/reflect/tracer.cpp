@@ -26,10 +26,10 @@ bool may_sample_lamp_points(const TracerSettings& tracer) {
     return tracer.samples_lamps && tracer.rays > 0 && !tracer.exact_spheres && !tracer.doubles;
 }
 
-/// Announces what a tracing pass reads of the scene.
-void request_ray_tracing_data(const render::GpuScene& scene, const TracerSettings& tracer) {
-    scene.request_ray_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
-    if (may_sample_lamp_points(tracer)) scene.request_lamp_points();
+/// Asks for what a tracing pass reads of the scene.
+void request_ray_tracing_data(render::FrameRequests& requests, const TracerSettings& tracer) {
+    requests.trace_rays(sphere_mode_of_tracer(tracer), tracer.first_raster);
+    if (may_sample_lamp_points(tracer)) requests.sample_lamps();
 }
 
 bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
@@ -154,7 +154,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     const TracedPicture traced{
         graph.add_image({inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y}),
         add_counters_with_reset(graph, inputs.prefix, "raytrace")};
-    request_ray_tracing_data(inputs.scene, tracer);
+    request_ray_tracing_data(inputs.requests, tracer);
     const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, "");
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
     declare_lighting_reads(pass, tracer);
@@ -182,7 +182,7 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
                                     add_image("objects_and_roughness"),
                                     add_counters_with_reset(graph, inputs.prefix, "first_surface")};
     const TracerSettings tracer;
-    request_ray_tracing_data(inputs.scene, tracer);
+    request_ray_tracing_data(inputs.requests, tracer);
     graph.add_pass(inputs.prefix + "first_surface")
         .writes(images.normals_and_distances, ResourceUse::storage_write)
         .writes(images.objects_and_roughness, ResourceUse::storage_write)
@@ -213,7 +213,7 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const PixelsToTraceList list = add_pass_listing_pixels_to_trace(graph, inputs, suffix, number,
                                                                     tracer.first_raster, view);
-    request_ray_tracing_data(inputs.scene, tracer);
+    request_ray_tracing_data(inputs.requests, tracer);
     const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, suffix);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
     declare_lighting_reads(pass, tracer);

@@ -11,6 +11,7 @@ namespace catoptric::render {
 
 struct FrameInputs {
     const GpuScene& scene;
+    FrameRequests& requests; ///< grows while passes are declared; passes do not read it later
     uvec2 size{512, 512};
     std::string prefix;     ///< starts the names of passes and images
     std::uint64_t seed = 1; ///< seed of the stratified samples
@@ -19,6 +20,7 @@ struct FrameInputs {
     /// Adds an output of where mirrors looked; for measuring, costs an attachment.
     bool with_lookup = false;
     FrameFacts facts = {};
+    double exposure = 0; ///< stops, of the displayed picture
 };
 
 /// The images of light probes (shaders/lib/light_probes.glsl).
@@ -38,7 +40,7 @@ struct ShadingLights {
     /// Optical depths of glass, in the layers of the shadow map; none: glass casts no shadow.
     std::optional<graph::ImageHandle> glass_depths = {};
     /// Whether shadows of lamps are soft (shaders/lib/soft_shadow.glsl). Only set with a shadow
-    /// map, in frames that called GpuScene::request_lamp_extents.
+    /// map, in frames that asked for it (FrameRequests::draw_soft_shadows).
     bool has_soft_shadows = false;
     /// For each pixel of the camera's view, the share of the light of environment, ambient light
     /// and light probes that near surfaces let through to the pixel's surface, 0 to 1, r32f

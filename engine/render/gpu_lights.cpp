@@ -90,7 +90,7 @@ void GpuScene::fill_light_table(const scene::Scene& now, bool others) {
     light_buffer_.set_device_list_contents(all);
 }
 
-void GpuScene::fill_lamp_extent_table() const {
+void GpuScene::fill_lamp_extent_table() {
     std::vector<shared::LampExtent> extents(shared::kMaxLights);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         const dmat3 axes(vec3(lights_[i].right), -vec3(lights_[i].down), vec3(lights_[i].forward));

@@ -97,15 +97,13 @@ GpuScene::GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_
       mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots),
       lamp_buffer_("lamps", gpu::BufferUsage::texels, slots),
       lamp_extent_buffer_("lamp_extents", gpu::BufferUsage::uniform, slots),
-      material_details_(slots), environment_(slots),
-      tracing_(std::make_unique<RayTracingTrees>(slots)) {}
+      material_details_(slots), environment_(slots), tracing_(slots) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
                       double ambient, std::size_t slot) {
-    update_ms_ = 0, hierarchy_ms_before_ = tracing_->bvh_update_ms();
+    update_ms_ = 0, hierarchy_ms_before_ = tracing_.bvh_update_ms();
     const Stopwatch watch(update_ms_);
-    slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = wants_lamp_points_ = false;
-    wants_lamp_extents_ = false;
+    slot_ = slot;
     const SceneChanges changes = seen_.update_and_find_scene_changes(now, !complete_);
     complete_ = false; // stays false if the update throws; then the next update writes all data
     if (changes.layout)
@@ -132,9 +130,9 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         for (const shared::Light& light : lights_)
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
         // Objects behind which no light lies still hide the environment.
-        tracing_->set_backdrop_objects(environment_rays > 0
-                                           ? std::vector<std::uint8_t>()
-                                           : intersect_object_flag_lists(backdrops_));
+        tracing_.set_backdrop_objects(environment_rays > 0
+                                          ? std::vector<std::uint8_t>()
+                                          : intersect_object_flag_lists(backdrops_));
     }
     environment_.set_environment(now.environment, material_details_.has_lobe_surfaces(),
                                  now.environment_shadows > 0);
@@ -158,7 +156,7 @@ void GpuScene::rebuild_geometry_layout(const scene::Scene& now) {
     closed_volumes_.clear();
     find_closed_shells(now);
     nearest_.set_geometry(geometry_);
-    tracing_->record_layout_change();
+    tracing_.record_layout_change();
     vertices_.set_geometry(geometry_);
 }
 
@@ -183,7 +181,7 @@ void GpuScene::move_objects(const scene::Scene& now, const std::vector<std::size
     for (const std::size_t object : objects) {
         const bool changed = move_object_geometry(geometry_, now, space_, object);
         nearest_.record_moved_object(object);
-        tracing_->record_moved_object(object, changed);
+        tracing_.record_moved_object(object, changed);
         const bool unexpected = changed && vertices_.record_moved_object(object);
         rebuild = rebuild || unexpected || geometry_.ranges[object].one_sided; // indices may change
     }
@@ -212,7 +210,7 @@ void GpuScene::fill_surface_table(const scene::Scene& now) {
 }
 
 /// Lists the triangles of lamps, for rays that aim at points on lamps.
-void GpuScene::fill_lamp_table() const {
+void GpuScene::fill_lamp_table() {
     const std::vector<vec4> table = make_lamp_table(geometry_, surfaces_);
     has_sampled_lamps_ = !table.empty();
     if (has_sampled_lamps_) lamp_buffer_.set_device_list_contents(table);
@@ -373,7 +371,7 @@ void GpuScene::bind(graph::PassCommands& commands) const {
     commands.bind_resource("probe_texels", probe_buffer_.buffer_of_device_copy(slot_));
     commands.bind_resource("mirror_nodes", mirror_tree_.buffer_of_device_copy(slot_));
     commands.bind_resource("lamp_texels", lamp_buffer_.buffer_of_device_copy(slot_));
-    if (wants_lamp_extents_)
+    if (binds_lamp_extents_)
         commands.bind_resource("LampExtents", lamp_extent_buffer_.buffer_of_device_copy(slot_));
     material_details_.bind(commands, slot_);
     environment_.bind(commands, slot_);
@@ -403,7 +401,7 @@ GpuScene::ray_tracing_feature_constants(SphereIntersectionMode spheres) const {
     gpu::ShaderConstantValues constants = shader_feature_constants();
     for (const auto& constant :
          make_tracer_constants(scene_device_.active_shader_variant_choices(),
-                               tracing_->largest_tree_buffer_bytes(spheres, slot_),
+                               tracing_.largest_tree_buffer_bytes(spheres, slot_),
                                scene_device_.vulkan_limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
@@ -417,31 +415,27 @@ void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) 
     vertices_.bind(commands, slot_, object);
 }
 
-void GpuScene::write_views_and_update_trees() const {
-    if (added_views_ > 0) {
-        view_buffer_.set_device_list_contents(views_);
+void GpuScene::fulfil(const FrameRequests& requests, const std::function<void()>& wait_for_slot) {
+    views_.resize(next_view());
+    views_.insert(views_.end(), requests.views().begin(), requests.views().end());
+    if (!requests.views().empty()) {
+        if (view_buffer_.set_device_list_contents(views_)) wait_for_slot();
         uploads_ += view_buffer_.upload_changed_pages(scene_device_, slot_);
     }
-    if (wants_lamp_points_) {
+    if (requests.samples_lamps()) {
         if (!has_lamp_table_) fill_lamp_table();
         uploads_ += lamp_buffer_.upload_changed_pages(scene_device_, slot_);
     }
-    if (wants_lamp_extents_) {
+    binds_lamp_extents_ = requests.draws_soft_shadows();
+    if (binds_lamp_extents_) {
         fill_lamp_extent_table();
         uploads_ += lamp_extent_buffer_.upload_changed_pages(scene_device_, slot_);
     }
     for (const SphereIntersectionMode spheres :
          {SphereIntersectionMode::mesh, SphereIntersectionMode::exact})
-        if (wants_tracing_[static_cast<std::size_t>(spheres)])
-            tracing_->prepare_ray_tracing_trees(scene_device_, geometry_, surfaces_, spheres,
-                                                wants_first_hits_, slot_);
-}
-
-void GpuScene::bind_ray_tracing_buffers(graph::PassCommands& commands,
-                                        SphereIntersectionMode spheres) const {
-    tracing_->prepare_ray_tracing_trees(scene_device_, geometry_, surfaces_, spheres,
-                                        wants_first_hits_, slot_);
-    tracing_->bind(commands, spheres, slot_);
+        if (requests.traces_rays(spheres))
+            tracing_.prepare_ray_tracing_trees(scene_device_, geometry_, surfaces_, spheres,
+                                               requests.starts_at_first_hits(), slot_);
 }
 
 } // namespace catoptric::render

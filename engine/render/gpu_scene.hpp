@@ -3,6 +3,7 @@
 #include "graph/commands.hpp"
 #include "render/backdrop.hpp"
 #include "render/device_list.hpp"
+#include "render/frame_requests.hpp"
 #include "render/material_parameters.hpp"
 #include "render/mirror_tree.hpp"
 #include "render/mirrored.hpp"
@@ -16,8 +17,8 @@
 #include "scene/light.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 
 namespace catoptric::render {
@@ -126,8 +127,8 @@ public:
     bool has_lobes_or_coats() const {
         return material_details_.has_lobe_surfaces() || material_details_.any_clear_coat();
     }
-    /// Returns whether rays can aim at points drawn on lamps. Valid from
-    /// `write_views_and_update_trees` on, in frames that requested lamp points.
+    /// Returns whether rays can aim at points drawn on lamps. Valid when passes are recorded, in
+    /// frames that asked for lamp points.
     bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return environment_.shader_environment_kind() != 0; }
@@ -139,14 +140,13 @@ public:
     std::uint32_t environment_shadow_rays() const { return environment_shadow_rays_; }
 
     static constexpr std::uint32_t kCameraViewIndex = 0;
-    /// Removes the views that the previous frame added. Call it before a frame declares its passes.
-    void begin_frame() const;
-    /// Adds a view for passes of this frame and returns its number. If it differs from the frame
-    /// before, all views are written again.
-    std::uint32_t add_view(const shared::View& view) const;
-    /// Returns whether `write_views_and_update_trees` will write views. No frame may then be in
-    /// flight in this slot. Call it after the passes are declared.
-    bool has_new_views() const;
+    /// Returns the number of the first view that a frame adds to those of camera, mirrors and
+    /// lights.
+    std::uint32_t next_view() const { return 1 + static_cast<std::uint32_t>(scene_views_.size()); }
+    /// Brings to the device what the passes of a frame have asked for: views, hierarchies, lists of
+    /// lamps. Call it once, after they are declared and before they are recorded. `wait_for_slot`
+    /// is called before views are overwritten that frames in flight in this slot may read.
+    void fulfil(const FrameRequests& requests, const std::function<void()>& wait_for_slot);
     std::uint32_t capture_view_index(std::uint32_t mirror) const { return 1 + 6 * mirror; }
     std::uint32_t shadow_view_index(std::uint32_t light) const {
         return 1 + 6 * mirror_count() + shadow_faces_ * light;
@@ -159,50 +159,35 @@ public:
     /// Binds the object's vertices. Call it after `bind`, before each draw.
     void bind_vertices(graph::PassCommands& commands, std::size_t object) const;
 
-    /// Announces that a pass traces rays. Call it when the pass is declared.
-    /// `first_hits`: the rays start at triangles that the rasteriser has drawn
-    /// (shaders/lib/first_hit.glsl).
-    void request_ray_tracing(SphereIntersectionMode spheres = SphereIntersectionMode::mesh,
-                             bool first_hits = false) const {
-        wants_tracing_[static_cast<std::size_t>(spheres)] = true;
-        wants_first_hits_ = wants_first_hits_ || first_hits;
-    }
-    /// Announces that rays of a pass aim at points drawn on lamps. Call it when the pass is
-    /// declared.
-    void request_lamp_points() const { wants_lamp_points_ = true; }
     /// Returns whether some light is a lamp with an extent.
     bool has_lamp_extents() const {
         return std::ranges::any_of(world_lights_, [](const scene::PointLight& light) {
             return light.half_axes != dmat3(0);
         });
     }
-    /// Announces that a pass draws soft shadows of lamps. Call it when the pass is declared.
-    void request_lamp_extents() const { wants_lamp_extents_ = true; }
-    /// Writes the views that `add_view` added to device memory, and updates the bounding volume
-    /// hierarchies and the lists of lamps that passes of this frame read. Call it after the frame's
-    /// passes are declared.
-    void write_views_and_update_trees() const;
-    /// Binds the hierarchy. Updates it first if `write_views_and_update_trees` has not.
+    /// Binds a hierarchy that passes of this frame have asked for.
     void
     bind_ray_tracing_buffers(graph::PassCommands& commands,
-                             SphereIntersectionMode spheres = SphereIntersectionMode::mesh) const;
+                             SphereIntersectionMode spheres = SphereIntersectionMode::mesh) const {
+        tracing_.bind(commands, spheres, slot_);
+    }
 
     /// Returns the host milliseconds of the last update, and of hierarchies since it began.
     double scene_update_ms() const { return update_ms_; }
-    double bvh_update_ms() const { return tracing_->bvh_update_ms() - hierarchy_ms_before_; }
+    double bvh_update_ms() const { return tracing_.bvh_update_ms() - hierarchy_ms_before_; }
     /// Returns the host milliseconds of the first update and of the first write of a hierarchy.
     /// Building that hierarchy is counted apart: `first_bvh_build_ms`, 0 if nothing traces.
     double first_scene_upload_ms() const {
-        return first_update_ms_ + tracing_->first_bvh_write_ms();
+        return first_update_ms_ + tracing_.first_bvh_write_ms();
     }
-    double first_bvh_build_ms() const { return tracing_->first_bvh_build_ms(); }
+    double first_bvh_build_ms() const { return tracing_.first_bvh_build_ms(); }
     /// Returns counts since construction: writes to device memory, hierarchies built, hierarchies
     /// refitted.
     std::size_t device_buffer_write_count() const {
-        return uploads_ + tracing_->device_buffer_write_count();
+        return uploads_ + tracing_.device_buffer_write_count();
     }
-    std::size_t built_bvh_count() const { return tracing_->built_tree_count(); }
-    std::size_t refitted_bvh_count() const { return tracing_->refitted_tree_count(); }
+    std::size_t built_bvh_count() const { return tracing_.built_tree_count(); }
+    std::size_t refitted_bvh_count() const { return tracing_.refitted_tree_count(); }
 
 private:
     void rebuild_geometry_layout(const scene::Scene& now);
@@ -211,8 +196,8 @@ private:
     void fill_surface_table(const scene::Scene& now);
     void fill_instance_placement_table();
     void fill_light_table(const scene::Scene& now, bool others);
-    void fill_lamp_table() const;
-    void fill_lamp_extent_table() const;
+    void fill_lamp_table();
+    void fill_lamp_extent_table();
     void fill_mirror_probe_table(const scene::Scene& now, const SceneChanges& changes);
     /// Returns the simple body that replaces the mesh of a glass object in captures; nothing for
     /// other objects.
@@ -232,11 +217,10 @@ private:
     NearestTriangleQuery nearest_;
     SceneChangeTracker seen_;
     DeviceVertices vertices_;
-    /// Views of the scene, then those added in this frame.
-    mutable std::vector<shared::View> views_;
-    std::vector<shared::View> scene_views_; ///< views of mirrors and lights
-    mutable std::size_t added_views_ = 0;   ///< the last of `views_`, valid in this frame only
-    std::vector<scene::FlatFaces> flats_;   ///< flat faces of each mirror
+    /// The camera's view, those of mirrors and lights, and those that the last frame added.
+    std::vector<shared::View> views_;
+    std::vector<shared::View> scene_views_;          ///< views of mirrors and lights
+    std::vector<scene::FlatFaces> flats_;            ///< flat faces of each mirror
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;
@@ -259,26 +243,20 @@ private:
     double ambient_ = 0;    ///< ambient light of the last update
     bool complete_ = false; ///< the last update finished without an exception
     bool has_object_spaces_ = false;
-    mutable bool has_lamp_table_ = false;    ///< the lamp table is that of the current scene
-    mutable bool has_sampled_lamps_ = false; ///< the lamp table is not empty
-    bool has_light_kinds_ = false;           ///< some light has no surface, or shines to two sides
+    bool has_lamp_table_ = false;     ///< the lamp table is that of the current scene
+    bool has_sampled_lamps_ = false;  ///< the lamp table is not empty
+    bool binds_lamp_extents_ = false; ///< passes of this frame draw soft shadows
+    bool has_light_kinds_ = false;    ///< some light has no surface, or shines to two sides
     std::uint32_t shadow_faces_ = 6;
     std::uint32_t environment_shadow_rays_ = 0;
-    mutable std::size_t uploads_ = 0;
+    std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    mutable DeviceList view_buffer_;
-    DeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
-        mirror_tree_;
-    mutable DeviceList lamp_buffer_, lamp_extent_buffer_;
+    DeviceList view_buffer_, frame_, surface_buffer_, placement_buffer_, light_buffer_,
+        probe_buffer_, mirror_tree_, lamp_buffer_, lamp_extent_buffer_;
     MaterialParameterLists material_details_;
     DeviceEnvironment environment_;
-    std::unique_ptr<RayTracingTrees> tracing_;
-    /// Whether a pass of this frame traces rays, for each value of SphereIntersectionMode.
-    mutable std::array<bool, 2> wants_tracing_{};
-    mutable bool wants_first_hits_ = false;
-    mutable bool wants_lamp_points_ = false;  ///< whether a pass of this frame aims at lamps
-    mutable bool wants_lamp_extents_ = false; ///< whether a pass of this frame draws soft shadows
+    RayTracingTrees tracing_;
 };
 
 } // namespace catoptric::render

@@ -1,5 +1,4 @@
-// The views of a scene on the device: the camera's view, the views of mirrors and lights, and the
-// views that a frame adds.
+// The views of a scene on the device: the camera's view, and the views of mirrors and lights.
 #include "render/enclosure.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/views.hpp"
@@ -12,7 +11,6 @@ void GpuScene::fill_view_table(const scene::Camera& camera, uvec2 size) {
     const float gap = nearest_.distance_to_nearest_triangle(
         geometry_, eye_,
         [](std::size_t, const ObjectDrawRange& range) { return !range.seen_by_camera; });
-    added_views_ = 0;
     views_ = {make_camera_view(camera, space_, size, gap, compute_geometry_bounds(geometry_))};
     const bool is_parallel = views_.front().parallel != 0;
     if (is_parallel) eye_ = dvec3(views_.front().eye) + dvec3(views_.front().eye_low);
@@ -27,21 +25,6 @@ void GpuScene::fill_view_table(const scene::Camera& camera, uvec2 size) {
 
 MirroredViewEye GpuScene::eye() const {
     return {views_[kCameraViewIndex], eye_, compute_geometry_bounds(geometry_)};
-}
-
-void GpuScene::begin_frame() const {
-    views_.resize(views_.size() - added_views_);
-    added_views_ = 0;
-}
-
-std::uint32_t GpuScene::add_view(const shared::View& view) const {
-    views_.push_back(view);
-    ++added_views_;
-    return static_cast<std::uint32_t>(views_.size() - 1);
-}
-
-bool GpuScene::has_new_views() const {
-    return added_views_ > 0 && view_buffer_.set_device_list_contents(views_);
 }
 
 } // namespace catoptric::render

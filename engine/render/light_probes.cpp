@@ -47,7 +47,7 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
     const std::vector<shared::View> views = make_cube_views(
         probes.grid.first + vec3(place) * probes.grid.step, 0);
     for (std::uint32_t face = 0; face < views.size(); ++face) {
-        const std::uint32_t view = inputs.scene.add_view(views[face]);
+        const std::uint32_t view = inputs.requests.add_view(views[face]);
         if (face == 0) first_view = view;
     }
     const std::string name = inputs.prefix + "probes/" + std::to_string(probe + 1);

@@ -24,8 +24,8 @@ ShaderOfEachMirror remove_error_causes_of_shaders(ShaderOfEachMirror looks,
                                                   const FrameInputs& inputs,
                                                   const ShadingLights& lighting) {
     if (!inputs.ablated) return looks;
-    inputs.scene.request_ray_tracing();
-    if (inputs.ablated >> shared::kAblateDrawBits) inputs.scene.request_lamp_points();
+    inputs.requests.trace_rays(SphereIntersectionMode::mesh, false);
+    if (inputs.ablated >> shared::kAblateDrawBits) inputs.requests.sample_lamps();
     for (MirrorShader& look : looks.looks) {
         if (!look.captures) continue;
         look.ablated = inputs.ablated;

@@ -327,6 +327,8 @@ std::uint64_t RayTracingTrees::largest_tree_buffer_bytes(SphereIntersectionMode 
 void RayTracingTrees::bind(graph::PassCommands& commands, SphereIntersectionMode spheres,
                            std::size_t slot) const {
     const DeviceBvh& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    check(hierarchy.seen == version_ && moved_.empty(), Failure::internal,
+          "a pass traces rays without having asked for it (FrameRequests::trace_rays)");
     commands.bind_resource("bvh_nodes", hierarchy.node_list.buffer_of_device_copy(slot));
     commands.bind_resource("bvh_triangles", hierarchy.triangles.buffer_of_device_copy(slot));
     commands.bind_resource("normals", corner_normals_.buffer_of_device_copy(slot));

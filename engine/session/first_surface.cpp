@@ -74,14 +74,13 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     self.update_device_scene({spec.time, camera, spec.size, spec.ambient});
     const render::GpuScene& resident = *self.resident;
     graph::Graph graph;
-    resident.begin_frame();
+    render::FrameRequests requests(self.resident->next_view());
     const reflect::FirstSurfaceImages images = reflect::add_first_surface_tracing(
-        graph, {resident, spec.size, "", spec.seed});
+        graph, {resident, requests, spec.size, "", spec.seed});
     graph.mark_as_graph_output(images.normals_and_distances);
     graph.mark_as_graph_output(images.objects_and_roughness);
     graph.mark_as_graph_output(images.counters);
-    if (resident.has_new_views()) self.wait_until_scene_copy_is_free(self.copy);
-    resident.write_views_and_update_trees();
+    self.resident->fulfil(requests, [&] { self.wait_until_scene_copy_is_free(self.copy); });
     const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(
         graph, graph::PassTiming::isolated, true);
     self.last = ticket;

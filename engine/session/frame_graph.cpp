@@ -142,23 +142,28 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,
                                const std::vector<reflect::PreviousCaptureHistory>& keeping) {
-    FrameGraph frame{graph::Graph(std::move(history)), {}};
-    scene.begin_frame();
+    FrameGraph frame{
+        graph::Graph(std::move(history)), render::FrameRequests(scene.next_view()), {}};
     for (const reflect::TechniquePlan& plan : plans) {
         const reflect::PreviousCaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene,         spec.size,        prefix, facts.seed,
-                                         hooks.ablated, spec.with_lookup, facts};
+        const render::FrameInputs inputs{.scene = scene,
+                                         .requests = frame.requests,
+                                         .size = spec.size,
+                                         .prefix = prefix,
+                                         .seed = facts.seed,
+                                         .ablated = hooks.ablated,
+                                         .with_lookup = spec.with_lookup,
+                                         .facts = facts,
+                                         .exposure = spec.exposure};
         const reflect::TechniqueOfEachMirror assignment =
             reflect::replace_techniques_unfit_for_mirror(
                 reflect::assign_techniques_to_mirrors(plan, mirrors),
                 scene.list_flat_mirror_faces(), scene.flat_mirror_tolerance());
         reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
                                                                       assignment, kept);
-        const graph::ImageHandle display = render::add_compose_pass(frame.graph, inputs,
-                                                                    outputs.hdr, spec.exposure);
         frame.graph.mark_as_graph_output(outputs.hdr);
-        frame.graph.mark_as_graph_output(display);
+        frame.graph.mark_as_graph_output(outputs.display);
         for (const graph::BufferHandle counters : outputs.counters)
             frame.graph.mark_as_graph_output(counters);
         if (outputs.lookup) frame.graph.mark_as_graph_output(*outputs.lookup);
@@ -171,8 +176,7 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
             }
         }
         const std::optional<CaptureBudget> capture_budget = make_capture_budget(outputs, kept);
-        frame.parts.push_back(
-            {plan, assignment, prefix, std::move(outputs), display, capture_budget});
+        frame.parts.push_back({plan, assignment, prefix, std::move(outputs), capture_budget});
     }
     return frame;
 }
@@ -265,7 +269,7 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
     const std::vector<std::byte> texels = runner.read_back_resource(ticket, outputs.hdr);
     part.hdr = texels_to_picture(texels, spec.size, TexelFormat::rgba32f);
     if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
-    part.display = texels_to_picture(runner.read_back_resource(ticket, declared.display), spec.size,
+    part.display = texels_to_picture(runner.read_back_resource(ticket, outputs.display), spec.size,
                                      TexelFormat::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
         for (const render::CubeCaptureArray& cubes : outputs.captures->arrays)

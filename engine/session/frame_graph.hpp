@@ -18,12 +18,12 @@ struct TechniqueGraphPart {
     reflect::TechniqueOfEachMirror assignment;
     std::string prefix;
     reflect::TechniqueOutputs outputs;
-    graph::ImageHandle display;
     std::optional<CaptureBudget> capture_budget; ///< see Frame::capture_budget
 };
 
 struct FrameGraph {
     graph::Graph graph;
+    render::FrameRequests requests;
     std::vector<TechniqueGraphPart> parts;
     std::shared_ptr<graph::PhysicalImage> target; ///< image of an embedding program; may be null
 };

@@ -151,7 +151,7 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
 
     const uvec2 size = swapchain.size_in_pixels();
     const auto picture = [&](std::size_t part) {
-        return frame.parts.at(part == WindowPictures::kCanvasPicture ? 0 : part).display;
+        return frame.parts.at(part == WindowPictures::kCanvasPicture ? 0 : part).outputs.display;
     };
     const ImageHandle first = picture(showing.first), second = picture(showing.second);
     const shared::ScreenParameters screening{

@@ -220,9 +220,8 @@ Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
                                        runner.make_history(),
                                        find_capture_histories(spec, *frame->model, follows));
     frame->declare_ms = compute_milliseconds_since(start);
-    if (resident->has_new_views()) wait_until_scene_copy_is_free(copy);
     const SteadyClock::time_point trees = SteadyClock::now();
-    resident->write_views_and_update_trees();
+    resident->fulfil(frame->frame.requests, [&] { wait_until_scene_copy_is_free(copy); });
     frame->hierarchy_ms = compute_milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish ? finish(frame->frame)
                                                      : graph::ExternalSemaphores{};

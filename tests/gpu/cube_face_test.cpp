@@ -83,7 +83,8 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
 
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    render::FrameRequests requests(gpu_scene.next_view());
+    const render::FrameInputs inputs{gpu_scene, requests, {16, 16}, ""};
     render::CaptureOptions options;
     options.face = 256, options.distance = TexelFormat::r32f;
     const render::CubeCaptureArray cubes = test::add_black_captures(graph, inputs, options);

@@ -16,15 +16,16 @@ constexpr uvec2 kResidentPictureSize{24, 24};
 gpu::GpuDevice& resident_test_device() { return test::get_test_device().device; }
 
 /// Returns the linear picture of the resident scene as bytes.
-std::vector<std::byte> render_resident_scene(const render::GpuScene& scene,
+std::vector<std::byte> render_resident_scene(render::GpuScene& scene,
                                              const std::string& technique) {
     auto& [device, pipelines] = test::get_test_device();
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
+    render::FrameRequests requests(scene.next_view());
     const reflect::TechniqueOutputs outputs = test::add_technique(
-        graph, {scene, kResidentPictureSize, ""}, technique);
+        graph, {scene, requests, kResidentPictureSize, ""}, technique);
     graph.mark_as_graph_output(outputs.hdr);
-    scene.write_views_and_update_trees();
+    scene.fulfil(requests, [] {});
     test::run_graph(runner, graph);
     return runner.read_back_resource(outputs.hdr);
 }

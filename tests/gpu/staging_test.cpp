@@ -128,10 +128,12 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         gpu_scene.update(room, room.cameras.front(), {48, 32}, 0.05);
         graph::GraphRunner runner(device, pipelines);
         graph::Graph graph;
-        const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
+        render::FrameRequests requests(gpu_scene.next_view());
+        const render::FrameInputs inputs{gpu_scene, requests, {48, 32}, ""};
         const render::ShadingLights lighting{render::add_shadow_passes(graph, inputs, 64)};
         const graph::ImageHandle hdr = render::add_camera_view(graph, inputs, lighting, {}).hdr;
         graph.mark_as_graph_output(hdr);
+        gpu_scene.fulfil(requests, [] {});
         test::run_graph(runner, graph);
         return test::read_resource_values<float>(runner, hdr);
     };

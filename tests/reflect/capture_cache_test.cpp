@@ -25,8 +25,10 @@ protected:
         graph::Graph graph(runner_.make_history());
         const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
             reflect::parse_plan(technique), std::vector<std::string>(3, "ball"));
-        outputs_ = reflect::add_frame_passes(graph, {*shown_, kCachedPictureSize, ""}, assignment,
-                                             {model_, kept_, &comparisons_, most_});
+        render::FrameRequests requests(shown_->next_view());
+        outputs_ = reflect::add_frame_passes(graph, {*shown_, requests, kCachedPictureSize, ""},
+                                             assignment, {model_, kept_, &comparisons_, most_});
+        shown_->fulfil(requests, [] {});
         graph.mark_as_graph_output(outputs_.hdr);
         runner_.run_and_wait(graph, graph::PassTiming::isolated);
         kept_ = outputs_.kept;

@@ -58,7 +58,8 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, .05);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    render::FrameRequests requests(gpu_scene.next_view());
+    const render::FrameInputs inputs{gpu_scene, requests, {16, 16}, ""};
     const reflect::TechniqueChoice choice = reflect::parse_technique_choice(technique);
     test::add_technique(graph, inputs, technique);
     const graph::ImageHandle pyramid = find_image_by_name(graph, "pyramid"),
@@ -89,7 +90,7 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
     }
     graph.mark_as_graph_output(pyramid);
     test::run_graph(runner, graph);
-    return {*choice.shared.face, test::read_resource_values<std::uint32_t>(runner, pyramid),
+    return {*choice.shared.capture.face, test::read_resource_values<std::uint32_t>(runner, pyramid),
             test::read_resource_values<vec4>(runner, found[0]),
             test::read_resource_values<vec4>(runner, found[1])};
 }

@@ -41,13 +41,15 @@ inline CapturedLayers draw_cube_captures_with_options(const scene::Scene& scene,
         {16, 16}, 0);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    render::FrameRequests requests(gpu_scene.next_view());
+    const render::FrameInputs inputs{gpu_scene, requests, {16, 16}, ""};
     if (options.distance == TexelFormat::r8_unorm)
         options.stored_unit = gpu_scene.scene_units().world_to_scene_length(range_world);
     const render::CubeCaptureArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
         if (image) graph.mark_as_graph_output(*image);
+    gpu_scene.fulfil(requests, [] {});
     run_graph(runner, graph);
     const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
         return CapturedCubes{options.face, runner.read_back_resource(colour),

@@ -1,0 +1,116 @@
+// What lights diffuse surfaces apart from lamps: light probes, and what hides the environment.
+#include "reflect/feature.hpp"
+#include "render/ambient_occlusion.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace catoptric::reflect {
+
+namespace {
+
+using Occlusion = KnobsSharedByTechniques::AmbientOcclusion;
+
+bool has_some(const std::vector<TechniqueChoice>& choices, Occlusion occlusion) {
+    return std::ranges::any_of(choices, [=](const TechniqueChoice& choice) {
+        return choice.shared.occlusion == occlusion;
+    });
+}
+
+bool has_light_between_surfaces(const FrameDeclaration& frame) {
+    return std::ranges::any_of(frame.choices(), [](const TechniqueChoice& choice) {
+        return choice.shared.has_light_between_surfaces();
+    });
+}
+
+/// Returns the most light probes of the frame's grid: the largest number of its techniques. 0: no
+/// technique needs light probes.
+std::uint32_t count_most_light_probes(const FrameDeclaration& frame) {
+    std::uint32_t most = 0;
+    for (const TechniqueChoice& choice : frame.choices())
+        if (choice.shared.has_light_between_surfaces() ||
+            (choice.shared.uses_light_probes() && frame.inputs.scene.has_environment_light()))
+            most = std::max(most, choice.shared.most_light_probes);
+    return most;
+}
+
+constexpr FrameFeature kLightProbeFeature{
+    .name = "light probes",
+    .order = feature_order::kLightProbes,
+    .applies = [](const FrameDeclaration& frame) { return count_most_light_probes(frame) > 0; },
+    .add =
+        [](FrameDeclaration& frame) {
+            // If some technique has light between surfaces, light probes hold it for all.
+            frame.probes = render::declare_light_probes(
+                frame.graph, frame.inputs, count_most_light_probes(frame),
+                has_light_between_surfaces(frame) ? shared::kLightProbesOfSurfaces
+                                                  : shared::kLightProbesOfEnvironment);
+        }};
+const RegisteredFeature kLightProbeRegistration{kLightProbeFeature};
+
+constexpr FrameFeature kLightProbeCaptureFeature{
+    .name = "captures of light probes",
+    .order = feature_order::kLightProbeCaptures,
+    .applies = [](const FrameDeclaration& frame) { return frame.probes && is_rasterised(frame); },
+    .add =
+        [](FrameDeclaration& frame) {
+            render::add_light_probe_passes(
+                frame.graph, frame.inputs, *frame.probes, frame.lighting,
+                frame.captures ? frame.captured_looks
+                               : render::use_same_shader_for_mirrors(frame.inputs.scene, {}));
+            frame.outputs.draws_everything = true;
+            if (!frame.probes->note.empty()) frame.outputs.notes.push_back(frame.probes->note);
+            if (frame.history.most > 0)
+                frame.outputs.notes.emplace_back(
+                    "light probes need all captures, so no budget limits them");
+        }};
+const RegisteredFeature kLightProbeCaptureRegistration{kLightProbeCaptureFeature};
+
+/// Adds notes on values of `ao` that have no effect. Light probes of ao=captures already know what
+/// hides the light.
+void note_occlusion_without_effect(FrameDeclaration& frame) {
+    const bool has_light = has_light_between_surfaces(frame);
+    if (!has_some(frame.choices(), Occlusion::captures)) return;
+    if (has_light)
+        frame.outputs.notes.emplace_back(
+            "ao=captures has no effect beside indirect=captures, whose light probes know what "
+            "hides the environment");
+    else if (has_some(frame.choices(), Occlusion::screen))
+        frame.outputs.notes.emplace_back("ao=screen has no effect beside ao=captures, whose light "
+                                         "probes know what hides the environment");
+}
+
+/// Returns whether surfaces of the camera's view hide light from each other.
+bool is_light_occluded_by_camera_view(const FrameDeclaration& frame) {
+    const bool has_light = has_light_between_surfaces(frame);
+    return has_some(frame.choices(), Occlusion::screen) &&
+           (has_light || (!has_some(frame.choices(), Occlusion::captures) &&
+                          frame.inputs.scene.has_environment_light()));
+}
+
+constexpr FrameFeature kOcclusionFeature{
+    .name = "occlusion",
+    .order = feature_order::kOcclusion,
+    .applies =
+        [](const FrameDeclaration& frame) {
+            return is_rasterised(frame) && (has_some(frame.choices(), Occlusion::screen) ||
+                                            has_some(frame.choices(), Occlusion::captures));
+        },
+    .add =
+        [](FrameDeclaration& frame) {
+            note_occlusion_without_effect(frame);
+            if (!is_light_occluded_by_camera_view(frame)) return;
+            char note[96];
+            std::snprintf(
+                note, sizeof note, "ao=screen: surfaces up to %.3g world units away hide the %s",
+                render::find_ambient_occlusion_radius(frame.inputs.scene),
+                has_light_between_surfaces(frame) ? "light of light probes" : "environment");
+            frame.outputs.notes.emplace_back(note);
+            frame.view_lighting.ambient_occlusion = render::add_ambient_occlusion_passes(
+                frame.graph, frame.inputs);
+        }};
+const RegisteredFeature kOcclusionRegistration{kOcclusionFeature};
+
+} // namespace
+
+} // namespace catoptric::reflect
