@@ -13,8 +13,10 @@
 #include <utility>
 #include <vector>
 
-/// Results of `compare` as plain data. The application fills them, this folder judges them, and
-/// report/ writes them.
+namespace catoptric {
+struct TechniqueTraits;
+}
+/// Results of `compare` as plain data: measured by study/, judged here, written by report/.
 namespace catoptric::measure {
 
 using catoptric::AutoFace;
@@ -107,10 +109,11 @@ struct View {
 struct Row : Errors {
     /// "naive", for example; "plan" if several techniques draw the mirrors.
     std::string technique;
-    std::string label;                ///< text of the request, such as "naive:bounces=1"
-    std::vector<Setting> settings;    ///< values of all knobs
-    std::vector<PlanEntry> plan;      ///< technique of each mirror
-    std::string model = "everything"; ///< or "required"
+    const TechniqueTraits* traits = nullptr; ///< internal; null: several techniques
+    std::string label;                       ///< text of the request, such as "naive:bounces=1"
+    std::vector<Setting> settings;           ///< values of all knobs
+    std::vector<PlanEntry> plan;             ///< technique of each mirror
+    std::string model = "everything";        ///< or "required"
     std::vector<CulledWork> left_out;
     /// Scene passes in the executed plan. A cube counts once, as in the seed report.
     int scene_passes = 0;

@@ -29,7 +29,7 @@ find_undrawn_dielectrics(const Comparison& comparison) {
 
 std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Comparison& comparison) {
     const Row* one = find_naive_row(comparison, 0);
-    const Row* two = find_row_of_technique_with_knobs(comparison, "reuse");
+    const Row* two = find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::last_captures);
     if (one == nullptr || two == nullptr) return {};
     const SampleSummary &without = one->elapsed_ms(), &reused = two->elapsed_ms();
     CaptureClearCostResult finding{one, two,
@@ -53,12 +53,13 @@ std::optional<StoredDistanceFormatResult>
 find_stored_distance_format_result(const Comparison& comparison) {
     const auto eight_bits = [&](std::string_view range) -> const Row* {
         const KnobNameAndValueText wanted[] = {{"distance", "unorm8"}, {"range", range}};
-        const Row* row = find_row_of_technique_with_knobs(comparison, "parallax", wanted);
+        const Row* row = find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::parallax,
+                                               wanted);
         return has_known_error(row) ? row : nullptr;
     };
-    StoredDistanceFormatResult finding{find_row_of_technique_with_knobs(comparison, "reuse"),
-                                       find_parallax_row(comparison), eight_bits("200"),
-                                       eight_bits("1000")};
+    StoredDistanceFormatResult finding{
+        find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::last_captures),
+        find_parallax_row(comparison), eight_bits("200"), eight_bits("1000")};
     if (!has_known_error(finding.plain) || !has_known_error(finding.full)) return {};
     if (finding.near == nullptr && finding.far == nullptr) return {};
     finding.near_is_worse = finding.near != nullptr &&
@@ -84,7 +85,7 @@ find_bounces_versus_error_result(const Comparison& comparison) {
 
 std::optional<ParallaxCorrectionPriceResult>
 find_parallax_correction_price(const Comparison& comparison) {
-    const Row* two = find_row_of_technique_with_knobs(comparison, "reuse");
+    const Row* two = find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::last_captures);
     const Row* three = find_parallax_row(comparison);
     if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
     ParallaxCorrectionPriceResult finding{two, three, RowJudge(comparison.rows).times(*three, *two),

@@ -7,6 +7,8 @@ namespace catoptric::measure {
 
 namespace {
 
+using SeedPart = TechniqueTraits::SeedPart;
+
 bool has_knob_with_text(const Row& row, const KnobNameAndValueText& wanted) {
     return std::ranges::any_of(row.settings, [&](const Setting& setting) {
         return setting.name == wanted.knob && setting.text == wanted.text;
@@ -22,11 +24,11 @@ bool has_default_knobs_except(const Row& row, std::span<const KnobNameAndValueTe
 
 } // namespace
 
-const Row* find_row_of_technique_with_knobs(const Comparison& comparison,
-                                            std::string_view technique,
-                                            std::span<const KnobNameAndValueText> wanted) {
+const Row* find_row_of_seed_part(const Comparison& comparison, TechniqueTraits::SeedPart part,
+                                 std::span<const KnobNameAndValueText> wanted) {
     const auto fits = [&](const Row& row) {
-        return row.technique == technique && has_default_knobs_except(row, wanted) &&
+        return row.traits && row.traits->seed_part == part &&
+               has_default_knobs_except(row, wanted) &&
                std::ranges::all_of(wanted, [&](const KnobNameAndValueText& one) {
                    return has_knob_with_text(row, one);
                });
@@ -37,20 +39,20 @@ const Row* find_row_of_technique_with_knobs(const Comparison& comparison,
 
 const Row* find_parallax_row(const Comparison& comparison) {
     const KnobNameAndValueText wanted[] = {{"distance", "r32f"}};
-    return find_row_of_technique_with_knobs(comparison, "parallax", wanted);
+    return find_row_of_seed_part(comparison, SeedPart::parallax, wanted);
 }
 
 const Row* find_ray_traced_row(const Comparison& comparison) {
     const KnobNameAndValueText wanted[] = {{"depth", "8"}, {"sphere", "mesh"}};
-    return find_row_of_technique_with_knobs(comparison, "raytrace", wanted);
+    return find_row_of_seed_part(comparison, SeedPart::rays, wanted);
 }
 
 const Row* find_naive_row(const Comparison& comparison, int bounces) {
     const std::string text = std::to_string(bounces);
     const KnobNameAndValueText wanted[] = {{"bounces", text}};
-    return find_row_of_technique_with_knobs(comparison, "naive", wanted);
+    return find_row_of_seed_part(comparison, SeedPart::bounces, wanted);
 }
 
-bool is_ray_traced_row(const Row& row) { return row.technique == "raytrace"; }
+bool is_ray_traced_row(const Row& row) { return row.traits && row.traits->is_ray_traced(); }
 
 } // namespace catoptric::measure

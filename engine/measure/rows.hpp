@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/technique_traits.hpp"
 #include "measure/comparison.hpp"
 
 #include <span>
@@ -14,13 +15,12 @@ struct KnobNameAndValueText {
     std::string_view text;
 };
 
-/// Returns the first row of `technique` with the wanted values and all other knobs at their
-/// defaults, or null.
-const Row* find_row_of_technique_with_knobs(const Comparison& comparison,
-                                            std::string_view technique,
-                                            std::span<const KnobNameAndValueText> wanted = {});
-/// Three functions that return the row of `naive` with `bounces` bounces, of `parallax`, and of ray
-/// tracing, each with default knobs. Null if the comparison has no such row.
+/// Returns the first row whose technique repeats this part of the seed report, with the wanted
+/// values and all other knobs at their defaults, or null.
+const Row* find_row_of_seed_part(const Comparison& comparison, TechniqueTraits::SeedPart part,
+                                 std::span<const KnobNameAndValueText> wanted = {});
+/// Three functions that return the row of part one with `bounces` bounces, of parallax correction,
+/// and of ray tracing, each with default knobs. Null if the comparison has no such row.
 const Row* find_naive_row(const Comparison& comparison, int bounces);
 const Row* find_parallax_row(const Comparison& comparison);
 const Row* find_ray_traced_row(const Comparison& comparison);

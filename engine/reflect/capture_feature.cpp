@@ -9,27 +9,31 @@ namespace catoptric::reflect {
 
 namespace {
 
+bool has_shared_captures(const TechniqueChoice& choice) {
+    return choice.technique->traits.captures == TechniqueTraits::Captures::shared;
+}
+
 /// Returns whether some technique needs captures. Traced mirrors are drawn from captures inside
 /// mirrored views, so they need captures there.
 bool needs_captures(const FrameDeclaration& frame) {
     if (!is_rasterised(frame) || frame.assignment.of_mirror.empty()) return false;
     return std::ranges::any_of(frame.choices(), [&](const TechniqueChoice& choice) {
-        return choice.technique->capture != nullptr ||
-               (frame.is_mixed() && choice.technique->mirrored_views != nullptr);
+        return has_shared_captures(choice) ||
+               (frame.is_mixed() && choice.technique->traits.draws_mirrored_views);
     });
 }
 
 /// Returns the options of the captures of one technique's mirrors.
 render::CaptureOptions choose_capture_options_of_technique(FrameDeclaration& frame,
                                                            const TechniqueChoice& choice) {
-    if (choice.technique->capture) {
+    if (has_shared_captures(choice)) {
         render::CaptureOptions options = choice.technique->capture(frame.inputs, choice.settings);
-        options.lighting = frame.light_with_shadow_map(choose_shadow_map(choice.shared));
+        options.lighting = frame.light_with_shadow_map(choose_shadow_map(choice.shared.shadow));
         return options;
     }
     render::CaptureOptions options{.face = 0, .lighting = frame.lighting};
-    if (choice.shared.capture) {
-        options.face = *choice.shared.capture;
+    if (choice.shared.others.face) {
+        options.face = *choice.shared.others.face;
         // Parallax correction of mirrors in captures reads the distance.
         options.distance = TexelFormat::r32f;
     }
@@ -43,7 +47,7 @@ std::vector<render::CaptureOptions> choose_capture_options(FrameDeclaration& fra
     render::CaptureOptions shared;
     for (const TechniqueChoice& choice : frame.choices()) {
         of_choice.push_back(choose_capture_options_of_technique(frame, choice));
-        if (!choice.technique->capture || !does_search_other_captures(choice.shared)) continue;
+        if (!has_shared_captures(choice) || !choice.shared.search.reads_other_captures()) continue;
         const render::CaptureOptions& options = of_choice.back();
         shared.surfaces = shared.surfaces || options.surfaces;
         shared.second_layer = shared.second_layer || options.second_layer;
@@ -67,13 +71,13 @@ std::vector<render::CaptureOptions> choose_capture_options(FrameDeclaration& fra
 render::MirrorShader choose_look_in_captures(const FrameDeclaration& frame, std::uint32_t mirror) {
     const render::FrameCaptureUpdate& update = *frame.captures;
     const TechniqueChoice& choice = frame.choices()[frame.assignment.of_mirror[mirror]];
-    const Technique& technique = *choice.technique;
     const bool is_kept = update.kept != nullptr;
     render::MirrorShader look;
     if (!update.last || !update.last->places[mirror].has_capture() ||
         (!update.was_there[mirror] && is_kept))
         return look;
-    look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
+    look.fragment = has_shared_captures(choice) ? choice.technique->in_captures
+                                                : "reflect/parallax.frag";
     look.captures = update.last;
     look.constants.emplace_back("refract_model",
                                 choose_refraction_model_of_other_views(choice.shared.refract));
@@ -112,7 +116,7 @@ void declare_captures(FrameDeclaration& frame) {
                                {history.before, history.comparisons, history.most});
     frame.outputs.captures = frame.captures->captures;
     frame.outputs.kept = frame.captures->kept;
-    std::vector<KnobsSharedByTechniques> knobs;
+    std::vector<SharedKnobs> knobs;
     for (const std::uint32_t choice : frame.assignment.of_mirror)
         knobs.push_back(frame.choices()[choice].shared);
     frame.levels.emplace(frame.graph, frame.inputs, frame.captures->captures, knobs);

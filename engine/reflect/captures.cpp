@@ -4,10 +4,10 @@ namespace catoptric::reflect {
 
 namespace {
 
-KnobsSharedByTechniques::ShadowMethod read_shadow_method(const TechniqueKnobSettings& settings) {
-    using enum KnobsSharedByTechniques::ShadowMethod;
-    constexpr KnobsSharedByTechniques::ShadowMethod kRasterShadowMethods[] = {map, none},
-                                                    kTracedShadows[] = {ray, map, none};
+ShadowKnobs::Method read_shadow_method(const TechniqueKnobSettings& settings) {
+    using enum ShadowKnobs::Method;
+    constexpr ShadowKnobs::Method kRasterShadowMethods[] = {map, none},
+                                  kTracedShadows[] = {ray, map, none};
     if (settings.has_knob(kShadowKnob))
         return kRasterShadowMethods[settings.knob_value_as_integer(kShadowKnob)];
     return settings.has_knob(kTracedShadowKnob)
@@ -29,76 +29,80 @@ bool has_second_choice_of_knob(const TechniqueKnobSettings& settings, const Tech
 
 } // namespace
 
-KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings) {
+SharedKnobs read_shared_knobs(const TechniqueKnobSettings& settings) {
     constexpr TexelFormat kDistanceFormats[] = {TexelFormat::r32f, TexelFormat::r16f,
                                                 TexelFormat::r8_unorm};
-    KnobsSharedByTechniques knobs{.shadow = read_shadow_method(settings)};
-    knobs.shadow_map = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
-    knobs.has_soft_shadows = has_second_choice_of_knob(settings, kSoftShadowKnob);
-    knobs.face = find_knob_number(settings, kCaptureFaceKnob);
-    knobs.chooses_face = settings.has_knob(kCaptureFaceKnob) && !knobs.face;
-    knobs.stores_floats = has_second_choice_of_knob(settings, kCaptureColourKnob);
+    SharedKnobs knobs;
+    knobs.shadow.method = read_shadow_method(settings);
+    knobs.shadow.edge = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
+    knobs.shadow.is_soft = has_second_choice_of_knob(settings, kSoftShadowKnob);
+    knobs.capture.face = find_knob_number(settings, kCaptureFaceKnob);
+    knobs.capture.chooses_face = settings.has_knob(kCaptureFaceKnob) && !knobs.capture.face;
+    knobs.capture.stores_floats = has_second_choice_of_knob(settings, kCaptureColourKnob);
     if (settings.has_knob(kCaptureDistanceKnob))
-        knobs.distance = kDistanceFormats[settings.knob_value_as_integer(kCaptureDistanceKnob)];
+        knobs.capture.distance =
+            kDistanceFormats[settings.knob_value_as_integer(kCaptureDistanceKnob)];
     if (settings.has_knob(kDistanceRangeKnob))
-        knobs.range = settings.numeric_knob_value(kDistanceRangeKnob);
-    knobs.continues = find_knob_number(settings, kContinuedSearchesKnob).value_or(0);
-    knobs.by_object = has_second_choice_of_knob(settings, kCaptureTexelLookupKnob);
-    knobs.asks_all = has_second_choice_of_knob(settings, kSearchedCapturesKnob);
-    knobs.leaves_out_spheres = has_second_choice_of_knob(settings, kMirrorsInCapturesKnob);
+        knobs.capture.range = settings.numeric_knob_value(kDistanceRangeKnob);
+    knobs.search.continues = find_knob_number(settings, kContinuedSearchesKnob).value_or(0);
+    knobs.search.by_object = has_second_choice_of_knob(settings, kCaptureTexelLookupKnob);
+    knobs.search.asks_all = has_second_choice_of_knob(settings, kSearchedCapturesKnob);
+    knobs.search.leaves_out_spheres = has_second_choice_of_knob(settings, kMirrorsInCapturesKnob);
     if (settings.has_knob(kRoughMirrorMethodKnob)) {
-        knobs.rough = settings.knob_value_as_enum<KnobsSharedByTechniques::RoughMirrorLookup>(
+        knobs.rough.lookup = settings.knob_value_as_enum<RoughKnobs::Lookup>(
             kRoughMirrorMethodKnob);
-        knobs.taps = static_cast<std::uint32_t>(settings.knob_value_as_integer(kFilterTapsKnob));
-        knobs.lobe_rays = static_cast<std::uint32_t>(
+        knobs.rough.taps = static_cast<std::uint32_t>(
+            settings.knob_value_as_integer(kFilterTapsKnob));
+        knobs.rough.rays = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kRoughRaysKnob));
     }
     if (settings.has_knob(kBlurLawKnob))
-        knobs.law = settings.knob_value_as_enum<KnobsSharedByTechniques::DistanceLaw>(kBlurLawKnob);
+        knobs.rough.law = settings.knob_value_as_enum<RoughKnobs::Law>(kBlurLawKnob);
     if (settings.has_knob(kGlassRefractionModelKnob))
         knobs.refract = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kGlassRefractionModelKnob));
     if (settings.has_knob(kLightProbesKnob)) {
-        knobs.indirect = settings.knob_value_as_enum<KnobsSharedByTechniques::LightBetweenSurfaces>(
+        knobs.light.indirect = settings.knob_value_as_enum<LightKnobs::Indirect>(
             kIndirectLightKnob);
-        knobs.occlusion = settings.knob_value_as_enum<KnobsSharedByTechniques::AmbientOcclusion>(
+        knobs.light.occlusion = settings.knob_value_as_enum<LightKnobs::Occlusion>(
             kAmbientOcclusionKnob);
-        knobs.most_light_probes = *find_knob_number(settings, kLightProbesKnob);
+        knobs.light.most_probes = *find_knob_number(settings, kLightProbesKnob);
     }
-    knobs.capture = find_knob_number(settings, kCaptureForOtherMirrorsKnob);
-    knobs.is_black_in_others = settings.has_knob(kCaptureForOtherMirrorsKnob) && !knobs.capture;
+    knobs.others.face = find_knob_number(settings, kCaptureForOtherMirrorsKnob);
+    knobs.others.is_black = settings.has_knob(kCaptureForOtherMirrorsKnob) && !knobs.others.face;
     return knobs;
 }
 
 int count_shadow_passes(int lights, const TechniqueKnobSettings& settings) {
-    return read_shadow_method(settings) == KnobsSharedByTechniques::ShadowMethod::map ? lights : 0;
+    return read_shadow_method(settings) == ShadowKnobs::Method::map ? lights : 0;
 }
 
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
                                             const TechniqueKnobSettings& settings) {
-    const KnobsSharedByTechniques knobs = read_shared_knobs(settings);
+    const SharedKnobs knobs = read_shared_knobs(settings);
     render::CaptureOptions options;
-    options.face = knobs.face ? *knobs.face : inputs.scene.common_capture_face_edge();
-    if (knobs.stores_floats) {
+    options.face = knobs.capture.face ? *knobs.capture.face
+                                      : inputs.scene.common_capture_face_edge();
+    if (knobs.capture.stores_floats) {
         check(inputs.scene.scene_device().has_float_filtering(), Failure::no_device,
               "colour=float filters images of 32-bit floats, which device '",
               inputs.scene.scene_device().device_properties().name, "' cannot; take colour=half");
         options.colour = TexelFormat::rgba32f;
     }
-    if (!knobs.distance) return options;
-    options.distance = knobs.distance;
+    if (!knobs.capture.distance) return options;
+    options.distance = knobs.capture.distance;
     if (options.distance == TexelFormat::r8_unorm)
-        options.stored_unit = inputs.scene.scene_units().world_to_scene_length(knobs.range);
-    const bool continues = knobs.continues > 0;
-    const bool wants_normals = knobs.uses_filtered_levels() &&
-                               knobs.law == KnobsSharedByTechniques::DistanceLaw::exact &&
+        options.stored_unit = inputs.scene.scene_units().world_to_scene_length(knobs.capture.range);
+    const bool continues = knobs.search.continues > 0;
+    const bool wants_normals = knobs.rough.uses_filtered_levels() &&
+                               knobs.rough.law == RoughKnobs::Law::exact &&
                                inputs.scene.has_rough_mirrors();
-    options.surfaces = knobs.by_object || knobs.asks_all || wants_normals ||
+    options.surfaces = knobs.search.by_object || knobs.search.asks_all || wants_normals ||
                        (continues && inputs.scene.has_nonspherical_or_lit_mirrors());
     // A blurred look-up of a rough mirror does not follow rays through other mirrors, so captures
     // must show the other mirrors.
-    options.leaves_out_spheres = continues && knobs.leaves_out_spheres &&
-                                 !(knobs.uses_filtered_levels() &&
+    options.leaves_out_spheres = continues && knobs.search.leaves_out_spheres &&
+                                 !(knobs.rough.uses_filtered_levels() &&
                                    inputs.scene.has_rough_mirrors());
     return options;
 }

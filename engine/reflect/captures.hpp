@@ -110,7 +110,7 @@ inline constexpr TechniqueKnob kShownDebugPictureKnob{
     .choices = kShownDebugPictureChoices};
 
 /// Names of the methods for rough mirrors and of the distance laws, in the order of
-/// KnobsSharedByTechniques::RoughMirrorLookup and KnobsSharedByTechniques::DistanceLaw.
+/// RoughKnobs::Lookup and RoughKnobs::Law.
 inline constexpr std::array<std::string_view, 5> kRoughMirrorMethodChoices{
     "none", "mips", "prefilter", "rays", "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
@@ -227,12 +227,6 @@ int count_shadow_passes(int lights, const TechniqueKnobSettings& settings);
 /// `colour=float` on a device that cannot filter 32-bit floats.
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
                                             const TechniqueKnobSettings& settings);
-
-/// Returns whether the search may read captures of other mirrors (`continue` above 0 or
-/// `captures=all`).
-inline bool does_search_other_captures(const KnobsSharedByTechniques& knobs) {
-    return knobs.continues > 0 || knobs.asks_all;
-}
 
 /// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
 /// knobs `continue`, `lookup`, `captures`, `show` and `refract`, where they exist, become shader

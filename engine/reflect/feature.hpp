@@ -89,7 +89,7 @@ struct RegisteredFeature {
 std::vector<const FrameFeature*> list_features();
 
 /// Returns the shadow map that a technique's captures and mirrors ask for.
-ShadowMapRequest choose_shadow_map(const KnobsSharedByTechniques& knobs);
+ShadowMapRequest choose_shadow_map(const ShadowKnobs& knobs);
 
 /// Returns whether the frame rasterises the camera's view.
 inline bool is_rasterised(const FrameDeclaration& frame) { return !frame.is_traced_whole; }

@@ -44,9 +44,9 @@ MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameI
     look.tracer.emplace();
     const bool is_rough = std::ranges::any_of(
         around.mirrors, [&](std::uint32_t mirror) { return inputs.scene.is_rough_mirror(mirror); });
-    const KnobsSharedByTechniques knobs = read_shared_knobs(settings);
-    if (is_rough && knobs.rough != KnobsSharedByTechniques::RoughMirrorLookup::none)
-        look.tracer->rays = knobs.lobe_rays;
+    const SharedKnobs knobs = read_shared_knobs(settings);
+    if (is_rough && knobs.rough.lookup != RoughKnobs::Lookup::none)
+        look.tracer->rays = knobs.rough.rays;
     // Reading the triangle numbers of the rasteriser costs more than tracing camera rays for the
     // few unknown pixels. Blended surfaces would also be drawn over the triangle numbers.
     if (traces_all && !inputs.scene.has_blended_surfaces() &&
@@ -54,7 +54,7 @@ MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameI
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }
-    if (knobs.shadow == KnobsSharedByTechniques::ShadowMethod::none)
+    if (knobs.shadow.method == ShadowKnobs::Method::none)
         look.tracer->shadow = TracerSettings::TracedShadow::none;
     return look;
 }
@@ -65,6 +65,9 @@ constexpr Technique kHybridTechnique{
     .name = "hybrid",
     .summary = "Searches first and traces only the pixels for which the search found no answer.",
     .order = 15,
+    .traits = {.captures = TechniqueTraits::Captures::shared,
+               .traces_rays = true,
+               .noise = TechniqueTraits::Noise::rays},
     .knobs = kHybridKnobs,
     .compared = kHybridDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,

@@ -53,6 +53,7 @@ constexpr Technique kLayeredTechnique{
         "Marches through captures that also hold a second surface behind the first, and so finds "
         "hidden surfaces.",
     .order = 14,
+    .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kLayeredKnobs,
     .compared = kLayeredDefaultRows,
     // The number of scene passes R is 2 N + 2 for N mirrors.

@@ -9,17 +9,17 @@ namespace catoptric::reflect {
 
 namespace {
 
-using Occlusion = KnobsSharedByTechniques::AmbientOcclusion;
+using Occlusion = LightKnobs::Occlusion;
 
 bool has_some(const std::vector<TechniqueChoice>& choices, Occlusion occlusion) {
     return std::ranges::any_of(choices, [=](const TechniqueChoice& choice) {
-        return choice.shared.occlusion == occlusion;
+        return choice.shared.light.occlusion == occlusion;
     });
 }
 
 bool has_light_between_surfaces(const FrameDeclaration& frame) {
     return std::ranges::any_of(frame.choices(), [](const TechniqueChoice& choice) {
-        return choice.shared.has_light_between_surfaces();
+        return choice.shared.light.lights_between_surfaces();
     });
 }
 
@@ -28,9 +28,9 @@ bool has_light_between_surfaces(const FrameDeclaration& frame) {
 std::uint32_t count_most_light_probes(const FrameDeclaration& frame) {
     std::uint32_t most = 0;
     for (const TechniqueChoice& choice : frame.choices())
-        if (choice.shared.has_light_between_surfaces() ||
-            (choice.shared.uses_light_probes() && frame.inputs.scene.has_environment_light()))
-            most = std::max(most, choice.shared.most_light_probes);
+        if (choice.shared.light.lights_between_surfaces() ||
+            (choice.shared.light.uses_probes() && frame.inputs.scene.has_environment_light()))
+            most = std::max(most, choice.shared.light.most_probes);
     return most;
 }
 

@@ -20,6 +20,7 @@ constexpr Technique kMarchTechnique{
     .summary =
         "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
     .order = 12,
+    .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kMarchKnobs,
     .compared = kMarchDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,

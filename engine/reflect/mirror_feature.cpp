@@ -14,12 +14,12 @@ std::optional<bool> find_levels_of_opaque_picture(const FrameDeclaration& frame)
     const render::GpuScene& scene = frame.inputs.scene;
     bool is_read = false, has_levels = false;
     for (std::uint32_t mirror = 0; mirror < frame.assignment.of_mirror.size(); ++mirror) {
-        const KnobsSharedByTechniques& knobs =
-            frame.choices()[frame.assignment.of_mirror[mirror]].shared;
+        const SharedKnobs& knobs = frame.choices()[frame.assignment.of_mirror[mirror]].shared;
         if (knobs.refract != render::kRefractScreen) continue;
         is_read = is_read || scene.list_draw_ranges()[scene.object_index_of_mirror(mirror)].glass;
         // Shaders of rough mirrors read levels.
-        has_levels = has_levels || (knobs.uses_filtered_levels() && scene.is_rough_mirror(mirror));
+        has_levels = has_levels ||
+                     (knobs.rough.uses_filtered_levels() && scene.is_rough_mirror(mirror));
     }
     return is_read ? std::optional(has_levels) : std::nullopt;
 }
@@ -96,8 +96,9 @@ void add_looks(FrameDeclaration& frame) {
         const TechniqueChoice& choice = frame.choices()[i];
         const MirrorShadingInputs around{
             frame.outputs.captures,
-            frame.completes_view ? frame.lighting
-                                 : frame.light_with_shadow_map(choose_shadow_map(choice.shared)),
+            frame.completes_view
+                ? frame.lighting
+                : frame.light_with_shadow_map(choose_shadow_map(choice.shared.shadow)),
             list_mirrors_using_technique(i, frame.assignment), frame.completes_view};
         MirrorShadingSetup look = make_look(frame, choice, around);
         if (frame.captures && look.mirror.captures == frame.captures->captures)

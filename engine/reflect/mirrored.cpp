@@ -22,9 +22,7 @@ struct FlatMirrorFace {
     /// How the mirror shows its view; MirroredViewOptions::rough is none for a sharp mirror.
     MirroredViewOptions options;
 
-    bool is_blurred() const {
-        return options.rough != KnobsSharedByTechniques::RoughMirrorLookup::none;
-    }
+    bool is_blurred() const { return options.rough != RoughKnobs::Lookup::none; }
 };
 
 /// All mirrors that are drawn by mirrored views.
@@ -52,12 +50,11 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
     FlatMirrorFaceList all;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
-        if (!choice.technique->mirrored_views) continue;
+        if (!choice.technique->traits.draws_mirrored_views) continue;
         const scene::FlatFaces& flats = scene.list_flat_mirror_faces()[i];
         MirroredViewOptions options = choice.technique->mirrored_views(choice.settings);
-        if (!scene.is_rough_mirror(i))
-            options.rough = KnobsSharedByTechniques::RoughMirrorLookup::none;
-        const double blur_angle = options.rough == KnobsSharedByTechniques::RoughMirrorLookup::none
+        if (!scene.is_rough_mirror(i)) options.rough = RoughKnobs::Lookup::none;
+        const double blur_angle = options.rough == RoughKnobs::Lookup::none
                                       ? 0
                                       : find_blur_angle(scene, i);
         if (!flats.is_single_plane()) all.bodies.emplace_back(i, flats.bent);
@@ -106,7 +103,7 @@ render::MirrorShader make_planar_shader(const FlatMirrorFace& face, const Mirror
     look.images.emplace_back("mirrored_levels", std::vector{*made.levels});
     look.constants.emplace_back("rough", static_cast<std::uint32_t>(face.options.rough));
     look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(face.options.law));
-    if (face.options.rough == KnobsSharedByTechniques::RoughMirrorLookup::prefilter)
+    if (face.options.rough == RoughKnobs::Lookup::prefilter)
         look.constants.emplace_back("taps", face.options.taps);
     return look;
 }
@@ -144,7 +141,7 @@ add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const Flat
 }
 
 bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
-    return choice.technique->mirrored_views != nullptr;
+    return choice.technique->traits.draws_mirrored_views;
 }
 
 /// Returns how all other mirrors inside mirrored views are drawn: as in the picture, but without
@@ -159,9 +156,9 @@ render::ShaderOfEachMirror choose_looks_in_mirrored_views(const FrameDeclaration
                       [](const auto& constant) { return constant.first == "tracer"; });
         remove_images_of_camera_view(look);
         if (is_drawn_by_mirrored_views(choice)) look = {};
-        if (choice.technique->capture || !choice.technique->picture) continue;
+        if (!choice.technique->traits.is_ray_traced()) continue;
         look = {};
-        if (choice.shared.is_black_in_others || !frame.outputs.captures) continue;
+        if (choice.shared.others.is_black || !frame.outputs.captures) continue;
         look.fragment = "reflect/parallax.frag";
         look.constants.emplace_back("refract_model",
                                     choose_refraction_model_of_other_views(choice.shared.refract));
@@ -178,8 +175,7 @@ choose_images_of_views(const FlatMirrorFaceList& all, const std::vector<Mirrored
         const FlatMirrorFace& face = all.faces[view.plane_index];
         // The distance of a mirror's surface is not that of what the mirror shows, so a view inside
         // a view with distances has distances, too.
-        wanted.push_back({(face.is_blurred() &&
-                           face.options.law != KnobsSharedByTechniques::DistanceLaw::none) ||
+        wanted.push_back({(face.is_blurred() && face.options.law != RoughKnobs::Law::none) ||
                               (view.within && wanted[*view.within].has_distances),
                           face.is_blurred()});
     }

@@ -54,6 +54,8 @@ constexpr Technique kNaiveTechnique{
         "Renders every bounce again in each frame, from black; looks up the reflected direction "
         "without correction.",
     .order = 1,
+    .traits = {.captures = TechniqueTraits::Captures::own,
+               .seed_part = TechniqueTraits::SeedPart::bounces},
     .knobs = kNaiveKnobs,
     .compared = kNaiveDefaultRows,
     .scene_passes =

@@ -47,6 +47,8 @@ constexpr Technique kParallaxTechnique{
     .name = "parallax",
     .summary = "As reuse, but corrects the reflected direction once, from the captured distance.",
     .order = 3,
+    .traits = {.captures = TechniqueTraits::Captures::shared,
+               .seed_part = TechniqueTraits::SeedPart::parallax},
     .knobs = kParallaxKnobs,
     .compared = kParallaxDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,

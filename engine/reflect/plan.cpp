@@ -123,18 +123,18 @@ bool TechniquePlan::is_same_plan_as(const TechniquePlan& other) const {
 
 bool TechniquePlan::has_light_between_surfaces() const {
     return std::ranges::any_of(rules, [](const TechniquePlanRule& rule) {
-        return rule.choice.shared.has_light_between_surfaces();
+        return rule.choice.shared.light.lights_between_surfaces();
     });
 }
 
 bool TechniquePlan::uses_soft_shadows() const {
     return std::ranges::any_of(
-        rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.has_soft_shadows; });
+        rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.shadow.is_soft; });
 }
 
 bool TechniquePlan::occludes_environment() const {
     return std::ranges::any_of(rules, [](const TechniquePlanRule& rule) {
-        return rule.choice.shared.occlusion != KnobsSharedByTechniques::AmbientOcclusion::none;
+        return rule.choice.shared.light.occlusion != LightKnobs::Occlusion::none;
     });
 }
 
@@ -206,11 +206,11 @@ void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
         for (const auto& [pattern, choice] : plan.rules) {
             const TechniqueChoice& searching = choice.rest ? *choice.rest : choice;
             question.whole_cubes = question.whole_cubes || searching.technique->reads_whole_cubes;
-            question.asks_all = question.asks_all || searching.shared.asks_all;
-            if (choice.shared.shadow == KnobsSharedByTechniques::ShadowMethod::none) continue;
-            const std::uint32_t edge = choice.shared.shadow_map;
+            question.asks_all = question.asks_all || searching.shared.search.asks_all;
+            if (choice.shared.shadow.method == ShadowKnobs::Method::none) continue;
+            const std::uint32_t edge = choice.shared.shadow.edge;
             coarsest = std::min(coarsest.value_or(edge), edge);
-            question.has_soft_shadows = question.has_soft_shadows || choice.shared.has_soft_shadows;
+            question.has_soft_shadows = question.has_soft_shadows || choice.shared.shadow.is_soft;
         }
     question.shadow_edge = coarsest.value_or(question.shadow_edge);
 }
@@ -223,16 +223,14 @@ replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
     if (assignment.of_mirror.empty()) return assignment;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         TechniqueChoice choice = assignment.choices[assignment.of_mirror[i]];
-        const std::string lack = choice.technique->unfit
-                                     ? choice.technique->unfit(flats[i], tolerance, choice.settings)
-                                     : "";
+        const std::string lack = choice.technique->unfit(flats[i], tolerance, choice.settings);
         if (!lack.empty()) {
             const std::string asked(choice.technique->name);
             choice = choose_fallback_technique(choice);
             assignment.reasons[i] = asked + " draws flat mirrors, and this is " + lack +
                                     ": rest=" + choice.label;
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
-        } else if (choice.technique->mirrored_views) {
+        } else if (choice.technique->traits.draws_mirrored_views) {
             const double bent = 1 - flats[i].flat_area_share(tolerance);
             if (bent >= kMinReportedNonFlatShare)
                 assignment.lacks[i] = format_share_as_percent(bent) +

@@ -70,10 +70,8 @@ MirroredViewOptions read_mirrored_view_options(const TechniqueKnobSettings& sett
     MirroredViewOptions options;
     options.bounces = settings.knob_value_as_integer(kPlanarBouncesKnob);
     if (settings.knob_value_as_integer(kPlanarRoughKnob) != kRoughByRest)
-        options.rough = settings.knob_value_as_enum<KnobsSharedByTechniques::RoughMirrorLookup>(
-            kPlanarRoughKnob);
-    if (settings.knob_value_as_integer(kPlanarLawKnob) == 1)
-        options.law = KnobsSharedByTechniques::DistanceLaw::cone;
+        options.rough = settings.knob_value_as_enum<RoughKnobs::Lookup>(kPlanarRoughKnob);
+    if (settings.knob_value_as_integer(kPlanarLawKnob) == 1) options.law = RoughKnobs::Law::cone;
     options.taps = static_cast<std::uint32_t>(settings.knob_value_as_integer(kPlanarTapsKnob));
     return options;
 }
@@ -84,6 +82,7 @@ constexpr Technique kPlanarTechnique{
     .name = "planar",
     .summary = "Draws a mirrored view for each flat mirror, in each frame.",
     .order = 16,
+    .traits = {.draws_mirrored_views = true},
     .knobs = kPlanarKnobs,
     .compared = kPlanarDefaultRows,
     .scene_passes =

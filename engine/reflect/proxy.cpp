@@ -74,6 +74,7 @@ constexpr Technique kProxyTechnique{
     .summary =
         "Approximates each mirror's surroundings by a box or sphere, derived from the capture.",
     .order = 10,
+    .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kProxyKnobs,
     .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,

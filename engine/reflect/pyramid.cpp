@@ -125,6 +125,7 @@ constexpr Technique kPyramidTechnique{
     .summary =
         "Follows the reflected ray through bounds of the captured distance, exact to the texel.",
     .order = 13,
+    .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kPyramidKnobs,
     .compared = kPyramidDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,

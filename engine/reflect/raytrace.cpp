@@ -105,7 +105,7 @@ bool is_path_traced(const TechniqueKnobSettings& settings) {
 
 TracerSettings make_ray_tracer_settings(const TechniqueKnobSettings& settings,
                                         const render::ShadingLights& lighting) {
-    const KnobsSharedByTechniques::ShadowMethod shadow = read_shared_knobs(settings).shadow;
+    const ShadowKnobs::Method shadow = read_shared_knobs(settings).shadow.method;
     return {.depth = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRayDepthKnob)),
             .samples = settings.knob_value_as_integer(kSamplesPerPixelKnob),
             .rays = static_cast<std::uint32_t>(std::max(
@@ -115,9 +115,8 @@ TracerSettings make_ray_tracer_settings(const TechniqueKnobSettings& settings,
             .paths = is_path_traced(settings),
             .seed = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeSeedKnob)),
             // A scene without lights needs neither a shadow map nor shadow rays.
-            .shadow = shadow == KnobsSharedByTechniques::ShadowMethod::none
-                          ? TracerSettings::TracedShadow::none
-                      : shadow == KnobsSharedByTechniques::ShadowMethod::map && lighting.shadow_map
+            .shadow = shadow == ShadowKnobs::Method::none ? TracerSettings::TracedShadow::none
+                      : shadow == ShadowKnobs::Method::map && lighting.shadow_map
                           ? TracerSettings::TracedShadow::map
                           : TracerSettings::TracedShadow::ray,
             .lighting = lighting,
@@ -159,9 +158,8 @@ std::string describe_raytrace_knob_conflict(const TechniqueKnobSettings& setting
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
 int count_scene_passes(int, int lights, const TechniqueKnobSettings& settings) {
     if (!are_first_hits_rasterised(settings)) return count_shadow_passes(lights, settings);
-    return 1 + (read_shared_knobs(settings).shadow == KnobsSharedByTechniques::ShadowMethod::none
-                    ? 0
-                    : lights);
+    return 1 +
+           (read_shared_knobs(settings).shadow.method == ShadowKnobs::Method::none ? 0 : lights);
 }
 
 TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
@@ -196,6 +194,15 @@ constexpr Technique kRaytraceTechnique{
     .name = "raytrace",
     .summary = "Traces Whitted rays in a compute shader; the reference for all other techniques.",
     .order = 100,
+    .traits = {.traces_rays = true,
+               .draws_whole_picture = true,
+               .noise = TechniqueTraits::Noise::rays,
+               .seed = kLobeSeedKnob.name,
+               .rays = kLobeRaysKnob.name,
+               .samples = kSamplesPerPixelKnob.name,
+               .paths = {kIndirectKnob.name, kIndirectChoices[1]},
+               .unshadowed = {kTracedShadowKnob.name, kTracedShadowChoices[2]},
+               .seed_part = TechniqueTraits::SeedPart::rays},
     .knobs = kRaytraceKnobs,
     .compared = kRaytraceDefaultRows,
     .scene_passes = count_scene_passes,

@@ -20,6 +20,8 @@ constexpr Technique kReuseTechnique{
     .summary = "Draws one capture per mirror and frame; deeper bounces come from the last frame's "
                "captures.",
     .order = 2,
+    .traits = {.captures = TechniqueTraits::Captures::shared,
+               .seed_part = TechniqueTraits::SeedPart::last_captures},
     .knobs = kReuseKnobs,
     .compared = kReuseDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,

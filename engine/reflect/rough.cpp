@@ -21,7 +21,7 @@ namespace {
 
 using graph::ImageHandle;
 using graph::ResourceUse;
-using RoughMirrorLookup = KnobsSharedByTechniques::RoughMirrorLookup;
+using RoughMirrorLookup = RoughKnobs::Lookup;
 
 /// Returns the face edge of a level, from 1, in texels.
 std::uint32_t face_edge_of_level(RoughMirrorLookup rough, std::uint32_t face, std::uint32_t level) {
@@ -168,22 +168,21 @@ std::string name_suffix_of_cube_array(std::size_t array) {
 
 } // namespace
 
-RoughLevels::LevelFilterKind
-RoughLevels::level_filter_from_knobs(const KnobsSharedByTechniques& knobs) {
-    return {knobs.rough, knobs.are_levels_filtered_by_lobe() ? knobs.taps : 0};
+RoughLevels::LevelFilterKind RoughLevels::level_filter_from_knobs(const SharedKnobs& knobs) {
+    return {knobs.rough.lookup, knobs.rough.filters_by_lobe() ? knobs.rough.taps : 0};
 }
 
 RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
                          std::shared_ptr<const render::MirrorCaptures> captures,
-                         const std::vector<KnobsSharedByTechniques>& knobs)
+                         const std::vector<SharedKnobs>& knobs)
     : level_frame_inputs_(inputs), captures_(std::move(captures)) {
     for (std::uint32_t mirror = 0; captures_ && mirror < knobs.size(); ++mirror) {
-        if (!knobs[mirror].uses_filtered_levels() || !inputs.scene.is_rough_mirror(mirror))
+        if (!knobs[mirror].rough.uses_filtered_levels() || !inputs.scene.is_rough_mirror(mirror))
             continue;
         FilteredCaptures& filtered = filtered_[level_filter_from_knobs(knobs[mirror])];
         filtered.is_read.resize(knobs.size());
         filtered.is_read[mirror] = true;
-        if (knobs[mirror].asks_all) filtered.is_read.assign(knobs.size(), true);
+        if (knobs[mirror].search.asks_all) filtered.is_read.assign(knobs.size(), true);
     }
     for (auto& [filter, filtered] : filtered_)
         for (std::size_t array = 0; array < captures_->arrays.size(); ++array) {
@@ -200,23 +199,23 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
 
 void RoughLevels::add_rough_lookup_to_shader(graph::Graph& graph,
                                              std::span<const std::uint32_t> mirrors,
-                                             const KnobsSharedByTechniques& knobs,
-                                             render::MirrorShader& look, bool before) const {
+                                             const SharedKnobs& knobs, render::MirrorShader& look,
+                                             bool before) const {
     const auto is_rough = [&](std::uint32_t mirror) {
         return level_frame_inputs_.scene.is_rough_mirror(mirror);
     };
-    if (knobs.rough == RoughMirrorLookup::none || !look.captures ||
+    if (knobs.rough.lookup == RoughMirrorLookup::none || !look.captures ||
         !std::ranges::any_of(mirrors, is_rough))
         return;
-    const RoughMirrorLookup shown = knobs.rough == RoughMirrorLookup::fast
+    const RoughMirrorLookup shown = knobs.rough.lookup == RoughMirrorLookup::fast
                                         ? RoughMirrorLookup::prefilter
-                                        : knobs.rough;
+                                        : knobs.rough.lookup;
     look.constants.emplace_back("rough", static_cast<std::uint32_t>(shown));
-    if (knobs.rough == RoughMirrorLookup::rays) {
-        look.constants.emplace_back("lobe_rays", knobs.lobe_rays);
+    if (knobs.rough.lookup == RoughMirrorLookup::rays) {
+        look.constants.emplace_back("lobe_rays", knobs.rough.rays);
         return;
     }
-    look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(knobs.law));
+    look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(knobs.rough.law));
     std::vector<ImageHandle> levels = filtered_.at(level_filter_from_knobs(knobs)).levels;
     if (before && captures_->drawings.empty())
         for (ImageHandle& image : levels) image = graph.previous_contents(image);

@@ -16,15 +16,15 @@ public:
     /// Declares nothing if no mirror is rough, or if `captures` is null.
     RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
                 std::shared_ptr<const render::MirrorCaptures> captures,
-                const std::vector<KnobsSharedByTechniques>& knobs);
+                const std::vector<SharedKnobs>& knobs);
 
     /// Changes the shader `look` of these mirrors, so that rough surfaces are looked up in captures
     /// by the knobs `rough`, `law` and `rays`. `before`: the look-ups read the captures of the
     /// previous frame, for passes that are declared before add_passes. Does nothing if all these
     /// mirrors are smooth, or if the shader has no captures.
     void add_rough_lookup_to_shader(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
-                                    const KnobsSharedByTechniques& knobs,
-                                    render::MirrorShader& look, bool before = false) const;
+                                    const SharedKnobs& knobs, render::MirrorShader& look,
+                                    bool before = false) const;
 
     /// Declares the passes that compute the filtered levels of captures that changed since the
     /// previous frame: at most two passes for each way of filtering. Call it after the captures'
@@ -32,11 +32,9 @@ public:
     void add_passes(graph::Graph& graph) const;
 
 private:
-    /// A way of filtering: KnobsSharedByTechniques::rough, and KnobsSharedByTechniques::taps if
-    /// that filters by the lobe.
+    /// A way of filtering, and RoughKnobs::taps if that filters by the lobe.
     struct LevelFilterKind {
-        KnobsSharedByTechniques::RoughMirrorLookup rough =
-            KnobsSharedByTechniques::RoughMirrorLookup::none;
+        RoughKnobs::Lookup rough = RoughKnobs::Lookup::none;
         std::uint32_t taps = 0;
         auto operator<=>(const LevelFilterKind&) const = default;
     };
@@ -45,7 +43,7 @@ private:
         std::vector<bool> is_read; ///< for each mirror: whether a rough surface may look into the
                                    ///< mirror's capture
     };
-    static LevelFilterKind level_filter_from_knobs(const KnobsSharedByTechniques& knobs);
+    static LevelFilterKind level_filter_from_knobs(const SharedKnobs& knobs);
     void add_passes_of_level_filter(graph::Graph& graph, const LevelFilterKind& filter,
                                     const FilteredCaptures& filtered) const;
 

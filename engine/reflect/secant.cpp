@@ -36,6 +36,7 @@ constexpr Technique kSecantTechnique{
     .summary = "Searches the captured distance for the point that the "
                "reflected ray meets, by secant steps.",
     .order = 11,
+    .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kSecantKnobs,
     .compared = kSecantDefaultRows,
     .scene_passes = count_capture_passes_with_feedback,

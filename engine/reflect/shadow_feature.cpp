@@ -27,18 +27,16 @@ render::ShadingLights FrameDeclaration::light_with_shadow_map(const ShadowMapReq
     return made;
 }
 
-ShadowMapRequest choose_shadow_map(const KnobsSharedByTechniques& knobs) {
-    if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return {};
-    return {knobs.shadow_map, knobs.has_soft_shadows};
+ShadowMapRequest choose_shadow_map(const ShadowKnobs& knobs) {
+    if (knobs.method != ShadowKnobs::Method::map) return {};
+    return {knobs.edge, knobs.is_soft};
 }
 
 namespace {
 
 bool does_tracer_complete_view(const std::vector<TechniqueChoice>& choices) {
     const TechniqueChoice& choice = choices.front();
-    const Technique& technique = *choice.technique;
-    return choices.size() == 1 && technique.completes_view &&
-           technique.completes_view(choice.settings);
+    return choices.size() == 1 && choice.technique->completes_view(choice.settings);
 }
 
 /// Returns the view's shadow map: the finest that a technique asks for, read softly if one
@@ -46,12 +44,12 @@ bool does_tracer_complete_view(const std::vector<TechniqueChoice>& choices) {
 /// a shadow map.
 ShadowMapRequest choose_shadow_map_for_view(const FrameDeclaration& frame) {
     if (!frame.is_mixed() && !frame.completes_view)
-        return choose_shadow_map(frame.choices().front().shared);
+        return choose_shadow_map(frame.choices().front().shared.shadow);
     ShadowMapRequest wanted;
     for (const TechniqueChoice& choice : frame.choices()) {
-        if (choice.shared.shadow == KnobsSharedByTechniques::ShadowMethod::none) continue;
-        wanted.edge = std::max(wanted.edge.value_or(1), choice.shared.shadow_map);
-        wanted.is_soft = wanted.is_soft || choice.shared.has_soft_shadows;
+        if (choice.shared.shadow.method == ShadowKnobs::Method::none) continue;
+        wanted.edge = std::max(wanted.edge.value_or(1), choice.shared.shadow.edge);
+        wanted.is_soft = wanted.is_soft || choice.shared.shadow.is_soft;
     }
     return wanted;
 }

@@ -8,6 +8,19 @@
 namespace catoptric::reflect {
 
 RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
+    const TechniqueTraits& traits = technique.traits;
+    const auto check_trait = [&](bool fits, const char* wanted) {
+        check(fits, Failure::internal, "technique '", technique.name, "': wanted ", wanted);
+    };
+    check_trait((traits.captures == TechniqueTraits::Captures::shared) ==
+                    (technique.capture != nullptr),
+                "`capture` exactly if captures are shared");
+    check_trait(traits.draws_mirrored_views == (technique.mirrored_views != nullptr),
+                "`mirrored_views` exactly if it draws mirrored views");
+    check_trait(traits.draws_whole_picture == (technique.picture != nullptr),
+                "`picture` exactly if it draws the whole picture");
+    check_trait((technique.search != nullptr) != (technique.look != nullptr),
+                "either `search` or `look`");
     get_registered_table_entries<const Technique*>().push_back(&technique);
 }
 
@@ -59,11 +72,11 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
         if (comma == std::string_view::npos) break;
         rest = rest.substr(comma + 1);
     }
-    const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
+    const std::string conflict = technique.conflict(choice.settings);
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
     choice.update_shared_knobs_from_settings();
-    check(!choice.shared.has_light_between_surfaces() ||
-              choice.shared.occlusion != KnobsSharedByTechniques::AmbientOcclusion::captures,
+    check(!choice.shared.light.lights_between_surfaces() ||
+              choice.shared.light.occlusion != LightKnobs::Occlusion::captures,
           Failure::usage, "technique '", text,
           "': wanted ao=none or ao=screen beside indirect=captures, because the light probes of "
           "indirect=captures know what hides the environment; found ao=captures");

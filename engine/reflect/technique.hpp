@@ -2,6 +2,8 @@
 
 #include "core/format.hpp"
 #include "core/knob.hpp"
+#include "core/technique_traits.hpp"
+#include "reflect/shared_knobs.hpp"
 #include "reflect/tracer.hpp"
 #include "render/capture_cache.hpp"
 #include "scene/flat_mirror.hpp"
@@ -58,88 +60,29 @@ struct MirrorShadingSetup {
         tracer; ///< traces the pixels that the mirror's shader leaves to rays
 };
 
-/// The values of the knobs that several techniques have.
-struct KnobsSharedByTechniques {
-    enum class ShadowMethod { none, map, ray };
-    ShadowMethod shadow = ShadowMethod::none;
-    std::uint32_t shadow_map = 1;  ///< edge of a shadow map's face in texels
-    bool has_soft_shadows = false; ///< soft=pcss
-    /// Edge of a capture's face in texels; none: `auto`, or the technique has no such knob.
-    std::optional<std::uint32_t> face;
-    bool chooses_face = false;           ///< face=auto
-    bool stores_floats = false;          ///< colour=float
-    std::optional<TexelFormat> distance; ///< none: the technique has no such knob
-    double range = 0;                    ///< largest distance for `distance=unorm8`, in world units
-    std::uint32_t continues = 0;         ///< further mirrors through which a ray is followed
-    bool by_object = false;              ///< lookup=object
-    bool asks_all = false;               ///< captures=all
-    bool leaves_out_spheres = false;     ///< mirrors=left_out
-    /// How rough surfaces are looked up. Numbered as in shaders/lib/rough.glsl. Shaders look up
-    /// `fast` as `prefilter`.
-    enum class RoughMirrorLookup : std::uint32_t { none, mips, prefilter, rays, fast };
-    /// Distance law; numbered as kLaw... in shaders/lib/math/rough.glsl.
-    enum class DistanceLaw : std::uint32_t { none, frostbite, square, cone, exact };
-    RoughMirrorLookup rough = RoughMirrorLookup::none;
-    DistanceLaw law = DistanceLaw::none;
-    std::uint32_t taps =
-        0; ///< samples of each texel for RoughMirrorLookup::prefilter, and for wide lobes of fast
-    std::uint32_t lobe_rays = 1; ///< directions of each rough pixel
-    /// Returns whether rough surfaces are looked up in filtered levels of captures.
-    bool uses_filtered_levels() const {
-        return rough == RoughMirrorLookup::mips || are_levels_filtered_by_lobe();
-    }
-    /// Returns whether the filtered levels are filtered by the GGX lobe, and not by boxes.
-    bool are_levels_filtered_by_lobe() const {
-        return rough == RoughMirrorLookup::prefilter || rough == RoughMirrorLookup::fast;
-    }
-    std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
-    /// How light between surfaces is computed. Numbered as the choices of `indirect`.
-    enum class LightBetweenSurfaces : std::uint32_t { ambient, captures };
-    LightBetweenSurfaces indirect = LightBetweenSurfaces::ambient;
-    /// What hides light of the environment, ambient light and light of light probes. Numbered as
-    /// the choices of `ao`.
-    enum class AmbientOcclusion : std::uint32_t { none, screen, captures };
-    AmbientOcclusion occlusion = AmbientOcclusion::none;
-    std::uint32_t most_light_probes = 0; ///< of the grid, if there is one
-    /// Returns whether light probes hold the light between surfaces.
-    bool has_light_between_surfaces() const { return indirect == LightBetweenSurfaces::captures; }
-    /// Returns whether the technique needs light probes.
-    bool uses_light_probes() const {
-        return has_light_between_surfaces() || occlusion == AmbientOcclusion::captures;
-    }
-    /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
-    /// `capture=none`, or the technique has no such knob.
-    std::optional<std::uint32_t> capture;
-    bool is_black_in_others = false; ///< capture=none
-};
-
 /// How a technique with mirrored views draws flat mirrors (reflect/mirrored.cpp).
 struct MirroredViewOptions {
     int bounces = 0; ///< number of flat mirrors one behind the other that a mirrored view shows
     /// How rough mirrors show their view: RoughMirrorLookup::none, mips or prefilter.
-    KnobsSharedByTechniques::RoughMirrorLookup rough =
-        KnobsSharedByTechniques::RoughMirrorLookup::none;
+    RoughKnobs::Lookup rough = RoughKnobs::Lookup::none;
     /// How the blur depends on the distance of what the view shows: DistanceLaw::none or cone.
-    KnobsSharedByTechniques::DistanceLaw law = KnobsSharedByTechniques::DistanceLaw::none;
+    RoughKnobs::Law law = RoughKnobs::Law::none;
     std::uint32_t taps = 1; ///< look-ups of a pixel with RoughMirrorLookup::prefilter
 };
-
-/// Reads the values of the knobs that several techniques have.
-KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings);
 
 struct Technique {
     std::string_view name;
     std::string_view summary; ///< one sentence for `list` and the report
     int order = 0;            ///< position in lists and tables
+    TechniqueTraits traits = {};
     std::span<const TechniqueKnob> knobs;
     /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
     /// Returns the scene passes R per frame as the seed report counts them. A cube counts once.
     /// Tests compare R with the planned frame.
     int (*scene_passes)(int mirrors, int lights, const TechniqueKnobSettings& settings) = nullptr;
-    /// Returns the options of the captures, one per mirror and frame. Null: the technique uses no
-    /// such captures. In these captures, mirrors show last frame's captures by the shader
-    /// `in_captures`.
+    /// Returns the options of the technique's captures, if they are shared
+    /// (TechniqueTraits::captures). Mirrors in them are drawn by the shader `in_captures`.
     render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
                                       const TechniqueKnobSettings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
@@ -151,31 +94,34 @@ struct Technique {
     MirrorShadingSetup (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
                                const TechniqueKnobSettings& settings,
                                const MirrorShadingInputs& around) = nullptr;
-    /// Returns how flat mirrors show mirrored views. Null: the technique has no mirrored views
+    /// Returns how flat mirrors show mirrored views, if the technique draws some
     /// (reflect/mirrored.cpp).
     MirroredViewOptions (*mirrored_views)(const TechniqueKnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
-    /// Null: the technique draws any mirror. `tolerance`: scene::compute_flat_tolerance.
+    /// `tolerance`: scene::compute_flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance,
-                         const TechniqueKnobSettings& settings) = nullptr;
+                         const TechniqueKnobSettings& settings) =
+        [](const scene::FlatFaces&, double, const TechniqueKnobSettings&) { return std::string(); };
     /// Knob whose choice is the technique that draws the mirrors that are unfit; null: `unfit` is.
     const TechniqueKnob* rest = nullptr;
     /// Returns why the technique cannot draw with these settings together, as words after
-    /// "technique
-    /// '...': "; empty: it can. Null: it can with all settings.
-    std::string (*conflict)(const TechniqueKnobSettings& settings) = nullptr;
+    /// "technique '...': "; empty: it can.
+    std::string (*conflict)(const TechniqueKnobSettings& settings) =
+        [](const TechniqueKnobSettings&) { return std::string(); };
     /// Returns whether the tracer of `look` completes a rasterised view in which all mirrors have
     /// this technique. The tracer then also draws surfaces that reflect without being mirrors, and
-    /// pixels whose shadow the shadow map leaves open. `picture` is not used. Null: false.
-    bool (*completes_view)(const TechniqueKnobSettings& settings) = nullptr;
-    /// Declares the whole picture without a rasterised view, if all mirrors have this technique.
-    /// Null: the view is rasterised.
+    /// pixels whose shadow the shadow map leaves open. `picture` is not used.
+    bool (*completes_view)(const TechniqueKnobSettings& settings) =
+        [](const TechniqueKnobSettings&) { return false; };
+    /// Declares the whole picture without a rasterised view, if all mirrors have this technique
+    /// (TechniqueTraits::draws_whole_picture).
     TechniqueOutputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
                                 const TechniqueKnobSettings& settings,
                                 const render::ShadingLights& lighting) = nullptr;
 };
 
-/// Adds a technique to the table when the program starts, as an object of namespace scope.
+/// Adds a technique to the table when the program starts, as an object of namespace scope. Throws
+/// `internal` if its functions do not fit its traits.
 struct RegisteredTechnique {
     explicit RegisteredTechnique(const Technique& technique);
 };
@@ -189,8 +135,8 @@ const Technique& find_technique(std::string_view name);
 struct TechniqueChoice {
     const Technique* technique = nullptr;
     TechniqueKnobSettings settings{{}};
-    std::string label;                   ///< the technique as the user wrote it
-    KnobsSharedByTechniques shared = {}; ///< read from `settings`
+    std::string label;       ///< the technique as the user wrote it
+    SharedKnobs shared = {}; ///< read from `settings`
     std::shared_ptr<const TechniqueChoice>
         rest; ///< draws the mirrors that are unfit; null: none are
 

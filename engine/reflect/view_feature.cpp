@@ -14,7 +14,7 @@ constexpr FrameFeature kTracedPictureFeature{
     .applies =
         [](const FrameDeclaration& frame) {
             return !frame.is_mixed() && !frame.completes_view &&
-                   frame.choices().front().technique->picture != nullptr;
+                   frame.choices().front().technique->traits.draws_whole_picture;
         },
     .add =
         [](FrameDeclaration& frame) {

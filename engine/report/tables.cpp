@@ -30,9 +30,11 @@ const Row* find_row_of_this_program(const Comparison& comparison,
                                     const measure::SeedReportRow& seed) {
     if (seed.inter_reflections >= 0)
         return measure::find_naive_row(comparison, seed.inter_reflections);
-    if (seed.technique == "parallax") return measure::find_parallax_row(comparison);
-    if (seed.technique == "raytrace") return measure::find_ray_traced_row(comparison);
-    return measure::find_row_of_technique_with_knobs(comparison, seed.technique);
+    if (seed.part == TechniqueTraits::SeedPart::parallax)
+        return measure::find_parallax_row(comparison);
+    if (seed.part == TechniqueTraits::SeedPart::rays)
+        return measure::find_ray_traced_row(comparison);
+    return measure::find_row_of_seed_part(comparison, seed.part);
 }
 
 std::vector<std::string> make_seed_report_cells(const measure::SeedReportRow& seed) {

@@ -54,9 +54,6 @@ int count_bounces_between_flat_mirrors(const MirrorCostInputs& known) {
     return kMaxSuggestedBounces;
 }
 
-/// The ways to draw a mirror.
-enum class MirrorDrawMethod { planes, hybrid, march, small };
-
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
 bool should_trace_mirror(const MirrorCostInputs& known, std::size_t mirror) {
@@ -189,6 +186,7 @@ PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCos
                                     int lobe_rays, bool is_rasterised) {
     const bool has_lobes = lobe_rays > 0;
     PlanCandidate candidate{.name = write_traced_technique(known, lobe_rays, is_rasterised)};
+    candidate.ways.assign(known.mirror_count(), MirrorDrawMethod::traced);
     candidate.techniques.assign(known.mirror_count(), candidate.name);
     FrameWork work(known.picture);
     const WalkedRays &camera = known.paths.camera, &sharp = known.paths.sharp,
@@ -273,7 +271,7 @@ PlanCandidate make_captured_candidate(const MirrorCostInputs& known, const UnitC
     };
     if (known.bounces != kMinPlanarBounces) add("bounces=" + std::to_string(known.bounces));
     if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallCaptureFaceEdge));
-    PlanCandidate candidate{.name = candidate_technique_names(ways)};
+    PlanCandidate candidate{.name = candidate_technique_names(ways), .ways = ways};
     for (const MirrorDrawMethod way : ways)
         candidate.techniques.push_back(way == MirrorDrawMethod::planes   ? planar
                                        : way == MirrorDrawMethod::hybrid ? "hybrid"

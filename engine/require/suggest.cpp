@@ -15,8 +15,6 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr const char* kTracedTechnique = "raytrace";
-
 std::string format_percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
@@ -26,7 +24,7 @@ std::string format_percent(double share) {
 /// Returns the reason that follows the mirror's technique.
 std::string explain_technique_choice(const RequiredWorkModelInput& question,
                                      const MirrorCostInputs& known, std::size_t mirror,
-                                     const scene::Object& object, const std::string& technique) {
+                                     const scene::Object& object, MirrorDrawMethod way) {
     const auto share = [&](std::size_t paths) {
         return format_percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
     };
@@ -48,15 +46,15 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
     if (known.is_glass[mirror] &&
-        (technique == "hybrid" || technique.starts_with(kTracedTechnique)))
+        (way == MirrorDrawMethod::hybrid || way == MirrorDrawMethod::traced))
         reason += "; rays pass it";
-    else if (technique == "march" && hidden == 0)
+    else if (way == MirrorDrawMethod::march && hidden == 0)
         reason += "; its centre sees all that it shows";
-    else if (technique == "march" || technique == "hybrid")
+    else if (way == MirrorDrawMethod::march || way == MirrorDrawMethod::hybrid)
         reason += "; its centre does not see what " + share(hidden) + " of the picture show";
-    else if (technique.starts_with(kTracedTechnique))
+    else if (way == MirrorDrawMethod::traced)
         reason += "; rays draw all mirrors";
-    if (technique == "march" && hidden > 0) reason += ", too little to trace";
+    if (way == MirrorDrawMethod::march && hidden > 0) reason += ", too little to trace";
     return reason;
 }
 
@@ -109,11 +107,10 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question,
     for (PlanCandidate& candidate : candidates) candidate.plan = write_plan_of_candidate(candidate);
     suggestion.plan = candidates.front().plan;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-        const std::string& technique = candidates.front().techniques[i];
-        suggestion.reasons.push_back(technique + ": " +
+        suggestion.reasons.push_back(candidates.front().techniques[i] + ": " +
                                      explain_technique_choice(question, known, i,
                                                               question.now.objects[mirrors[i]],
-                                                              technique));
+                                                              candidates.front().ways[i]));
     }
     return suggestion;
 }

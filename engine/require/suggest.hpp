@@ -32,13 +32,18 @@ struct TechniqueErrorTable {
     double black = .5;     ///< flat mirrors seen through more mirrors than are drawn
 };
 
+/// The ways to draw a mirror: by mirrored views, by searches in its capture with or without rays
+/// for what the capture does not show, by a small capture, or by rays alone.
+enum class MirrorDrawMethod { planes, hybrid, march, small, traced };
+
 /// One assignment of techniques to all mirrors.
 struct PlanCandidate {
-    std::string name;                    ///< the techniques in use: "planar, hybrid"
-    std::vector<std::string> techniques; ///< entry n-1 belongs to mirror n
-    double ms = 0;                       ///< predicted time of a frame that draws everything
-    double error = 0;                    ///< estimated FLIP, mean over all mirror pixels
-    std::string plan = {};               ///< text for reflect::parse_plan
+    std::string name;                         ///< the techniques in use: "planar, hybrid"
+    std::vector<MirrorDrawMethod> ways = {};  ///< entry n-1 belongs to mirror n
+    std::vector<std::string> techniques = {}; ///< the same
+    double ms = 0;                            ///< predicted time of a frame that draws everything
+    double error = 0;                         ///< estimated FLIP, mean over all mirror pixels
+    std::string plan = {};                    ///< text for reflect::parse_plan
 
     /// Returns the number by which plans are compared: the time that an exact plan may take.
     double score() const { return ms * (1 + error / kErrorOfDoubleTime); }

@@ -127,7 +127,7 @@ ReflectionTiers Access::read_reflection_tiers(const Frame& frame, std::size_t pa
     const reflect::TechniqueOfEachMirror& assignment = declared.assignment;
     ReflectionTiers tiers;
     for (const std::uint32_t choice : assignment.of_mirror) {
-        const bool is_mirrored = assignment.choices[choice].technique->mirrored_views != nullptr;
+        const bool is_mirrored = assignment.choices[choice].technique->traits.draws_mirrored_views;
         tiers.of_mirror.push_back(outputs.traces_all_mirrors ? ReflectionTier::traced
                                   : is_mirrored              ? ReflectionTier::mirrored
                                                              : ReflectionTier::none);

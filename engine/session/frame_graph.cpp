@@ -210,7 +210,7 @@ std::vector<PlanEntry> list_plan_entries(const TechniqueGraphPart& declared,
         std::string why = patterns[i].empty() ? "one technique was asked for"
                                               : "rule '" + patterns[i] + "'";
         if (!reasons[i].empty()) why = reasons[i];
-        const bool is_left_out = choices.size() > 1 && choice.shared.is_black_in_others;
+        const bool is_left_out = choices.size() > 1 && choice.shared.others.is_black;
         if (is_left_out) why += "; black in the captures of others, capture=none";
         entries.push_back({static_cast<std::uint32_t>(i + 1), mirrors[i],
                            std::string(choice.technique->name), list_knob_settings(choice),
@@ -262,7 +262,7 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
     part.notes = outputs.notes;
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
-        if (choice.shared.chooses_face)
+        if (choice.shared.capture.chooses_face)
             part.auto_face = AutoFace{scene.common_capture_face_edge(), scene.used_face_edges()};
     for (const graph::BufferHandle counters : outputs.counters)
         add_ray_counters(runner.read_back_resource(ticket, counters), part);

@@ -39,13 +39,18 @@ std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice) 
     return settings;
 }
 
-TechniqueChoice parse_technique(const std::string& text) {
+const TechniqueTraits& ParsedTechnique::traits() const {
+    static constexpr TechniqueTraits kPlanTraits;
+    return of_technique ? *of_technique : kPlanTraits;
+}
+
+ParsedTechnique parse_technique(const std::string& text) {
     const reflect::TechniquePlan plan = read_technique_plan(text);
     if (plan.is_auto) return {plan.label, plan.label, plan.file_name(), {}};
     if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
     const reflect::TechniqueChoice& choice = plan.rules.front().choice;
     return {std::string(choice.technique->name), choice.label, choice.file_name(),
-            list_knob_settings(choice)};
+            list_knob_settings(choice), &choice.technique->traits};
 }
 
 } // namespace catoptric::app

@@ -105,6 +105,7 @@ void add_search(Search search) {
     row.row = {.name = row.search.name,
                .summary = row.search.summary,
                .order = row.search.order,
+               .traits = {.captures = TechniqueTraits::Captures::shared},
                .knobs = row.knobs,
                .compared = row.compared,
                .scene_passes = reflect::count_capture_passes_with_feedback,

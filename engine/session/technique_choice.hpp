@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/frame_facts.hpp"
+#include "core/technique_traits.hpp"
 
 #include <string>
 #include <vector>
@@ -9,10 +10,13 @@ namespace catoptric::app {
 
 /// A technique with all its settings, as `parse_technique` reads it from "name[:knob=value,...]".
 /// For an unknown name, `parse_technique` throws `Failure::usage` with the nearest name.
-struct TechniqueChoice {
+struct ParsedTechnique {
     std::string technique, label, file_name;
-    std::vector<Setting> settings; ///< values of all knobs
+    std::vector<Setting> settings;                 ///< values of all knobs
+    const TechniqueTraits* of_technique = nullptr; ///< null: a plan
+    /// Returns the traits of the technique; the defaults for a plan.
+    const TechniqueTraits& traits() const;
 };
-TechniqueChoice parse_technique(const std::string& text);
+ParsedTechnique parse_technique(const std::string& text);
 
 } // namespace catoptric::app

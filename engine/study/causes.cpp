@@ -72,7 +72,7 @@ constexpr std::uint32_t kAblateLobeLookup = shared::kAblateFilter | shared::kAbl
 enum class LobeLookup { sharply, in_filtered_levels, by_rays };
 
 LobeLookup read_lobe_lookup(const std::string& technique) {
-    const TechniqueChoice choice = parse_technique(technique);
+    const ParsedTechnique choice = parse_technique(technique);
     const auto rough = std::ranges::find(choice.settings, "rough", &Setting::name);
     if (rough == choice.settings.end() || rough->text == "none") return LobeLookup::sharply;
     return rough->text == "rays" ? LobeLookup::by_rays : LobeLookup::in_filtered_levels;
@@ -87,7 +87,7 @@ struct HistorySourceFrames {
 
 /// Returns the technique with distances stored as 32-bit floats.
 std::string technique_with_float_distances(const std::string& technique) {
-    const TechniqueChoice choice = parse_technique(technique);
+    const ParsedTechnique choice = parse_technique(technique);
     const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
         return setting.name == "distance" && setting.text != "r32f";
     });
@@ -276,10 +276,10 @@ private:
 /// Throws `usage` for another reference than a default one, because removed causes are replaced by
 /// rays of the default reference.
 void check_reference_is_default(const std::string& reference) {
-    const TechniqueChoice found = parse_technique(reference);
+    const ParsedTechnique found = parse_technique(reference);
     check(std::ranges::any_of(std::array{kReference, kRoughReference},
                               [&](const char* text) {
-                                  const TechniqueChoice wanted = parse_technique(text);
+                                  const ParsedTechnique wanted = parse_technique(text);
                                   return found.technique == wanted.technique &&
                                          found.settings == wanted.settings;
                               }),

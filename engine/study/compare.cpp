@@ -48,7 +48,7 @@ namespace {
 constexpr const char* kPixelAreaSampleCountText = "16";
 constexpr double kMaxAreaMeasurementSeconds = 10;
 
-bool is_same_technique_choice(const TechniqueChoice& a, const TechniqueChoice& b) {
+bool is_same_technique_choice(const ParsedTechnique& a, const ParsedTechnique& b) {
     return a.technique == b.technique && a.settings == b.settings;
 }
 

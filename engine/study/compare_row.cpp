@@ -145,9 +145,10 @@ void fill_row_errors(report::Row& row, const TechniqueResult& part, const Compar
 }
 
 report::Row make_row_description(const std::string& text, const TechniqueResult& part) {
-    const TechniqueChoice choice = parse_technique(text);
+    const ParsedTechnique choice = parse_technique(text);
     report::Row row;
     row.technique = choice.technique;
+    row.traits = choice.of_technique;
     row.label = choice.label;
     row.settings = choice.settings;
     row.image = choice.file_name;

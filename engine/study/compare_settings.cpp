@@ -33,7 +33,7 @@ void fill_comparison_settings(const CompareRequest& request, report::Comparison&
     comparison.timing = base.timing == PassTimingMode::isolated ? "isolated" : "pipelined";
     comparison.model = request.both_models ? "both" : rendered_work_name(base.model);
     comparison.together = request.together;
-    const TechniqueChoice reference = parse_technique(request.reference);
+    const ParsedTechnique reference = parse_technique(request.reference);
     comparison.reference_technique = reference.technique;
     comparison.reference_label = reference.label;
     comparison.reference_settings = reference.settings;

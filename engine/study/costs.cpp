@@ -1,6 +1,7 @@
 // The study `costs`: the time that each row would take on another device, predicted from the row's
 // counted work and the costs of that device.
 #include "measure/costs.hpp"
+#include "measure/rows.hpp"
 
 #include "core/error.hpp"
 #include "measure/interval.hpp"
@@ -126,7 +127,7 @@ std::string describe_predicted_front(const report::Comparison& comparison, std::
         const std::vector<PredictedCostCells> cells = list_cost_cells(row);
         if (device >= cells.size() || !(cells[device].*is_on)) continue;
         front.emplace_back(cells[device].ms, &row);
-        captured += row.technique != "raytrace";
+        captured += !measure::is_ray_traced_row(row);
     }
     std::ranges::stable_sort(front, {}, [](const auto& one) { return one.first; });
     std::vector<const report::Row*> rows;

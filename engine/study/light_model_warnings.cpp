@@ -13,7 +13,7 @@ namespace {
 /// Returns whether the rasteriser lights some pixels of the plan's pictures.
 bool is_lit_by_rasteriser(const reflect::TechniquePlan& plan) {
     return std::ranges::any_of(plan.rules, [](const reflect::TechniquePlanRule& rule) {
-        return rule.choice.technique->picture == nullptr;
+        return !rule.choice.technique->traits.is_ray_traced();
     });
 }
 

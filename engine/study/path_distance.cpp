@@ -59,11 +59,15 @@ uvec2 choose_size_of_path_picture(const uvec2& size) {
 /// Returns the technique that renders one frame of the reference: one sample a pixel, and few rays
 /// in each frame if the reference has noise.
 std::string make_technique_of_reference_frame(const std::string& reference) {
-    std::string text = "raytrace";
+    const ParsedTechnique choice = parse_technique(reference);
+    std::string text = choice.technique;
     char separator = ':';
-    for (const Setting& setting : parse_technique(reference).settings) {
-        if (!setting.changed || setting.name == "samples" || setting.name == "seed") continue;
-        const bool is_ray_count = setting.name == "rays" && setting.number.value_or(0) > 0;
+    for (const Setting& setting : choice.settings) {
+        if (!setting.changed || setting.name == choice.traits().samples ||
+            setting.name == choice.traits().seed)
+            continue;
+        const bool is_ray_count = setting.name == choice.traits().rays &&
+                                  setting.number.value_or(0) > 0;
         text += separator + setting.name + "=" +
                 (is_ray_count ? std::to_string(kPathsOfFrame) : setting.text);
         separator = ',';
@@ -236,7 +240,7 @@ measure_path_distance(Engine& engine, Session& session, const Request& base,
     distance.height = static_cast<int>(request.size.y);
     distance.most_seconds = seconds;
     distance.command = make_command_to_find_out(base.scene, reference);
-    if (parse_technique(reference).technique != "raytrace") {
+    if (!parse_technique(reference).traits().is_ray_traced()) {
         distance.unknown = "the reference is not ray traced";
         return distance;
     }

@@ -71,18 +71,18 @@ std::string choose_reference(const std::string& asked, const scene::Scene& scene
     return is_rough ? kRoughReference : kReference;
 }
 
-std::string find_sample_count(const TechniqueChoice& choice) {
+std::string find_sample_count(const ParsedTechnique& choice) {
     for (const auto& setting : choice.settings)
-        if (choice.technique == "raytrace" && setting.name == "samples") return setting.text;
+        if (setting.name == choice.traits().samples) return setting.text;
     return "1";
 }
 
 std::string set_reference_samples(const std::string& reference, const std::string& samples) {
-    const TechniqueChoice choice = parse_technique(reference);
-    if (samples == "1" || choice.technique != "raytrace" || find_sample_count(choice) != "1")
+    const ParsedTechnique choice = parse_technique(reference);
+    if (samples == "1" || choice.traits().samples.empty() || find_sample_count(choice) != "1")
         return reference;
     return reference + (reference.find(':') == std::string::npos ? ":" : ",") +
-           "samples=" + samples;
+           std::string(choice.traits().samples) + "=" + samples;
 }
 
 RunResult ReferenceCache::render_reference(const std::string& technique, int number) const {

@@ -72,7 +72,7 @@ struct ReferencePicture {
 };
 
 /// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
-std::string find_sample_count(const TechniqueChoice& choice);
+std::string find_sample_count(const ParsedTechnique& choice);
 /// Returns the text of the reference with `samples` set. Returns the text unchanged if it has no
 /// such knob, or if it states more than one sample, because it is then the reference of all rows.
 std::string set_reference_samples(const std::string& reference, const std::string& samples);

@@ -9,16 +9,18 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::string_view kSeedKnobName = "seed", kRaysKnobName = "rays";
-
 /// Returns the value of a knob that holds whole numbers, or 0 if the technique lacks the knob.
-double find_knob_number(const TechniqueChoice& choice, std::string_view knob) {
+double find_knob_number(const ParsedTechnique& choice, std::string_view knob) {
     const auto setting = std::ranges::find(choice.settings, knob, &Setting::name);
     return setting == choice.settings.end() ? 0 : setting->number.value_or(0);
 }
 
-std::string set_knob_number(const std::string& technique, std::string_view knob, int value) {
-    const TechniqueChoice choice = parse_technique(technique);
+bool has_choice(const ParsedTechnique& technique, const TechniqueTraits::Choice& wanted) {
+    const auto setting = std::ranges::find(technique.settings, wanted.knob, &Setting::name);
+    return setting != technique.settings.end() && setting->text == wanted.choice;
+}
+
+std::string set_knob_number(const ParsedTechnique& choice, std::string_view knob, int value) {
     std::string text = choice.technique;
     char separator = ':';
     for (const Setting& setting : choice.settings) {
@@ -37,7 +39,7 @@ std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     for (const std::string& row : rows)
         for (const reflect::TechniquePlanRule& rule : read_technique_plan(row).rules)
             for (const TechniqueKnob& knob : rule.choice.settings.list_knobs())
-                if (knob.name == kSeedKnobName)
+                if (knob.name == rule.choice.technique->traits.seed)
                     seeds.insert(rule.choice.settings.knob_value_as_integer(knob));
     return seeds;
 }
@@ -50,35 +52,35 @@ int ReferenceSeeds::next() {
 }
 
 bool traces_paths(const std::string& technique) {
-    const TechniqueChoice choice = parse_technique(technique);
-    const auto setting = std::ranges::find(choice.settings, "indirect", &Setting::name);
-    return setting != choice.settings.end() && setting->text == "paths";
+    const ParsedTechnique choice = parse_technique(technique);
+    return has_choice(choice, choice.traits().paths);
 }
 
 bool draws_rays_from_lobes(const std::string& technique) {
-    const TechniqueChoice choice = parse_technique(technique);
-    return choice.technique == "raytrace" &&
-           (find_knob_number(choice, kRaysKnobName) > 0 || traces_paths(technique));
+    const ParsedTechnique choice = parse_technique(technique);
+    return choice.traits().has_drawable_noise() &&
+           (find_knob_number(choice, choice.traits().rays) > 0 || traces_paths(technique));
 }
 
 bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene) {
     if (scene.environment_shadows == 0 || !scene.environment) return false;
-    const TechniqueChoice choice = parse_technique(technique);
-    const auto shadow = std::ranges::find(choice.settings, "shadow", &Setting::name);
-    return choice.technique == "raytrace" &&
-           (shadow == choice.settings.end() || shadow->text != "none");
+    const ParsedTechnique choice = parse_technique(technique);
+    return choice.traits().has_drawable_noise() && !has_choice(choice, choice.traits().unshadowed);
 }
 
 std::string set_lobe_seed(const std::string& technique, int seed) {
-    return set_knob_number(technique, kSeedKnobName, seed);
+    const ParsedTechnique choice = parse_technique(technique);
+    return set_knob_number(choice, choice.traits().seed, seed);
 }
 
 int find_lobe_rays(const std::string& technique) {
-    return static_cast<int>(find_knob_number(parse_technique(technique), kRaysKnobName));
+    const ParsedTechnique choice = parse_technique(technique);
+    return static_cast<int>(find_knob_number(choice, choice.traits().rays));
 }
 
 std::string set_lobe_rays(const std::string& technique, int rays) {
-    return set_knob_number(technique, kRaysKnobName, rays);
+    const ParsedTechnique choice = parse_technique(technique);
+    return set_knob_number(choice, choice.traits().rays, rays);
 }
 
 } // namespace catoptric::app

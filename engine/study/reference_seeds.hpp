@@ -8,8 +8,8 @@
 
 namespace catoptric::app {
 
-/// Returns the values of the knob `seed` in these rows: techniques or plans. Rows without the knob
-/// have the seed 0, so 0 is always listed.
+/// Returns the values of the seed knobs (TechniqueTraits::seed) in these rows: techniques or plans.
+/// Rows without such a knob have the seed 0, so 0 is always listed.
 std::set<int> list_row_seeds(const std::vector<std::string>& rows);
 
 /// Seeds for the frames of a noisy reference. No seed is given twice, and none equals the seed of a
@@ -28,18 +28,18 @@ private:
     int last_ = 0;
 };
 
-/// Returns whether the technique draws rays from lobes: `raytrace` with rays above 0 or with paths.
+/// Returns whether the technique draws rays from lobes by a seed that can be set.
 bool draws_rays_from_lobes(const std::string& technique);
-/// Returns whether the technique traces light between surfaces: `raytrace` with indirect=paths.
+/// Returns whether the technique traces light between surfaces (TechniqueTraits::paths).
 bool traces_paths(const std::string& technique);
-/// Returns whether the technique draws rays to the environment of this scene: `raytrace` with
-/// shadows, in a scene with --environment-shadows and an environment.
+/// Returns whether the technique draws rays to the environment of this scene, which then has
+/// --environment-shadows and an environment.
 bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene);
-/// Returns the text of a `raytrace` technique with another value of the knob `seed`.
+/// Returns the text of a technique with another value of its seed knob.
 std::string set_lobe_seed(const std::string& technique, int seed);
-/// Returns the value of the knob `rays`; 0 if the technique lacks it.
+/// Returns the number of directions from lobes (TechniqueTraits::rays); 0: there is no such knob.
 int find_lobe_rays(const std::string& technique);
-/// Returns the text of a `raytrace` technique with another value of the knob `rays`.
+/// Returns the text of a technique with another number of directions from lobes.
 std::string set_lobe_rays(const std::string& technique, int rays);
 
 } // namespace catoptric::app

@@ -37,7 +37,7 @@ std::string format_setting(const Setting& setting) {
 /// Returns the technique as text with the values of all its knobs. Two texts that mean the same
 /// technique give the same result.
 std::string format_technique_with_all_knobs(const std::string& text) {
-    const app::TechniqueChoice choice = app::parse_technique(text);
+    const app::ParsedTechnique choice = app::parse_technique(text);
     std::string all = choice.technique;
     for (const Setting& setting : choice.settings) all += " " + format_setting(setting);
     return all;

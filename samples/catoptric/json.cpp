@@ -108,7 +108,7 @@ std::string make_render_json(const app::Request& request, int first_frame,
                              const app::DeviceInfo& device, const app::RunResult& result,
                              const std::string& output) {
     const app::TechniqueResult& part = result.parts.front();
-    const app::TechniqueChoice choice = app::parse_technique(request.techniques.front());
+    const app::ParsedTechnique choice = app::parse_technique(request.techniques.front());
     using measure::ValueRange;
     Json document{
         {"schema", "catoptric/render/1"}, {"version", app::version()}, {"commit", app::commit()}};

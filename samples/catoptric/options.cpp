@@ -123,7 +123,7 @@ scene::SceneFileOptions make_scene_file_options(const CommonOptions& common) {
 }
 
 std::string parse_reference(const std::string& text) {
-    const app::TechniqueChoice choice = parse_option("--reference",
+    const app::ParsedTechnique choice = parse_option("--reference",
                                                      [&] { return app::parse_technique(text); });
     check(choice.technique != "plan", Failure::usage,
           "--reference: wanted one technique for all mirrors, found '", text, "'");

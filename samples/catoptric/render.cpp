@@ -337,7 +337,7 @@ void warn_of_nonfinite(const measure::Picture& picture) {
 
 int run_render(const RenderOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
-    const app::TechniqueChoice choice = app::parse_technique(options.technique);
+    const app::ParsedTechnique choice = app::parse_technique(options.technique);
     check_output_options(options);
     ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::nothing,
                              "reading the scene, opening the device");

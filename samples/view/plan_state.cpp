@@ -66,7 +66,7 @@ std::vector<std::string> make_plan_option_words(const EditedPlanState& plan) {
 }
 
 EditedPlanState parse_plan_text(const std::string& text) {
-    const app::TechniqueChoice choice = app::parse_technique(text);
+    const app::ParsedTechnique choice = app::parse_technique(text);
     EditedPlanState plan;
     if (find_technique_info(choice.technique))
         plan.rest = make_technique_settings(choice.technique, choice.settings);

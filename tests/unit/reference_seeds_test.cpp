@@ -31,7 +31,7 @@ TEST(ReferenceSeeds, DifferFromEachOtherAndFromTheRows) {
 TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
     EXPECT_EQ(app::set_lobe_seed("raytrace:depth=16,rays=64", 7),
               "raytrace:depth=16,rays=64,seed=7");
-    const app::TechniqueChoice before = app::parse_technique("raytrace:rays=4,seed=3,samples=2"),
+    const app::ParsedTechnique before = app::parse_technique("raytrace:rays=4,seed=3,samples=2"),
                                after = app::parse_technique(
                                    app::set_lobe_seed("raytrace:rays=4,seed=3,samples=2", 9));
     ASSERT_EQ(before.settings.size(), after.settings.size());

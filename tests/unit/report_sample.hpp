@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reflect/technique.hpp"
 #include "report/writer.hpp"
 
 #include <nlohmann/json.hpp>
@@ -43,6 +44,8 @@ inline Row make_row(const std::string& label, double ms, double rmse, double fli
     Row made;
     made.label = label;
     made.technique = label.substr(0, label.find(':'));
+    for (const reflect::Technique* technique : reflect::list_techniques())
+        if (technique->name == made.technique) made.traits = &technique->traits;
     made.settings = std::move(more);
     made.scene_passes = 6;
     made.scene_draws = 26;

@@ -46,7 +46,7 @@ std::string technique_error_text(const std::string& technique) {
 }
 
 TEST(Search, AddedSearchIsInTheTableOfTechniques) {
-    const app::TechniqueChoice choice = app::parse_technique("test_search:much=1.5,face=64");
+    const app::ParsedTechnique choice = app::parse_technique("test_search:much=1.5,face=64");
     EXPECT_EQ(choice.settings.front().number, 1.5);
     EXPECT_EQ(choice.settings.size(), app::parse_technique("secant").settings.size());
     const scene::Scene room = scene::make_cornell_mirrors();
@@ -65,7 +65,7 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
     for (const char* knob : {"continue=0", "captures=own", "mirrors=captured"})
         EXPECT_THAT(technique_error_text("test_short:" + std::string(knob)),
                     HasSubstr("technique 'test_short' has no knob '"));
-    const app::TechniqueChoice choice = app::parse_technique("test_short:face=64,show=state");
+    const app::ParsedTechnique choice = app::parse_technique("test_short:face=64,show=state");
     EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
 }
 

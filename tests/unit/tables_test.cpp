@@ -75,7 +75,8 @@ constexpr reflect::Technique kTestOnlyTechnique{.name = "testonly",
                                                 .summary = "For a test.",
                                                 .order = 1000,
                                                 .knobs = kTestOnlyKnobs,
-                                                .compared = kReportTableRows};
+                                                .compared = kReportTableRows,
+                                                .search = "reflect/naive.frag"};
 const reflect::RegisteredTechnique kTestOnlyTechniqueEntry{kTestOnlyTechnique};
 
 const app::RegisteredStudy kTestOnlyStudy{
