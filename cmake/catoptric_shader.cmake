@@ -1,4 +1,4 @@
-# catoptric_shader(TARGET FILE): compiles the fragment shader of a user's own technique (catoptric::app::Search,
+# catoptric_shader(TARGET FILE): compiles the fragment shader of a user's own technique (catoptric::session::Search,
 # docs/library.md). Adds all variants that the engine may ask for to the target, under FILE's name without folders. The
 # shader may include lib/*.glsl, shared.h and files beside it. The target must be a program or a shared library, because
 # a linker leaves unused objects of a static library out. The global property CATOPTRIC_SHADERS is the folder with lib/
@@ -52,9 +52,9 @@ function(catoptric_shader target file)
 @embed_macro@
 @words@
 namespace {
-const catoptric::app::Shader kBuilds[] = {
+const catoptric::session::Shader kBuilds[] = {
 @rows@};
-const catoptric::app::RegisteredShaders kRegistered{kBuilds};
+const catoptric::session::RegisteredShaders kRegistered{kBuilds};
 } // namespace
 ]])
     target_sources(${target} PRIVATE ${made}/builds.cpp ${spirv})

@@ -13,7 +13,8 @@
 #include <vector>
 
 /// Compares the cost and the error of techniques, chooses one by a limit, and audits it.
-namespace catoptric::app {
+namespace catoptric::study {
+using namespace session;
 
 inline constexpr const char* kReference = "raytrace:depth=16";
 inline constexpr int kRounds = 6; ///< fewest rounds that give a confidence interval of the median
@@ -31,12 +32,10 @@ struct CompareRequest {
     std::string reference_file; ///< .exr of its halves, read if it exists and written; empty: none
     /// Most time for a reference with noise; 0: each half is one frame with all its rays.
     double reference_seconds = 60;
-    bool together = false; ///< render all rows in one frame
-    /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
-    int rounds = kRounds;
+    bool together = false;                   ///< render all rows in one frame
+    int rounds = kRounds;                    ///< at least 6, or one per frame if there are fewer
     std::optional<bool> repeats_first_round; ///< at the end, too; none: if the device is no cpu
-    /// Whether each row is measured with both models, not with `base.model` alone.
-    bool both_models = false;
+    bool both_models = false; ///< measures each row with both models, not `base.model` alone
     /// Studies in addition to time and error, such as {{"causes"}, {"views", 30}, {"lag"}}.
     std::vector<StudyChoice> studies;
     int cameras_per_instant = 1;      ///< neighbouring drawn views that share an instant
@@ -142,4 +141,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -36,12 +36,12 @@ struct Device {
 };
 /// Makes an engine on the caller's device. Ignores the options `device` and `validate`. Throws
 /// `usage` for missing handles, and `no_device` for a device that is not suitable.
-CATOPTRIC_API app::Engine make_engine(const Device& device, const app::EngineOptions& options = {});
+CATOPTRIC_API session::Engine make_engine(const Device& device,
+                                          const session::EngineOptions& options = {});
 
-/// An image of the caller: 2D, one layer, mip and sample, optimal tiling, of the frame's size. Its
-/// format is VK_FORMAT_R8G8B8A8_UNORM or _SRGB (its bytes are sRGB either way). It has
-/// VK_IMAGE_USAGE_TRANSFER_DST_BIT and is not shared by queue families. Its earlier contents are
-/// lost.
+/// An image of the caller, whose contents are lost: 2D, one layer, mip and sample, optimal tiling,
+/// of the frame's size, with VK_IMAGE_USAGE_TRANSFER_DST_BIT, not shared by queue families. Format:
+/// VK_FORMAT_R8G8B8A8_UNORM or _SRGB (its bytes are sRGB either way).
 struct Target {
     VkImage image = VK_NULL_HANDLE;
     /// Layout after the frame: SHADER_READ_ONLY_OPTIMAL, TRANSFER_SRC_OPTIMAL, GENERAL or, for an
@@ -53,7 +53,7 @@ struct Target {
 /// afterwards sees the picture without a semaphore. Wait for an acquired image of a swapchain in a
 /// submit of your own before the frame, and signal for presenting in one after it. The image must
 /// live until Frame::times is known. Throws `usage` for several techniques or a wrong image.
-CATOPTRIC_API app::Frame render_frame_into(app::Session& session, const app::FrameSpec& spec,
-                                           const Target& target);
+CATOPTRIC_API session::Frame
+render_frame_into(session::Session& session, const session::FrameSpec& spec, const Target& target);
 
 } // namespace catoptric::embed

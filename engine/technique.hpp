@@ -10,7 +10,7 @@
 
 /// Adds a program's own techniques. Add them while the program starts, or before it makes its first
 /// Engine, because no lock protects the tables.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// One build of a shader as SPIR-V: "NAME", or "NAME#BUILD". catoptric_shader() of the CMake
 /// package writes these. Names and words must live as long as the program.
@@ -59,4 +59,4 @@ struct RegisteredSearch {
     explicit RegisteredSearch(Search search) { add_search(std::move(search)); }
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

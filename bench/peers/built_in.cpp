@@ -31,9 +31,9 @@ constexpr int kSettlingFrames = 14; // frames until mirrors seen in mirrors no l
 
 /// Prints how much the prototypes' pictures differ from ours. Returns whether the pictures of the
 /// prototypes that trace rays equal ours.
-bool compare_prototype_and_engine_pictures(app::Session& session, app::Request request,
+bool compare_prototype_and_engine_pictures(session::Session& session, session::Request request,
                                            PrototypeFrameRenderer& prototypes) {
-    for (app::BenchmarkSubject& subject : prototypes.subjects(0))
+    for (benchmark::BenchmarkSubject& subject : prototypes.subjects(0))
         for (int i = 0; i < kSettlingFrames; ++i) subject.work();
     request.techniques = {kTracedPicturePairs[0].technique};
     const measure::Picture traced = session.frame(request).read().hdr;
@@ -47,7 +47,7 @@ bool compare_prototype_and_engine_pictures(app::Session& session, app::Request r
     request.frames = kSettlingFrames;
     for (const auto& [technique, face] : kCaptureRowsAndFaceEdges) {
         request.techniques = {technique};
-        const measure::Picture ours = app::run(session, request).parts.front().hdr;
+        const measure::Picture ours = session::run(session, request).parts.front().hdr;
         const std::vector<PeerVector3> theirs = prototypes.read(
             PrototypeFrameRenderer::prototype_benchmark_name(face));
         double squares = 0;
@@ -67,10 +67,10 @@ bool compare_prototype_and_engine_pictures(app::Session& session, app::Request r
 } // namespace
 
 bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench) {
-    app::Request request = make_request_of_scene(scene::make_cornell_mirrors());
-    const auto session = std::make_shared<app::Session>(bench.engine, request.scene);
+    session::Request request = make_request_of_scene(scene::make_cornell_mirrors());
+    const auto session = std::make_shared<session::Session>(bench.engine, request.scene);
     const int frames = bench.rounds * kFramesPerRound;
-    std::vector<app::BenchmarkSubject> subjects;
+    std::vector<benchmark::BenchmarkSubject> subjects;
     bool same = true;
     double rays = 0;
     for (const EnginePeerPicturePair& pair : kTracedPicturePairs) {
@@ -93,10 +93,10 @@ bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench) {
     for (const auto& [technique, face] : kCaptureRowsAndFaceEdges) other_rows.push_back(technique);
     for (const char* technique : other_rows) {
         request.techniques = {technique};
-        subjects.push_back(app::make_frame_benchmark_subject(session, request, frames));
+        subjects.push_back(benchmark::make_frame_benchmark_subject(session, request, frames));
         subjects.back().name = technique, subjects.back().caller.clear();
     }
-    const std::vector<BenchmarkResult> list = app::measure_benchmarks_in_rounds(
+    const std::vector<BenchmarkResult> list = benchmark::measure_benchmarks_in_rounds(
         subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
     for (const BenchmarkResult& benchmark : list) {

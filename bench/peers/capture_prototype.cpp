@@ -37,7 +37,7 @@ glm::mat4 make_clip_from_scene_matrix(const shared::View& view) {
 
 CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::GpuDevice& device,
                                                            gpu::PipelineStore& pipelines,
-                                                           const app::Request& request,
+                                                           const session::Request& request,
                                                            std::uint32_t face)
     : peer_device_(device), face_(face), linear_(make_linear_sampler(device, false)),
       compare_(make_linear_sampler(device, true)), sets_(device) {
@@ -46,7 +46,7 @@ CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::GpuDevice& devic
     make_programs(pipelines);
 }
 
-void CubeCapturePrototypeRenderer::add_scene(const app::Request& request) {
+void CubeCapturePrototypeRenderer::add_scene(const session::Request& request) {
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const scene::Scene now = scene::scene_at_time(request.scene, request.time);
     geometry_ = render::make_frame_geometry(now, space);

@@ -17,7 +17,7 @@ public:
     /// Sets up the request's scene. `face` is the edge of the captures' faces, texels.
     CubeCapturePrototypeRenderer(catoptric::gpu::GpuDevice& device,
                                  catoptric::gpu::PipelineStore& pipelines,
-                                 const catoptric::app::Request& request, std::uint32_t face);
+                                 const catoptric::session::Request& request, std::uint32_t face);
 
     /// Draws a frame and waits for the device.
     void draw();
@@ -42,7 +42,7 @@ private:
         BoundPrototypePipeline diffuse, mirror;
     };
 
-    void add_scene(const catoptric::app::Request& request);
+    void add_scene(const catoptric::session::Request& request);
     void make_images(catoptric::uvec2 size);
     void make_programs(catoptric::gpu::PipelineStore& pipelines);
     void draw_object(VkCommandBuffer commands, const BoundPrototypePipeline& program,

@@ -11,8 +11,8 @@ namespace peers {
 
 /// The devices and settings that all comparisons use.
 struct EmbreeComparisonBench {
-    catoptric::app::Engine& engine;
-    const catoptric::app::ProcessorUsageMeter& meter; ///< measures the whole process
+    catoptric::session::Engine& engine;
+    const catoptric::session::ProcessorUsageMeter& meter; ///< measures the whole process
     const EmbreeDevice& device;
     int threads = 1; ///< number of threads for our tracer, and for Embree
     int rounds = 0;

@@ -17,8 +17,8 @@ std::string embree_benchmark_name(const std::string& pair, int width) {
     return "embree/" + pair + "/" + std::to_string(width);
 }
 
-app::Request make_request_of_scene(scene::Scene scene) {
-    app::Request request;
+session::Request make_request_of_scene(scene::Scene scene) {
+    session::Request request;
     request.scene = std::move(scene);
     request.camera = request.scene.cameras.front();
     request.warmup = kWarmupFrameCount;
@@ -36,19 +36,17 @@ std::size_t count_differing_pixels(const measure::Picture& ours,
     return count;
 }
 
-EngineAndEmbreeBenchmarks trace_pair_and_print_differences(const EmbreeDevice& device,
-                                                           std::shared_ptr<app::Session> session,
-                                                           app::Request request,
-                                                           const EnginePeerPicturePair& pair,
-                                                           int threads, int frames) {
+EngineAndEmbreeBenchmarks trace_pair_and_print_differences(
+    const EmbreeDevice& device, std::shared_ptr<session::Session> session, session::Request request,
+    const EnginePeerPicturePair& pair, int threads, int frames) {
     request.techniques = {pair.technique};
-    const app::TechniqueResult ours = session->frame(request).read();
+    const session::TechniqueResult ours = session->frame(request).read();
     const catoptric::RayCounts rays = ours.rays.value();
     std::printf("%-23s %llu rays\n", engine_benchmark_name(pair.name).c_str(),
                 static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
     EngineAndEmbreeBenchmarks shown{.same = true};
     shown.subjects.push_back(
-        app::make_frame_benchmark_subject(std::move(session), request, frames));
+        benchmark::make_frame_benchmark_subject(std::move(session), request, frames));
     shown.subjects.back().name = engine_benchmark_name(pair.name),
     shown.subjects.back().caller.clear();
     const auto peer = std::make_shared<EmbreeWhittedTracer>(device, request, kMirrorBounces,
@@ -62,7 +60,7 @@ EngineAndEmbreeBenchmarks trace_pair_and_print_differences(const EmbreeDevice& d
                     static_cast<double>(kMaxEqualPixelDifference));
         shown.same = shown.same && other <= kMaxDifferingPixels;
         shown.rays = static_cast<double>(theirs.rays.total_ray_count());
-        shown.subjects.push_back(app::make_benchmark_subject(
+        shown.subjects.push_back(benchmark::make_benchmark_subject(
             name, [peer, width, threads] { peer->trace_picture(width, threads); },
             kWarmupFrameCount));
     }

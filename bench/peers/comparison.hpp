@@ -25,7 +25,7 @@ std::string engine_benchmark_name(const std::string& pair);
 std::string embree_benchmark_name(const std::string& pair, int width);
 
 /// Returns a request to draw a scene at time 0 from its first camera.
-catoptric::app::Request make_request_of_scene(catoptric::scene::Scene scene);
+catoptric::session::Request make_request_of_scene(catoptric::scene::Scene scene);
 
 /// Returns the number of pixels in which a channel differs by more than kMaxEqualPixelDifference or
 /// is NaN.
@@ -34,15 +34,17 @@ std::size_t count_differing_pixels(const catoptric::measure::Picture& ours,
 
 /// The benchmarks of a pair: ours first, then Embree with each width of kEmbreePacketWidths.
 struct EngineAndEmbreeBenchmarks {
-    std::vector<catoptric::app::BenchmarkSubject> subjects;
+    std::vector<catoptric::benchmark::BenchmarkSubject> subjects;
     double rays = 0;   ///< rays that Embree traces for one picture
     bool same = false; ///< whether at most kMaxDifferingPixels pixels differ
 };
 /// Traces a pair and returns its benchmarks. Prints the numbers of rays and of differing pixels.
 /// `frames` is the number of our frames that will be measured.
-EngineAndEmbreeBenchmarks trace_pair_and_print_differences(
-    const EmbreeDevice& device, std::shared_ptr<catoptric::app::Session> session,
-    catoptric::app::Request request, const EnginePeerPicturePair& pair, int threads, int frames);
+EngineAndEmbreeBenchmarks
+trace_pair_and_print_differences(const EmbreeDevice& device,
+                                 std::shared_ptr<catoptric::session::Session> session,
+                                 catoptric::session::Request request,
+                                 const EnginePeerPicturePair& pair, int threads, int frames);
 
 /// Prints a benchmark. `millions` is the number of `what` in an iteration, in millions, for a rate;
 /// 0 prints no rate.

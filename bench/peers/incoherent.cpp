@@ -104,7 +104,7 @@ bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std:
     EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     tree.add_geometry_and_release(make_triangle_geometry(bench.device, triangles));
     tree.build_tree();
-    std::vector<app::BenchmarkSubject> subjects{app::make_benchmark_subject(
+    std::vector<benchmark::BenchmarkSubject> subjects{benchmark::make_benchmark_subject(
         engine_benchmark_name(name), [&] { list.trace_all_rays(); }, kWarmupFrameCount)};
     for (const int width : kEmbreePacketWidths) {
         const auto theirs = [&, width] {
@@ -114,10 +114,10 @@ bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std:
         same = print_and_check_ray_hit_differences(embree_benchmark_name(name, width), ours,
                                                    theirs()) &&
                same;
-        subjects.push_back(app::make_benchmark_subject(embree_benchmark_name(name, width), theirs,
-                                                       kWarmupFrameCount));
+        subjects.push_back(benchmark::make_benchmark_subject(embree_benchmark_name(name, width),
+                                                             theirs, kWarmupFrameCount));
     }
-    const std::vector<BenchmarkResult> found = app::measure_benchmarks_in_rounds(
+    const std::vector<BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
         subjects, bench.meter,
         {.iterations = bench.rounds * kFramesPerRound, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
@@ -131,7 +131,7 @@ bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std:
 
 bool compare_ray_lists_with_embree(const EmbreeComparisonBench& bench,
                                    const NamedSceneFactory& of) {
-    const app::Request request = make_request_of_scene(of.make());
+    const session::Request request = make_request_of_scene(of.make());
     const std::vector<bvh::Triangle> triangles = make_bvh_triangles_of_scene(request.scene);
     const EmbreeWhittedTracer tracer(bench.device, request, kMirrorBounces, false);
     const bool camera_rays_agree = compare_ray_list_with_embree(

@@ -64,8 +64,8 @@ bvh::Triangle make_bvh_triangle(const render::FrameGeometry& geometry, std::size
 
 } // namespace
 
-EmbreeWhittedTracer::EmbreeWhittedTracer(const EmbreeDevice& device, const app::Request& request,
-                                         int depth, bool exact)
+EmbreeWhittedTracer::EmbreeWhittedTracer(const EmbreeDevice& device,
+                                         const session::Request& request, int depth, bool exact)
     : embree_tree_(device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH) {
     add_objects(device, request, exact);
     add_view(request);
@@ -77,7 +77,7 @@ EmbreeWhittedTracer::EmbreeWhittedTracer(const EmbreeDevice& device, const app::
     whitted_.lift = 0x1p-20F; // scene units; a scene is about 1 in size
 }
 
-void EmbreeWhittedTracer::add_objects(const EmbreeDevice& device, const app::Request& request,
+void EmbreeWhittedTracer::add_objects(const EmbreeDevice& device, const session::Request& request,
                                       bool exact) {
     const scene::Scene& scene = request.scene;
     const render::SceneUnitTransform space = render::make_scene_units(scene);
@@ -144,7 +144,7 @@ void EmbreeWhittedTracer::add_triangles(const render::FrameGeometry& geometry, s
     }
 }
 
-void EmbreeWhittedTracer::add_view(const app::Request& request) {
+void EmbreeWhittedTracer::add_view(const session::Request& request) {
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     for (const scene::PointLight& light : scene::list_lights(request.scene)) {
         PeerSceneLight& added = whitted_.lights.emplace_back();

@@ -13,7 +13,7 @@ namespace peers {
 /// features are bilinear repeating sRGB textures of albedo, and a perspective camera.
 class EmbreeWhittedTracer {
 public:
-    EmbreeWhittedTracer(const EmbreeDevice& device, const catoptric::app::Request& request,
+    EmbreeWhittedTracer(const EmbreeDevice& device, const catoptric::session::Request& request,
                         int depth, bool exact);
 
     const WhittedTracerScene& whitted_tracer_scene() const { return whitted_; }
@@ -22,11 +22,11 @@ public:
     }
 
 private:
-    void add_objects(const EmbreeDevice& device, const catoptric::app::Request& request,
+    void add_objects(const EmbreeDevice& device, const catoptric::session::Request& request,
                      bool exact);
     void add_triangles(const catoptric::render::FrameGeometry& geometry, std::size_t object,
                        std::vector<catoptric::bvh::Triangle>& triangles);
-    void add_view(const catoptric::app::Request& request);
+    void add_view(const catoptric::session::Request& request);
 
     EmbreeScene embree_tree_;
     WhittedTracerScene whitted_;

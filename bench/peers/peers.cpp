@@ -77,9 +77,9 @@ int parse_benchmark_round_count(std::vector<std::string>& words) {
 } // namespace
 
 int main(int argc, char** argv) try {
-    const app::ProcessorUsageMeter meter(
-        app::ProcessorUsageMeter::CountedThreadChoice::process); // created before other threads
-                                                                 // start
+    const session::ProcessorUsageMeter meter(
+        session::ProcessorUsageMeter::CountedThreadChoice::process); // created before other threads
+                                                                     // start
     std::vector<std::string> words(argv + 1, argv + argc);
     const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples),
                                 parse_benchmark_round_count(words));
@@ -88,7 +88,7 @@ int main(int argc, char** argv) try {
         std::printf("cycles are not counted: %s\n", meter.reason_cycles_are_uncounted().c_str());
     for (const gpu::EmbeddedShader& shader : peers::prototype_shaders()) gpu::add_shader(shader);
     const peers::EmbreeDevice device;
-    app::Engine engine({});
+    session::Engine engine({});
     const int threads = std::max(1, engine.device().threads);
     std::printf("%s, %s; Embree %s, packets of 16 %s; %d threads each\n",
                 engine.device().name.c_str(), engine.device().driver.c_str(), RTC_VERSION_STRING,

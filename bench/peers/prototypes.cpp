@@ -25,7 +25,7 @@ struct PrototypeFrameRenderer::Impl {
     std::map<std::string, std::unique_ptr<CubeCapturePrototypeRenderer>> captures;
 };
 
-PrototypeFrameRenderer::PrototypeFrameRenderer(const app::Request& request,
+PrototypeFrameRenderer::PrototypeFrameRenderer(const session::Request& request,
                                                const EmbreeWhittedTracer& mesh)
     : prototype_impl_(std::make_unique<Impl>()) {
     const std::vector<bvh::Triangle> triangles = make_bvh_triangles_of_scene(request.scene);
@@ -47,13 +47,13 @@ std::vector<std::string> PrototypeFrameRenderer::tracers() {
     return names;
 }
 
-std::vector<app::BenchmarkSubject> PrototypeFrameRenderer::subjects(int warmup) {
-    std::vector<app::BenchmarkSubject> subjects;
+std::vector<benchmark::BenchmarkSubject> PrototypeFrameRenderer::subjects(int warmup) {
+    std::vector<benchmark::BenchmarkSubject> subjects;
     for (const auto& [name, tracer] : prototype_impl_->tracers)
-        subjects.push_back(app::make_benchmark_subject(
+        subjects.push_back(benchmark::make_benchmark_subject(
             name, [&one = *tracer] { one.trace_picture_with_prototype(); }, warmup));
     for (const auto& [name, capture] : prototype_impl_->captures)
-        subjects.push_back(app::make_benchmark_subject(
+        subjects.push_back(benchmark::make_benchmark_subject(
             name, [&one = *capture] { one.draw(); }, warmup));
     return subjects;
 }

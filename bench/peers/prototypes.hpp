@@ -17,7 +17,8 @@ class PrototypeFrameRenderer {
 public:
     /// Sets up all prototypes for the request's scene and view. `mesh` is the same scene without
     /// exact spheres.
-    PrototypeFrameRenderer(const catoptric::app::Request& request, const EmbreeWhittedTracer& mesh);
+    PrototypeFrameRenderer(const catoptric::session::Request& request,
+                           const EmbreeWhittedTracer& mesh);
     ~PrototypeFrameRenderer();
     PrototypeFrameRenderer(const PrototypeFrameRenderer&) = delete;
     PrototypeFrameRenderer& operator=(const PrototypeFrameRenderer&) = delete;
@@ -31,7 +32,7 @@ public:
 
     /// Returns benchmarks that each draw a frame and wait for the device. They must not outlive the
     /// prototypes.
-    std::vector<catoptric::app::BenchmarkSubject> subjects(int warmup);
+    std::vector<catoptric::benchmark::BenchmarkSubject> subjects(int warmup);
     /// Returns a prototype's picture of its last frame, linear. Throws if no prototype has the
     /// name.
     std::vector<PeerVector3> read(const std::string& name);

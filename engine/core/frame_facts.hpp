@@ -7,6 +7,7 @@
 
 /// Facts about how a frame was drawn.
 namespace catoptric {
+struct TechniqueTraits; // internal
 
 /// One knob of a technique with its value as text. `number` is set if the value is a number.
 /// `number` is empty for a choice and for a special word ("auto").

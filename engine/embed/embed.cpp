@@ -24,7 +24,7 @@ graph::ResourceUse resource_use_for_vulkan_layout(VkImageLayout layout) {
 }
 
 /// Adds the frame's last pass, which copies the displayed picture byte for byte.
-void add_copy_pass_to_caller_image(app::FrameGraph& frame, const Target& target, uvec2 size) {
+void add_copy_pass_to_caller_image(session::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
         .name = "target", .format = TexelFormat::rgba8_unorm, .width = size.x, .height = size.y};
     frame.target = std::make_shared<graph::PhysicalImage>(
@@ -50,21 +50,22 @@ RequiredDeviceFeatures::RequiredDeviceFeatures(VkPhysicalDevice device) {
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13, v13.pNext = nullptr;
 }
 
-app::Engine make_engine(const Device& device, const app::EngineOptions& options) {
+session::Engine make_engine(const Device& device, const session::EngineOptions& options) {
     const gpu::ExternalDeviceHandles given{device.instance, device.physical, device.device,
                                            device.queue, device.queue_family};
-    return app::Access::make_engine(options, {.given = &given});
+    return session::Access::make_engine(options, {.given = &given});
 }
 
-app::Frame render_frame_into(app::Session& session, const app::FrameSpec& spec,
-                             const Target& target) {
+session::Frame render_frame_into(session::Session& session, const session::FrameSpec& spec,
+                                 const Target& target) {
     check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
     static_cast<void>(resource_use_for_vulkan_layout(target.leaves)); // throws before any work
-    return app::EmbeddingEngineAccess::submit_embedded_frame(
-        session, spec,
-        [&](app::FrameGraph& frame) { add_copy_pass_to_caller_image(frame, target, spec.size); });
+    return session::EmbeddingEngineAccess::submit_embedded_frame(
+        session, spec, [&](session::FrameGraph& frame) {
+            add_copy_pass_to_caller_image(frame, target, spec.size);
+        });
 }
 
 } // namespace catoptric::embed

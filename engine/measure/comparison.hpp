@@ -13,9 +13,6 @@
 #include <utility>
 #include <vector>
 
-namespace catoptric {
-struct TechniqueTraits;
-}
 /// Results of `compare` as plain data: measured by study/, judged here, written by report/.
 namespace catoptric::measure {
 

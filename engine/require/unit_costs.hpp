@@ -38,7 +38,7 @@ struct UnitCostsOfDevice {
 
 /// Returns the costs of a device. A device without a file gets those of the most similar one: a
 /// processor those of llvmpipe with the nearest version of Mesa, a card those from the literature
-/// for the newest card. `name` and `driver` are those of app::DeviceInfo.
+/// for the newest card. `name` and `driver` are those of session::DeviceInfo.
 UnitCostsOfDevice find_unit_costs(std::string_view name, std::string_view driver,
                                   bool is_processor);
 

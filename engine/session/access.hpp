@@ -30,7 +30,7 @@ struct RequiredWorkModel;
 
 // Functions of engines, sessions and frames for the programs and tests of this tree. The headers
 // that are installed do not declare them.
-namespace catoptric::app {
+namespace catoptric::session {
 
 class WindowScreen;
 struct WindowPictures;
@@ -178,4 +178,4 @@ struct Access {
 /// Returns "everything" or "required".
 std::string rendered_work_name(RenderedWork work);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::
     return options;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns options that make mirrors of a scene's smoothest surfaces, ready for a shell: "--mirror
 /// 'NAME'". Returns at most `most` options, the smoothest surface first and, between equals, the
@@ -16,4 +16,4 @@ std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::
 /// Returns the text as a word for a POSIX shell, in single quotes.
 std::string quote_for_shell(const std::string& text);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 std::string describe_capture_budget(const CaptureBudget& capture_budget) {
     const std::uint32_t round = capture_budget.frames_per_cycle(), oldest = round - 1;
@@ -13,4 +13,4 @@ std::string describe_capture_budget(const CaptureBudget& capture_budget) {
                        round);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

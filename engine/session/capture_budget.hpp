@@ -4,10 +4,10 @@
 
 #include <string>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns a sentence that says how old captured content can be: "captures: at most 3 of 16 mirrors
 /// a frame; ...".
 std::string describe_capture_budget(const CaptureBudget& capture_budget);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

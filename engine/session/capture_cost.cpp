@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -29,4 +29,4 @@ std::uint32_t CaptureCostEstimate::count_affordable_captures(double budget_ms,
     return std::max(1u, static_cast<std::uint32_t>(fit));
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Estimate of the time that a mirror's capture takes to draw, from the last frames that drew
 /// captures.
@@ -20,4 +20,4 @@ private:
     std::vector<double> each_ms_; ///< milliseconds per mirror, the newest last
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -7,7 +7,7 @@
 #include <array>
 #include <limits>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameG
     return seen;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the object that the ray through each pixel's centre meets first, row by row (-1: none).
 /// The result equals that of tracing through a BVH, but no BVH is needed. Each triangle is tested
@@ -18,4 +18,4 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameG
                                                             const shared::View& view, uvec2 size,
                                                             std::uint64_t most_tests);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

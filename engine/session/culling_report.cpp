@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -91,7 +91,7 @@ std::string format_culling_as_text(const Request& request, const require::UnitCo
 
 std::string format_culling_as_json(const Request& request, const require::UnitCostsOfDevice& costs,
                                    const std::optional<CaptureBudget>& capture_budget) {
-    const RequiredWorkReport required = app::find_required_work(request, *costs.costs);
+    const RequiredWorkReport required = session::find_required_work(request, *costs.costs);
     const std::vector<std::string> names = list_mirror_names(required.now);
     OrderedJson document{
         {"schema", "catoptric/why/1"},        {"mirrors", OrderedJson::array()},
@@ -141,4 +141,4 @@ std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Reques
     return session.frame(spec).capture_budget();
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

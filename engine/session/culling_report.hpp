@@ -8,7 +8,7 @@
 /// Functions that report which captures and shadow maps a request's picture requires, what is left
 /// out and why, and which plan suits the picture (require/). Only `measure_capture_budget` needs a
 /// device.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the report as text for the user. `costs`: of the device for which a plan is suggested.
 /// `capture_budget`: only if there is a budget.
@@ -23,4 +23,4 @@ std::string format_culling_as_json(const Request& request, const require::UnitCo
 /// nothing if no captures are kept.
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -4,7 +4,7 @@
 #include "session/engine.hpp"
 #include "session/lanes.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the facts that reports list about a device. Leaves out the lanes, because only a
 /// dispatch can count them.
@@ -21,4 +21,4 @@ inline measure::DeviceFacts make_device_facts(const Engine& engine) {
     return facts;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

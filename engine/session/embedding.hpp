@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Access to the device of an engine and to the graph of a frame. embed/ adds passes to frames.
 /// Tuning chooses other shaders from the next frame on; Engine::device does not report this choice.
@@ -27,4 +27,4 @@ struct EmbeddingEngineAccess {
     }
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 std::string version() { return CATOPTRIC_VERSION; }
 std::string commit() { return CATOPTRIC_COMMIT; }
@@ -121,4 +121,4 @@ std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
     return list;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

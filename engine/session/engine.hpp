@@ -9,7 +9,7 @@
 #include <vector>
 
 /// The engine, as programs and libraries use it. Including this header needs no Vulkan header.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Chosen shader variants by name: {"groups", "in order"}. Variants are builds of shaders that
 /// change no byte of a picture.
@@ -91,4 +91,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

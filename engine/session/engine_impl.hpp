@@ -5,7 +5,7 @@
 #include "session/access.hpp"
 #include "session/engine.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// State of an engine that its sessions share.
 struct Engine::Impl {
@@ -15,4 +15,4 @@ struct Engine::Impl {
     DeviceInfo info;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 double choose_exposure_for_picture(const measure::Picture& picture) {
     constexpr double kAutoExposurePercentile = .95, kTargetValue = .8,
@@ -45,4 +45,4 @@ void resolve_auto_exposure(Session& session, Request& request) {
     request.auto_exposure = false;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -3,7 +3,7 @@
 #include "measure/picture.hpp"
 #include "session/run.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the exposure in stops, rounded to thirds, that brings the picture's bright end to .8.
 /// The bright end is the 95th percentile of Rec. 709 luminance over the picture's finite pixels.
@@ -18,4 +18,4 @@ double measure_auto_exposure(Session& session, const Request& request);
 /// Finds the request's exposure if Request::auto_exposure asks for it.
 void resolve_auto_exposure(Session& session, Request& request);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -145,4 +145,4 @@ ReflectionTiers Access::read_reflection_tiers(const Frame& frame, std::size_t pa
     return tiers;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -7,7 +7,7 @@
 #include <vector>
 
 // What each pixel of a picture shows first, and how its reflection was made.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// What the camera ray through each pixel's centre meets first, row by row from the top. Does not
 /// depend on techniques: all spheres are the triangles that the rasteriser draws.
@@ -54,4 +54,4 @@ struct ReflectionTiers {
     ReflectionTier tier_at(std::size_t pixel, std::uint32_t mirror) const;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

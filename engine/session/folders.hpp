@@ -3,7 +3,7 @@
 #include <filesystem>
 
 // Folders of the user in which programs of this tree keep files.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
 /// path.
@@ -15,4 +15,4 @@ std::filesystem::path find_config_folder();
 /// is an absolute path.
 std::filesystem::path find_profile_folder();
 
-} // namespace catoptric::app
+} // namespace catoptric::session

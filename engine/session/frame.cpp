@@ -4,7 +4,7 @@
 #include "session/access.hpp"
 #include "session/session_impl.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
     FrameTimes frame{.gpu_ms = times.span_ms,
@@ -34,8 +34,8 @@ std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
 bool Access::does_frame_part_need_previous_frame(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
-    return app::depends_on_previous_frame(self.frame, self.current_graph_plan(),
-                                          self.technique_part_at_index(part));
+    return session::depends_on_previous_frame(self.frame, self.current_graph_plan(),
+                                              self.technique_part_at_index(part));
 }
 
 const std::optional<CaptureBudget>& Frame::capture_budget(std::size_t part) const {
@@ -118,4 +118,4 @@ std::vector<std::byte> Access::read_next_frame_state(const Frame& frame) {
     return bytes;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -257,7 +257,7 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
     part.prefix = declared.prefix;
     part.plan = list_plan_entries(declared, mirrors);
     part.memory_bytes = plan.bytes + count_unused_image_bytes(runner, frame.graph);
-    part.remembers = app::depends_on_previous_frame(frame, plan, declared);
+    part.remembers = session::depends_on_previous_frame(frame, plan, declared);
     count_scene_passes_of_part(frame.graph, plan, part);
     part.notes = outputs.notes;
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
@@ -282,4 +282,4 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
     return part;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

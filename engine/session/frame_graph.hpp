@@ -10,7 +10,7 @@
 #include <vector>
 
 /// Builds the render graph of a frame and reads its results. Internal: uses Vulkan names.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// The part of a frame's graph that belongs to one technique.
 struct TechniqueGraphPart {
@@ -57,4 +57,4 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
                                       std::size_t part, const std::vector<std::string>& mirrors,
                                       const render::GpuScene& scene, const FrameSpec& spec);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// The number of frames at the end of a run that keep the times of their passes. Earlier frames
 /// keep only their total times, so that a long run takes little memory.
@@ -65,8 +65,8 @@ private:
         state_; ///< Access::read_next_frame_state of the frame before, with `until_settled`
 };
 
-/// Renders all frames of a request, as app::run does, with this history.
+/// Renders all frames of a request, as session::run does, with this history.
 RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
                            FrameHistoryState history);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -16,7 +16,7 @@
 // All that frames leave for later frames, as one value. What a later frame may read belongs here,
 // and nowhere else. Session::Impl holds what is the same without earlier frames: the scene on the
 // device, compiled graphs, models.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// A submitted frame under a budget whose times were not read yet.
 struct PendingTimedFrame {
@@ -51,4 +51,4 @@ struct History {
     std::uint64_t edits = 0;                ///< Session::Impl::edits of the last frame
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::string make_vector_width_warning(const Engine& engine) {
            "own by MESA_SHADER_CACHE_DIR";
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

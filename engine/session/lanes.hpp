@@ -2,7 +2,7 @@
 
 #include "session/engine.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns how many 32-bit lanes of a shader run together. Counts them by a dispatch.
 int count_shader_lanes(const Engine& engine);
@@ -11,4 +11,4 @@ int count_shader_lanes(const Engine& engine);
 /// if the variable asks for a width.
 std::string make_vector_width_warning(const Engine& engine);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::vector<std::string> list_mirror_names(const scene::Scene& scene) {
     return names;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

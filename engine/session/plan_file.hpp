@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Reads the plan that a row asks for: text for reflect::parse_plan, or "plan:FILE". The file is
 /// JSON of at most 16 MiB: a list of rules, or an object with such a list as `plan`, as a report's
@@ -19,4 +19,4 @@ reflect::TechniquePlan read_technique_plan(const std::string& text);
 /// Returns the names of the scene's mirrors, in their order.
 std::vector<std::string> list_mirror_names(const scene::Scene& scene);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

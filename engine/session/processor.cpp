@@ -12,7 +12,7 @@
 #include <sched.h>
 #include <unistd.h>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -151,4 +151,4 @@ PinnedThreads::~PinnedThreads() {
     for (const int thread : threads_) ::sched_setaffinity(thread, sizeof allowed, &allowed);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

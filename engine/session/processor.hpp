@@ -7,7 +7,7 @@
 #include <vector>
 
 /// Measures the processor time of this process, and whether the process had to wait for processors.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the seconds of processor time that all threads of this process have used.
 double read_process_seconds();
@@ -78,4 +78,4 @@ private:
     std::vector<int> threads_; ///< thread numbers
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

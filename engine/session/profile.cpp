@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace fs = std::filesystem;
 using report::Json;
@@ -173,4 +173,4 @@ gpu::ShaderVariantChoices choose_shader_variants(const EngineOptions& options, D
     return choices;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -10,7 +10,7 @@
 
 /// Device profiles: measured choices of shader variants (gpu/variants.hpp), in a small JSON file
 /// per device and driver.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the file name of the profile for this device and driver: "10de-2330-NVIDIA-550.54.json".
 std::string make_profile_file_name(const DeviceInfo& device);
@@ -39,4 +39,4 @@ gpu::ShaderVariantChoices choose_default_variants(const DeviceInfo& device);
 /// options name.
 gpu::ShaderVariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

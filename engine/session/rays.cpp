@@ -2,7 +2,7 @@
 
 #include "bvh/copies.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 bvh::Bvh build_bvh_without_object(const render::FrameGeometry& geometry, std::size_t left_out) {
     std::vector<bvh::Triangle> triangles;
@@ -38,4 +38,4 @@ f32::Ray make_camera_ray(const shared::View& view, uvec2 size, std::size_t pixel
             0};
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

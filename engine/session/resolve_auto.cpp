@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device) {
     return require::find_unit_costs(device.name, device.driver, device.type == "cpu");
@@ -29,4 +29,4 @@ reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scen
     return plan;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -6,7 +6,7 @@
 #include "session/session.hpp"
 
 /// Resolves the technique `auto`.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the unit costs by which `auto` compares plans for a device.
 require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device);
@@ -17,4 +17,4 @@ require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device);
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
                                          const FrameSpec& spec, const DeviceInfo& device);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -22,7 +22,7 @@
 #include <memory>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -291,4 +291,4 @@ scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
     return camera;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

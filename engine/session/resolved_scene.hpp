@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// A scene with the user's overrides applied, completed if its file lacks something.
 struct ResolvedScene {
@@ -49,4 +49,4 @@ std::optional<double> find_exposure(const ResolvedScene& wanted);
 /// scene::make_default_camera.
 scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -102,4 +102,4 @@ RunResult run(Engine& engine, const Request& request) {
     return run(session, request);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

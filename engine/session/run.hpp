@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// A run of frames: what the first frame shows, in which scene, and the number of frames.
 struct Request : FrameSpec {
@@ -61,4 +61,4 @@ CATOPTRIC_API RunResult run(Session& session, const Request& request, const Watc
 /// Renders all frames of a request in a session of their own.
 CATOPTRIC_API RunResult run(Engine& engine, const Request& request);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

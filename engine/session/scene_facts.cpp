@@ -16,7 +16,7 @@
 #include <limits>
 #include <memory>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 measure::CameraFacts make_camera_facts(const scene::Camera& moving, double seconds) {
     const scene::Camera camera = scene::camera_at_time(moving, seconds);
@@ -140,4 +140,4 @@ measure::SceneFacts make_scene_facts(const Request& request) {
                             : std::vector<int>());
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the object that the ray through each pixel's centre meets first, row by row; -1: none.
 /// Works on the processor, at the request's instant. Parts that alpha masks cut out count as solid.
@@ -39,4 +39,4 @@ measure::SceneFacts make_scene_facts(const Request& request, const std::vector<i
 /// pixels.
 measure::SceneFacts make_scene_facts(const Request& request);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

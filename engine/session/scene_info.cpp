@@ -13,7 +13,7 @@
 #include <set>
 #include <system_error>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -147,4 +147,4 @@ SceneInfo make_scene_info(const Request& request) {
     return info;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// A material as the engine interprets it.
 struct MaterialInfo {
@@ -61,4 +61,4 @@ struct SceneInfo {
 /// picture with a longest side of 128 pixels.
 SceneInfo make_scene_info(const Request& request);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -192,4 +192,4 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
         });
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -5,7 +5,7 @@
 #include <array>
 
 /// Images that a window's system shows. Access::show_in_window draws into them.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Triangles over a picture, such as controls and text.
 struct WindowOverlay {
@@ -77,4 +77,4 @@ private:
     std::unique_ptr<Impl> screen_impl_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -9,7 +9,7 @@
 #include <array>
 
 // Implementation of WindowScreen, only for screen.cpp.
-namespace catoptric::app {
+namespace catoptric::session {
 
 struct WindowScreen::Impl {
     explicit Impl(Access::EngineImpl& engine);
@@ -42,4 +42,4 @@ struct WindowScreen::Impl {
     double acquire_ms = 0, present_ms = 0;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -163,4 +163,4 @@ scene::Camera make_seeded_camera(const scene::Scene& scene, double seconds, std:
     return make_seeded_cameras(scene, seconds, std::span(&seed, 1)).front();
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

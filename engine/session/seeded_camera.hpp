@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Draws a random camera that sees a mirror of the scene at this instant: at least a hundredth of a
 /// square picture shows the front of mirrors. The same scene, instant and seed give the same camera
@@ -25,4 +25,4 @@ scene::Camera make_seeded_camera(const scene::Scene& scene, double seconds, std:
 std::vector<scene::Camera> make_seeded_cameras(const scene::Scene& scene, double seconds,
                                                std::span<const std::uint64_t> seeds);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -352,4 +352,4 @@ FrameTimes Access::measure_cube_clear_time(Session& session) {
     return to_public_frame_times(self.runner.wait_for_frame(*self.last));
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

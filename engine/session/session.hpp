@@ -15,7 +15,7 @@
 #include <vector>
 
 /// Frames of a scene on a device.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// How passes are timed. isolated: passes do not overlap, and their times add up. pipelined: passes
 /// may overlap, and only the time of the whole frame is valid.
@@ -176,4 +176,4 @@ private:
     std::shared_ptr<Impl> impl_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

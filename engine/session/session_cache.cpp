@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t pa
                : captured;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -18,7 +18,7 @@
 
 // Implementation of Session and Frame, only for session.cpp, session_cache.cpp, frame.cpp,
 // first_surface.cpp and screen.cpp. What a later frame reads of earlier ones is in History.
-namespace catoptric::app {
+namespace catoptric::session {
 
 struct Session::Impl {
     Impl(Access::EngineImpl& shared, scene::Scene at_rest, std::uint32_t in_flight)
@@ -135,4 +135,4 @@ void check_capture_limit(const FrameSpec& spec);
 /// Returns the runner's times under the names that callers know.
 FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -5,7 +5,7 @@
 #include "session/plan_file.hpp"
 #include "session/technique_choice.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 std::vector<TechniqueInfo> techniques() {
     std::vector<TechniqueInfo> infos;
@@ -53,4 +53,4 @@ ParsedTechnique parse_technique(const std::string& text) {
             list_knob_settings(choice), &choice.technique->traits};
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns all knobs of a technique, with their values.
 std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

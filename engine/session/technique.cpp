@@ -11,7 +11,7 @@
 #include <deque>
 #include <limits>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -116,4 +116,4 @@ void add_search(Search search) {
     reflect::RegisteredTechnique{row.row};
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// A technique with all its settings, as `parse_technique` reads it from "name[:knob=value,...]".
 /// For an unknown name, `parse_technique` throws `Failure::usage` with the nearest name.
@@ -19,4 +19,4 @@ struct ParsedTechnique {
 };
 ParsedTechnique parse_technique(const std::string& text);
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -10,7 +10,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 namespace {
 
@@ -81,4 +81,4 @@ ProcessorUsage ProcessorUsageMeter::read() const {
     return {1e3 * seconds, read_perf_counter(counters_[0]), read_perf_counter(counters_[1])};
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

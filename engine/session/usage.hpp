@@ -7,7 +7,7 @@
 
 /// Classes that measure how much processor time and how many cycles work takes. On a machine with
 /// other programs, cycles repeat from run to run, but time on the clock does not.
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Processor time; and cycles and instructions in user mode, if the system counts them.
 struct ProcessorUsage {
@@ -45,4 +45,4 @@ private:
     std::string uncounted_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

@@ -6,7 +6,7 @@
 #include <string>
 
 // Calls of a Watcher's members.
-namespace catoptric::app {
+namespace catoptric::session {
 
 inline void report_row_to_watcher(const Watcher& watcher, const std::string& label,
                                   std::size_t index, std::size_t count) {
@@ -36,4 +36,4 @@ private:
     WatchScope scope_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::session

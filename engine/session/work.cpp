@@ -3,7 +3,7 @@
 #include "session/access.hpp"
 #include "session/watcher.hpp"
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& request,
                                              const Watcher& watcher) {
@@ -22,4 +22,4 @@ std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& re
     return work;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::session

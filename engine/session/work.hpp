@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Returns the work of the request's first measured frame, pass by pass, in order of execution.
 /// Begins with a cut, renders the warm-up, and then one frame that counts its work. The session
@@ -14,4 +14,4 @@ namespace catoptric::app {
 std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& request,
                                              const Watcher& watcher = {});
 
-} // namespace catoptric::app
+} // namespace catoptric::session

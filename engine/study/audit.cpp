@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -49,4 +49,4 @@ void PlanAudit::wait_until_settled() { impl_->running.wait_until_settled(); }
 
 std::string PlanAudit::describe() const { return impl_->running.describe(); }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -29,7 +29,7 @@
 #include <set>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -453,4 +453,4 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
                                            ladder.split_error(errors, disagree_));
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

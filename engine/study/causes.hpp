@@ -8,7 +8,9 @@
 
 #include <functional>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Receives a picture, and the index of the list entry that the picture shows.
 using PictureVisitor = std::function<void(std::size_t entry, const measure::Picture& picture)>;
@@ -66,4 +68,4 @@ private:
     std::vector<bool> disagree_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

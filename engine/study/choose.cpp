@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -250,4 +250,4 @@ PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_p
     return choice;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -13,7 +13,9 @@
 
 // Functions that choose the cheapest plan within a limit of error, or the plan with the least error
 // within a limit of time. The choice is proved on other views than those on which it was made.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns "flip" or "rmse".
 const char* error_quantity_name(ErrorQuantity quantity);
@@ -104,4 +106,4 @@ PlanChoice choose_plan(const ChooseRequest& request, const PlanComparer& compare
 /// Proves one plan on fresh views: the last step of choose_plan.
 PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -219,4 +219,4 @@ ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::stri
                 make_proved_plan_json(request, plan, proof, request.base.scene.name))};
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

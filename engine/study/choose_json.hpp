@@ -6,7 +6,9 @@
 #include <string>
 
 // Functions that write the file of a chosen plan, schema "catoptric/plan/1" (docs/choose.md).
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the file of a choice. Without a chosen plan, the file has the nearest plan with a
 /// certificate of what it proves, and `nearest` has the limits that it breaks, and the reason.
@@ -25,4 +27,4 @@ std::string describe_nearest_proof(const ChooseRequest& request, const PlanProof
 /// Returns "holds", "does not hold", or "may hold" with the range of a predicted time.
 std::string describe_verdict(const ChooseRequest& request, const PlanProof& proof);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -221,4 +221,4 @@ JudgedPlan* find_nearest_plan(const ResolvedChooseRequest& request,
     return nearest;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

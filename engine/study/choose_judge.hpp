@@ -8,7 +8,9 @@
 #include <vector>
 
 // Functions that judge the plans of a choice in drawn views.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// A request to choose a plan, together with the contents of the files that the request names, and
 /// where its comparisons come from.
@@ -66,4 +68,4 @@ std::vector<JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& reques
 /// many views as any; null without plans.
 JudgedPlan* find_nearest_plan(const ResolvedChooseRequest& request, std::vector<JudgedPlan>& plans);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

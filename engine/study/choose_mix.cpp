@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -74,4 +74,4 @@ bool is_second_plan_faster(const ResolvedChooseRequest& request, const std::stri
     return is_faster;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -6,7 +6,9 @@
 #include <vector>
 
 // Functions that mix techniques by mirror (measure/plan_mix.hpp).
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the cheapest mix of several techniques that keeps the limit of error in the training
 /// views, as a plan; empty if there is none. Row n of `training` belongs to plan n. Candidates that
@@ -19,4 +21,4 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
 bool is_second_plan_faster(const ResolvedChooseRequest& request, const std::string& first,
                            JudgedPlan& second);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 double find_noise_miss_probability(const ChooseRequest& request) {
     const scene::Scene& scene = request.base.scene;
@@ -60,4 +60,4 @@ std::string describe_noise_of_views(const NoiseOfViews& noise) {
     return text;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -9,7 +9,9 @@
 #include <string>
 
 // Functions that say how the noise of a reference enters a certificate (docs/choose.md).
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// The noise of the references of drawn views: the errors between their halves over the mirrors.
 struct NoiseOfViews {
@@ -46,4 +48,4 @@ std::string describe_noise_of_views(const NoiseOfViews& noise);
 /// Returns a clause for the reason why no plan was chosen, or nothing if the noise is small.
 std::string describe_noise_as_cause(const std::optional<NoiseOfViews>& noise);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -161,4 +161,4 @@ std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& reques
     return order_proofs(request, std::move(unbeaten), mix);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

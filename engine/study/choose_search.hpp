@@ -7,7 +7,9 @@
 #include <vector>
 
 // The search of a choice: it finds the plans that are worth a proof.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Judges the candidates of the request in the own view and in the training views, and mixes
 /// techniques by mirror. Returns the plans to prove, from the slowest to the fastest; none if no
@@ -17,4 +19,4 @@ std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& reques
                                              std::vector<JudgedPlan>& candidates,
                                              std::optional<NoiseOfViews>& noise);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -39,7 +39,7 @@
 #include <string>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -494,4 +494,4 @@ report::Comparison compare_to_noise_target(Engine& engine, const CompareRequest&
     return RowComparisonRunner(engine, request, target).run_whole_comparison();
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

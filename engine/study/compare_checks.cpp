@@ -18,7 +18,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 std::vector<std::string> list_default_techniques(const Request& base) {
     const scene::SceneAtTime at_time(base.scene, base.time);
@@ -94,4 +94,4 @@ void check_compare_inputs(const CompareRequest& request) {
             study.prepare(request, choice.count, unused);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

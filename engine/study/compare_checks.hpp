@@ -6,7 +6,9 @@
 #include <vector>
 
 // The rows that a comparison measures if none are named, and the checks of a request.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the rows that each technique of the table proposes (reflect::Technique::compared), and
 /// `auto`. Leaves out rows that fit no mirror of the scene as `base` shows it.
@@ -27,4 +29,4 @@ void check_compare_request(const CompareRequest& request);
 /// of the studies. `request` names its rows and its reference.
 void check_compare_inputs(const CompareRequest& request);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -204,4 +204,4 @@ void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std
                  })});
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -10,7 +10,9 @@
 #include <vector>
 
 // Functions that fill one row of a comparison.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns a row that describes the technique or plan, without its cost, picture and errors.
 report::Row make_row_description(const std::string& text, const TechniqueResult& part);
@@ -47,4 +49,4 @@ measure::Errors compute_masked_errors(const measure::Picture& picture,
 void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedReference& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 CompareRequest replace_auto_reference(CompareRequest request) {
     request.reference = choose_reference(request.reference, request.base.scene);
@@ -39,4 +39,4 @@ void fill_comparison_settings(const CompareRequest& request, report::Comparison&
     comparison.reference_settings = reference.settings;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -3,7 +3,9 @@
 #include "compare.hpp"
 #include "report/comparison.hpp"
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the request, in which the default reference is replaced by the reference for the scene.
 CompareRequest replace_auto_reference(CompareRequest request);
@@ -13,4 +15,4 @@ CompareRequest replace_auto_reference(CompareRequest request);
 /// reference (replace_auto_reference).
 void fill_comparison_settings(const CompareRequest& request, report::Comparison& comparison);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

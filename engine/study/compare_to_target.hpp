@@ -5,7 +5,9 @@
 #include <optional>
 
 // A comparison that reduces the noise of its references as far as a limit of error needs it.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Noise floor at which a reference with noise needs no more frames: the error between its two
 /// halves over the mirrors.
@@ -21,4 +23,4 @@ struct NoiseFloorTarget {
 measure::Comparison compare_to_noise_target(Engine& engine, const CompareRequest& request,
                                             const std::optional<NoiseFloorTarget>& target);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -224,4 +224,4 @@ const RegisteredStudy kCostsStudy{
 
 } // namespace
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -383,4 +383,4 @@ void measure_lag(Session& session, const LagRequest& request, report::LagResults
     LagMeasurement(session, request, lag).measure_all_rows();
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -5,7 +5,9 @@
 #include "session/run.hpp"
 #include "session/watcher.hpp"
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 struct LagRequest {
     Request base; ///< techniques to measure one by one; its `frames` and `warmup` are ignored
@@ -30,4 +32,4 @@ struct LagRequest {
 /// technique for a path of four seconds.
 void measure_lag(Session& session, const LagRequest& request, report::LagResults& lag);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -44,4 +44,4 @@ measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
     return measure::split_error_by_light_edges(over(there), over(elsewhere));
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the row's error over the mirrors, split by whether its mirrors looked at the outline of
 /// a light. `row`: has errors and a plan. `truth`: the reference picture. `hits`: first hits of the
@@ -20,4 +22,4 @@ measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
                                                     const std::vector<vec4>& lookup,
                                                     const TrueHitFinder& oracle, double exposure);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::vector<std::string> list_warnings_of_light_models(const CompareRequest& req
     return warnings;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

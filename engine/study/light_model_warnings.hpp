@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns warnings about light that the row and the reference compute by different models, one
 /// sentence each. Such light counts as an error of the row. `technique`: text of the row's
@@ -15,4 +17,4 @@ std::vector<std::string> list_warnings_of_light_models(const CompareRequest& req
                                                        const std::string& label,
                                                        const std::vector<Setting>& reference);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -160,4 +160,4 @@ TrueHitFinder::find_pixels_at_light_edges(const std::vector<vec4>& lookup,
     return found;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -8,7 +8,9 @@
 
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Finds on the CPU what rays of a request's camera meet, with the same mathematics as the device.
 /// From this, it computes for each mirror pixel the right direction of the look-up, and what the
@@ -55,4 +57,4 @@ private:
     std::vector<FirstOrderPixel> targets_;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -21,7 +21,7 @@
 #include <cmath>
 #include <memory>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -306,4 +306,4 @@ const RegisteredStudy kPathDistanceStudy{
 
 } // namespace
 
-} // namespace catoptric::app
+} // namespace catoptric::study

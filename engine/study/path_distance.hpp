@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 inline constexpr const char* kPathDistanceStudyName = "path-distance";
 /// Pixels of the picture in which the distance is measured, at most.
@@ -30,4 +32,4 @@ measure_path_distance(Engine& engine, Session& session, const Request& base,
                       const std::string& reference, double seconds, const Watcher& watcher,
                       const std::function<void(const std::string&)>& warn);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -8,7 +8,7 @@
 
 #include <functional>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -89,4 +89,4 @@ void keep_path_distance(const std::filesystem::path& file, const ReferenceKey& k
     }
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

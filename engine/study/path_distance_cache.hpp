@@ -9,7 +9,9 @@
 #include <string>
 
 // Functions that keep distances to path tracing in small JSON files, one for each key.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the file of a distance with this key in a cache folder.
 std::filesystem::path find_path_distance_file(const std::filesystem::path& folder,
@@ -24,4 +26,4 @@ void keep_path_distance(const std::filesystem::path& file, const ReferenceKey& k
                         const measure::PathDistance& distance,
                         const std::function<void(const std::string&)>& warn);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

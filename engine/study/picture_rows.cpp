@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -246,4 +246,4 @@ std::vector<std::string> list_picture_row_warnings(const std::string& name, cons
     return warnings;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -10,7 +10,9 @@
 
 // Functions for rows whose pictures are files, such as pictures of another renderer
 // (CompareRequest::pictures).
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the name, without folder and ending, under which the report stores the pictures of a row
 /// of files. `index`: number of the row among the rows of files, from 0.
@@ -54,4 +56,4 @@ std::vector<std::string> list_picture_row_warnings(const std::string& name, cons
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <set>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -378,4 +378,4 @@ std::string RunningPlanAudit::describe() const {
                        is_paused_ ? "; paused, because a surface is rough" : "");
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

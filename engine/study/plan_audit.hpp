@@ -14,7 +14,9 @@
 
 // Audits a plan while a program runs. Some frames are also ray traced. If too many frames break the
 // certificate's limit of error, the audit changes to a plan with less error.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 struct PlanAuditRequest {
     /// Plans from the one with the least error to the last, which runs first.
@@ -133,4 +135,4 @@ private:
     Clock::time_point ended_;   ///< end of the last call
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string_view>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -148,4 +148,4 @@ void add_plan_certificates(const std::vector<std::optional<PlanCertificate>>& ce
     }
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

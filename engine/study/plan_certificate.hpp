@@ -8,7 +8,9 @@
 
 // Functions that show certificates of plans, made by `catoptric choose` (docs/choose.md), in the
 // report of a comparison.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// The contents of a certificate in a plan's file.
 struct PlanCertificate {
@@ -25,4 +27,4 @@ read_plan_certificates(const std::vector<std::string>& texts);
 void add_plan_certificates(const std::vector<std::optional<PlanCertificate>>& certificates,
                            measure::Comparison& comparison);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

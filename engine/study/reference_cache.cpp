@@ -14,7 +14,7 @@
 #include <cmath>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -331,4 +331,4 @@ const std::vector<std::uint32_t>& ReferenceCache::find_mirror_hits(int number) {
     return traced;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -18,7 +18,9 @@
 #include <utility>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Default reference of scenes with rough mirrors. Each of its frames traces 64 rays from the first
 /// rough surface of each pixel.
@@ -168,4 +170,4 @@ private:
     std::filesystem::path file_; ///< file of the reference, see keep_reference_in_file; empty: none
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

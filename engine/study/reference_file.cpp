@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -99,4 +99,4 @@ StoredReference read_reference_file(const ReferenceKey& key, const std::filesyst
     return reference;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

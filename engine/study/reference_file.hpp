@@ -10,7 +10,9 @@
 
 // Functions that store the halves of a noisy reference in a file, so that a later comparison can
 // add frames to them.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Statements that a reference depends on: name and value.
 using ReferenceKey = std::vector<std::pair<std::string, std::string>>;
@@ -35,4 +37,4 @@ void write_reference_file(const StoredReference& reference, const ReferenceKey& 
 /// file, and for a file with another key, with the part of the key that differs.
 StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

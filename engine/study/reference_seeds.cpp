@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string set_lobe_rays(const std::string& technique, int rays) {
     return set_knob_number(choice, choice.traits().rays, rays);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

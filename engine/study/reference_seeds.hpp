@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the values of the seed knobs (TechniqueTraits::seed) in these rows: techniques or plans.
 /// Rows without such a knob have the seed 0, so 0 is always listed.
@@ -42,4 +44,4 @@ int find_lobe_rays(const std::string& technique);
 /// Returns the text of a technique with another number of directions from lobes.
 std::string set_lobe_rays(const std::string& technique, int rays);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row&
     return warnings;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Computes the errors of a comparison's rows.
 class RowErrorJudge {
@@ -38,4 +40,4 @@ private:
     int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

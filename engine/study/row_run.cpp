@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -52,8 +52,8 @@ void RowMeasurement::measure_one_round_of_frames(int frames) {
     };
     if (rounds_.empty()) {
         noisy_ = !read_processor_use() &&
-                 app::is_timing_noisy(read_machine_load(), read_process_seconds(),
-                                      measure_elapsed_seconds());
+                 session::is_timing_noisy(read_machine_load(), read_process_seconds(),
+                                          measure_elapsed_seconds());
         render(row_request_.warmup);
     }
     const std::size_t before = frames_.list_frame_times().size();
@@ -62,10 +62,10 @@ void RowMeasurement::measure_one_round_of_frames(int frames) {
     if (const std::optional<ProcessorUsageSoFar> end = read_processor_use(); start && end) {
         waiting_ += compute_waiting_times(*start, *end);
         waited_ = compute_waited_share(waiting_);
-        noisy_ = app::is_timing_noisy(waited_);
+        noisy_ = session::is_timing_noisy(waited_);
     }
     rounds_.emplace_back(frames_.list_frame_times().begin() + static_cast<std::ptrdiff_t>(before),
                          frames_.list_frame_times().end());
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -11,7 +11,9 @@
 
 // Functions that measure rows in rounds. In each round a few frames of each row are measured in
 // turn, so that a slow moment of the machine affects all rows.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns the number of frames in round `index` of `rounds`. Frames are spread evenly; the first
 /// rounds get one more if needed. `frames` must be at least `rounds`.
@@ -69,4 +71,4 @@ private:
     bool noisy_ = false;
 };
 
-} // namespace catoptric::app
+} // namespace catoptric::study

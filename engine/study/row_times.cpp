@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <set>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -148,4 +148,4 @@ find_row_times_on_device(const std::vector<measure::Row>& rows, const std::strin
     return times;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -8,11 +8,13 @@
 
 // Functions for stated times of rows whose pictures are files, as other renderers measured them
 // (`--row-times`).
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Returns, for each row, the time on this device that a file of stated times gives; empty for rows
 /// without such a time.
 std::vector<std::optional<measure::PredictedTime>>
 find_row_times_on_device(const std::vector<measure::Row>& rows, const std::string& device);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 RegisteredStudy::RegisteredStudy(Study study) {
     for (measure::Metric metric : study.metrics) {
@@ -39,4 +39,4 @@ void check_study(const StudyChoice& choice, const std::string& reference) {
     if (study.check_words != nullptr) study.check_words(choice.texts);
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -13,7 +13,9 @@
 /// Table of studies. A study is one row: the option that asks for it, and the function that adds
 /// its results to a comparison whose rows are measured. The .cpp of a study registers it, so no
 /// other file lists it. `compare`, the command line and the reports read this table.
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// The data that the function `run` of a study gets.
 struct StudyInput {
@@ -81,4 +83,4 @@ const Study& find_study(std::string_view name);
 /// Throws `usage` for an unknown study, and for a reference that it cannot use.
 void check_study(const StudyChoice& choice, const std::string& reference);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -24,7 +24,7 @@
 #include <memory>
 #include <optional>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -345,4 +345,4 @@ const RegisteredStudy kTruthCausesStudy{
 
 } // namespace
 
-} // namespace catoptric::app
+} // namespace catoptric::study

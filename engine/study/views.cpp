@@ -23,7 +23,7 @@
 #include <random>
 #include <set>
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -284,4 +284,4 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                            " more views of such rows look suspicious in the same way");
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Draws `count` views of the request's scene that see a mirror (session/seeded_camera.hpp), from
 /// its seed. The same scene, time and seed give the same views. Each view has its own seed, from
@@ -59,4 +61,4 @@ struct ViewsRequest {
 /// row and view.
 void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

@@ -7,7 +7,7 @@
 #include "session/watcher.hpp"
 #include "session/work.hpp"
 
-namespace catoptric::app {
+namespace catoptric::study {
 
 namespace {
 
@@ -67,4 +67,4 @@ void count_row_work(const StudyInput& input) {
     }
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::study

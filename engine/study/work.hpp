@@ -2,9 +2,11 @@
 
 #include "study/study.hpp"
 
-namespace catoptric::app {
+namespace catoptric::study {
+
+using namespace session;
 
 /// Counts the work of one frame of each row whose work is not yet counted.
 void count_row_work(const StudyInput& input);
 
-} // namespace catoptric::app
+} // namespace catoptric::study

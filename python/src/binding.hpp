@@ -42,8 +42,8 @@ measure::Picture copy_picture(const PictureArgument& array);
 /// locks it. The mutex is recursive, because a signal handler of Python may run within a call. A
 /// thread must not wait for the mutex while it has the GIL.
 struct SharedEngine {
-    explicit SharedEngine(const app::EngineOptions& options) : engine(options) {}
-    app::Engine engine;
+    explicit SharedEngine(const session::EngineOptions& options) : engine(options) {}
+    session::Engine engine;
     std::recursive_mutex mutex;
 };
 using SharedEnginePointer = std::shared_ptr<SharedEngine>;
@@ -59,8 +59,8 @@ auto run_on_engine(SharedEngine& shared, Work&& work) {
 /// Ends long work when a Python signal handler raises an exception, such as KeyboardInterrupt.
 class SignalWatch {
 public:
-    app::Watcher watcher() {
-        app::Watcher watcher;
+    session::Watcher watcher() {
+        session::Watcher watcher;
         watcher.on_frame = [this](int, int) { run_signal_handlers(); };
         watcher.stop = &stop_;
         return watcher;
@@ -99,7 +99,7 @@ SceneDefaults choose_defaults(const scene::Scene& scene, const std::optional<sce
                               std::optional<double> ambient, std::optional<double> exposure);
 
 /// Returns the model with this name: "everything" or "required".
-app::RenderedWork parse_model(const std::string& name);
+session::RenderedWork parse_model(const std::string& name);
 
 /// Returns the size of a picture from (width, height). Throws `usage` for a side below 1.
 uvec2 parse_size(const std::pair<std::int64_t, std::int64_t>& size);

@@ -101,13 +101,14 @@ std::optional<std::string> find_stop(const measure::Comparison& comparison) {
     return comparison.stopped->what();
 }
 
-app::Request make_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
-                          const std::pair<std::int64_t, std::int64_t>& size,
-                          const std::optional<scene::Camera>& camera, double time,
-                          std::optional<double> exposure, std::optional<double> ambient,
-                          std::uint64_t seed, const std::string& model, int frames, int warmup) {
+session::Request make_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
+                              const std::pair<std::int64_t, std::int64_t>& size,
+                              const std::optional<scene::Camera>& camera, double time,
+                              std::optional<double> exposure, std::optional<double> ambient,
+                              std::uint64_t seed, const std::string& model, int frames,
+                              int warmup) {
     const SceneDefaults defaults = choose_defaults(scene, camera, ambient, exposure);
-    app::Request request;
+    session::Request request;
     request.scene = scene;
     request.techniques = techniques;
     request.camera = defaults.camera;
@@ -144,14 +145,14 @@ compare(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::
         const std::optional<scene::Camera>& camera, double time, std::optional<double> exposure,
         std::optional<double> ambient, std::uint64_t seed, const std::string& model, int frames,
         int warmup, const std::string& reference, double reference_seconds, int views) {
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
                                 model, frames, warmup);
     request.reference = reference;
     request.reference_seconds = reference_seconds;
     if (views > 0) request.studies.push_back({"views", views});
-    return run_study(shared, request, [&](app::Engine& engine) {
-        return std::make_unique<measure::Comparison>(app::compare(engine, request));
+    return run_study(shared, request, [&](session::Engine& engine) {
+        return std::make_unique<measure::Comparison>(study::compare(engine, request));
     });
 }
 
@@ -165,12 +166,12 @@ choose(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::s
        std::optional<double> max_flip, std::optional<double> max_rmse, std::optional<double> max_ms,
        double share, double confidence, int training_views, int cameras_per_instant,
        int proof_views, std::uint64_t proof_seed, const std::string& costs) {
-    app::ChooseRequest request;
+    study::ChooseRequest request;
     request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
                                 model, frames, warmup);
     request.reference = reference;
     request.reference_seconds = reference_seconds;
-    if (max_rmse) request.quantity = app::ErrorQuantity::rmse;
+    if (max_rmse) request.quantity = study::ErrorQuantity::rmse;
     request.max_error = max_rmse ? max_rmse : max_flip;
     request.max_ms = max_ms;
     request.share = share;
@@ -180,8 +181,8 @@ choose(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::s
     request.proof_views = proof_views;
     request.proof_seed = proof_seed;
     request.costs = costs;
-    const app::ChosenPlan chosen = run_study(
-        shared, request, [&](app::Engine& engine) { return app::choose(engine, request); });
+    const study::ChosenPlan chosen = run_study(
+        shared, request, [&](session::Engine& engine) { return study::choose(engine, request); });
     return {chosen.plan, chosen.failure, chosen.json};
 }
 

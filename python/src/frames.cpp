@@ -20,8 +20,8 @@ namespace {
 
 /// A rendered picture with its times.
 struct RenderedFrame {
-    app::TechniqueResult result;
-    app::FrameTimes times;
+    session::TechniqueResult result;
+    session::FrameTimes times;
     int frames = 1;       ///< number of frames that were rendered for it
     bool settled = false; ///< whether further frames would show the same
 };
@@ -30,31 +30,31 @@ class PythonSession {
 public:
     PythonSession(SharedEnginePointer shared, const scene::Scene& scene)
         : shared_(std::move(shared)) {
-        session_ = run_on_engine(*shared_, [&](app::Engine& engine) {
-            return std::make_unique<app::Session>(engine, scene);
+        session_ = run_on_engine(*shared_, [&](session::Engine& engine) {
+            return std::make_unique<session::Session>(engine, scene);
         });
     }
     PythonSession(const PythonSession&) = delete;
     PythonSession& operator=(const PythonSession&) = delete;
     ~PythonSession() {
-        run_on_engine(*shared_, [&](app::Engine&) { session_.reset(); });
+        run_on_engine(*shared_, [&](session::Engine&) { session_.reset(); });
     }
 
     const scene::Scene& scene() const { return session_->scene(); }
 
     void forget() {
-        run_on_engine(*shared_, [&](app::Engine&) { session_->forget(); });
+        run_on_engine(*shared_, [&](session::Engine&) { session_->forget(); });
     }
 
-    RenderedFrame frame(const app::FrameSpec& spec, int frames) {
+    RenderedFrame frame(const session::FrameSpec& spec, int frames) {
         if (frames < 1)
             throw UsageError("frames: wanted at least 1, found " + std::to_string(frames));
         SignalWatch watch;
-        const app::Watcher watcher = watch.watcher();
+        const session::Watcher watcher = watch.watcher();
         RenderedFrame rendered{.frames = frames};
-        run_on_engine(*shared_, [&](app::Engine&) {
+        run_on_engine(*shared_, [&](session::Engine&) {
             for (int k = 1; k <= frames && *watcher.stop == 0; ++k) {
-                const app::Frame frame = session_->frame(spec);
+                const session::Frame frame = session_->frame(spec);
                 rendered.times = frame.times();
                 if (k == frames) rendered.result = frame.read();
                 watcher.on_frame(k, frames);
@@ -64,17 +64,17 @@ public:
         return rendered;
     }
 
-    RenderedFrame render(const app::FrameSpec& spec) {
+    RenderedFrame render(const session::FrameSpec& spec) {
         SignalWatch watch;
         RenderedFrame rendered;
         try {
-            run_on_engine(*shared_, [&](app::Engine&) {
-                app::Request request;
-                static_cast<app::FrameSpec&>(request) = spec;
+            run_on_engine(*shared_, [&](session::Engine&) {
+                session::Request request;
+                static_cast<session::FrameSpec&>(request) = spec;
                 request.frames += request.warmup; // as `catoptric render`
                 request.warmup = 0;
                 request.until_settled = true;
-                app::RunResult run = app::run(*session_, request, watch.watcher());
+                session::RunResult run = session::run(*session_, request, watch.watcher());
                 rendered = {std::move(run.parts.front()), std::move(run.frames.back()),
                             static_cast<int>(run.frames.size()), run.settled};
             });
@@ -87,19 +87,19 @@ public:
 
 private:
     SharedEnginePointer shared_;
-    std::unique_ptr<app::Session> session_;
+    std::unique_ptr<session::Session> session_;
 };
 
 using Size = std::pair<std::int64_t, std::int64_t>;
 using OptionalCamera = std::optional<scene::Camera>;
 using OptionalNumber = std::optional<double>;
 
-app::FrameSpec make_frame_spec(const scene::Scene& scene, const std::string& technique,
-                               const Size& size, const OptionalCamera& camera, double time,
-                               OptionalNumber exposure, OptionalNumber ambient, std::uint64_t seed,
-                               const std::string& model) {
+session::FrameSpec make_frame_spec(const scene::Scene& scene, const std::string& technique,
+                                   const Size& size, const OptionalCamera& camera, double time,
+                                   OptionalNumber exposure, OptionalNumber ambient,
+                                   std::uint64_t seed, const std::string& model) {
     const SceneDefaults defaults = choose_defaults(scene, camera, ambient, exposure);
-    app::FrameSpec spec;
+    session::FrameSpec spec;
     spec.techniques = {technique};
     spec.camera = defaults.camera;
     spec.size = parse_size(size);
@@ -115,35 +115,37 @@ using PassList = std::vector<std::tuple<std::string, double>>;
 
 PassList list_passes(const RenderedFrame& frame) {
     PassList passes;
-    for (const app::PassTime& pass : frame.times.passes) passes.emplace_back(pass.name, pass.ms());
+    for (const session::PassTime& pass : frame.times.passes)
+        passes.emplace_back(pass.name, pass.ms());
     return passes;
 }
 
 void bind_engine(nb::module_& module) {
-    nb::class_<app::DeviceInfo>(module, "Device", "A Vulkan device of this machine.")
-        .def_ro("name", &app::DeviceInfo::name)
-        .def_ro("driver", &app::DeviceInfo::driver)
-        .def_ro("api", &app::DeviceInfo::api, "The version of Vulkan.")
-        .def_ro("type", &app::DeviceInfo::type, "'discrete', 'integrated', 'cpu' or another type.")
-        .def_ro("threads", &app::DeviceInfo::threads, "The number of threads of a cpu device.")
-        .def_ro("missing", &app::DeviceInfo::missing,
+    nb::class_<session::DeviceInfo>(module, "Device", "A Vulkan device of this machine.")
+        .def_ro("name", &session::DeviceInfo::name)
+        .def_ro("driver", &session::DeviceInfo::driver)
+        .def_ro("api", &session::DeviceInfo::api, "The version of Vulkan.")
+        .def_ro("type", &session::DeviceInfo::type,
+                "'discrete', 'integrated', 'cpu' or another type.")
+        .def_ro("threads", &session::DeviceInfo::threads, "The number of threads of a cpu device.")
+        .def_ro("missing", &session::DeviceInfo::missing,
                 "Features that the engine needs and the device lacks. Empty: usable.")
         .def("__repr__",
-             [](const app::DeviceInfo& device) { return "Device('" + device.name + "')"; });
+             [](const session::DeviceInfo& device) { return "Device('" + device.name + "')"; });
     module.def(
-        "devices", [] { return app::devices(); },
+        "devices", [] { return session::devices(); },
         "Returns the Vulkan devices of this machine.\n\n"
         "Raises:\n"
         "    NoDevice: No Vulkan driver is installed. The text names the package.");
     nb::class_<SharedEngine>(module, "Engine",
                              "A Vulkan device with the pipelines compiled for it.\n\n"
                              "Calls from several threads wait for each other.")
-        .def(nb::new_([](const std::string& device, bool validate,
-                         const std::filesystem::path& cache) {
-                 const nb::gil_scoped_release released;
-                 return std::make_shared<SharedEngine>(
-                     app::EngineOptions{.device = device, .validate = validate, .cache = cache});
-             }),
+        .def(nb::new_(
+                 [](const std::string& device, bool validate, const std::filesystem::path& cache) {
+                     const nb::gil_scoped_release released;
+                     return std::make_shared<SharedEngine>(session::EngineOptions{
+                         .device = device, .validate = validate, .cache = cache});
+                 }),
              nb::arg("device") = "", nb::kw_only(), nb::arg("validate") = false,
              nb::arg("cache") = "",
              "Opens a device.\n\n"
@@ -253,9 +255,9 @@ uvec2 parse_size(const std::pair<std::int64_t, std::int64_t>& size) {
     return uvec2(static_cast<unsigned>(size.first), static_cast<unsigned>(size.second));
 }
 
-app::RenderedWork parse_model(const std::string& name) {
-    if (name == "everything") return app::RenderedWork::everything;
-    if (name == "required") return app::RenderedWork::required;
+session::RenderedWork parse_model(const std::string& name) {
+    if (name == "everything") return session::RenderedWork::everything;
+    if (name == "required") return session::RenderedWork::required;
     throw UsageError("model: wanted 'everything' or 'required', found '" + name + "'");
 }
 

@@ -38,26 +38,26 @@ void raise_python_exception(const std::exception_ptr& thrown, void*) {
 }
 
 void bind_techniques(nb::module_& module) {
-    nb::class_<app::KnobInfo>(module, "Knob", "A setting of a technique.")
-        .def_ro("name", &app::KnobInfo::name)
-        .def_ro("help", &app::KnobInfo::help)
-        .def_ro("low", &app::KnobInfo::low, "The lowest value of a number.")
-        .def_ro("high", &app::KnobInfo::high, "The highest value of a number.")
-        .def_ro("value", &app::KnobInfo::value, "The default, as text.")
-        .def_ro("choices", &app::KnobInfo::choices, "The allowed words; empty for a number.")
-        .def_ro("special", &app::KnobInfo::special,
+    nb::class_<session::KnobInfo>(module, "Knob", "A setting of a technique.")
+        .def_ro("name", &session::KnobInfo::name)
+        .def_ro("help", &session::KnobInfo::help)
+        .def_ro("low", &session::KnobInfo::low, "The lowest value of a number.")
+        .def_ro("high", &session::KnobInfo::high, "The highest value of a number.")
+        .def_ro("value", &session::KnobInfo::value, "The default, as text.")
+        .def_ro("choices", &session::KnobInfo::choices, "The allowed words; empty for a number.")
+        .def_ro("special", &session::KnobInfo::special,
                 "A word that is allowed in place of the number; empty: none.")
-        .def("__repr__", [](const app::KnobInfo& knob) {
+        .def("__repr__", [](const session::KnobInfo& knob) {
             return "Knob('" + knob.name + "=" + knob.value + "')";
         });
-    nb::class_<app::TechniqueInfo>(module, "Technique", "A way to render reflections.")
-        .def_ro("name", &app::TechniqueInfo::name)
-        .def_ro("summary", &app::TechniqueInfo::summary, "One sentence.")
-        .def_ro("knobs", &app::TechniqueInfo::knobs)
-        .def("__repr__", [](const app::TechniqueInfo& technique) {
+    nb::class_<session::TechniqueInfo>(module, "Technique", "A way to render reflections.")
+        .def_ro("name", &session::TechniqueInfo::name)
+        .def_ro("summary", &session::TechniqueInfo::summary, "One sentence.")
+        .def_ro("knobs", &session::TechniqueInfo::knobs)
+        .def("__repr__", [](const session::TechniqueInfo& technique) {
             return "Technique('" + technique.name + "')";
         });
-    module.def("techniques", &app::techniques,
+    module.def("techniques", &session::techniques,
                "Returns every technique, in the order of the technique table.");
 }
 
@@ -71,10 +71,11 @@ NB_MODULE(_catoptric, module) {
     bind_pictures(module);
     bind_frames(module);
     bind_comparisons(module);
-    module.def("version", &app::version, "Returns the version of the library, such as '0.1.0'.");
-    module.def("commit", &app::commit,
+    module.def("version", &session::version,
+               "Returns the version of the library, such as '0.1.0'.");
+    module.def("commit", &session::commit,
                "Returns the abbreviated commit of the library, or 'unknown'.");
-    module.def("has_abandoned_device", &app::has_abandoned_device,
+    module.def("has_abandoned_device", &session::has_abandoned_device,
                "Returns whether an engine of this process had to give up its device.\n\n"
                "Threads of the driver may then still run, so end the program by os._exit().");
 }

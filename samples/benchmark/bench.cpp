@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::benchmark {
 
 namespace {
 
@@ -49,7 +49,7 @@ public:
     BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const ProcessorUsageMeter& meter,
                     const BenchOptions& options)
         : benchmark_subjects_(subjects), meter_(meter), options_(options),
-          rounds_(choose_round_count(options.iterations, options.rounds)) {
+          rounds_(study::choose_round_count(options.iterations, options.rounds)) {
         std::set<std::string> names;
         for (const BenchmarkSubject& subject : subjects) {
             check(names.insert(subject.name).second, Failure::usage, "benchmark '", subject.name,
@@ -101,7 +101,8 @@ private:
         const BenchmarkSubject& subject = benchmark_subjects_[index];
         report_progress(index,
                         ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
-        const int iterations = choose_frame_count_of_round(options_.iterations, rounds_, round);
+        const int iterations = study::choose_frame_count_of_round(options_.iterations, rounds_,
+                                                                  round);
         BenchmarkRoundSums sums;
         const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
         {
@@ -178,4 +179,4 @@ measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjec
     return run;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

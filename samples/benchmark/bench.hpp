@@ -11,7 +11,9 @@
 
 /// Functions that measure benchmarks in rounds. Each round visits all benchmarks, so that a slow
 /// moment of the machine affects all of them.
-namespace catoptric::app {
+namespace catoptric::benchmark {
+
+using namespace session;
 
 /// Figures that one iteration reports. A round stores their mean.
 struct IterationMeasurements {
@@ -55,4 +57,4 @@ measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjec
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command);
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace catoptric::app {
+namespace catoptric::benchmark {
 
 namespace {
 
@@ -101,4 +101,4 @@ BenchmarkSubject make_frame_benchmark_subject(std::shared_ptr<Session> session, 
             .caller = "host/" + place};
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

@@ -6,7 +6,9 @@
 #include <memory>
 
 /// Benchmark subjects: the parts of the engine that are measured.
-namespace catoptric::app {
+namespace catoptric::benchmark {
+
+using namespace session;
 
 /// Returns "session/SCENE": makes a session, which lays out and uploads the scene, and renders no
 /// frame. The engine must outlive the subject.
@@ -22,4 +24,4 @@ BenchmarkSubject make_bvh_benchmark_subject(const scene::Scene& scene);
 BenchmarkSubject make_frame_benchmark_subject(std::shared_ptr<Session> session, Request request,
                                               int iterations);
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

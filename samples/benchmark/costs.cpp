@@ -8,7 +8,7 @@
 
 #include <memory>
 
-namespace catoptric::app {
+namespace catoptric::benchmark {
 
 namespace {
 
@@ -46,9 +46,10 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
                        const BenchOptions& options,
                        std::vector<measure::TimedWorkSample>& samples) {
     const std::vector<Request> rows = split_request_by_technique(request);
-    const int rounds = choose_round_count(options.iterations, options.rounds);
+    const int rounds = study::choose_round_count(options.iterations, options.rounds);
     const int repeated_frames = must_repeat_first_round(device.type)
-                                    ? choose_frame_count_of_round(options.iterations, rounds, 0)
+                                    ? study::choose_frame_count_of_round(options.iterations, rounds,
+                                                                         0)
                                     : 0;
     std::vector<std::unique_ptr<RowMeasurement>> runs;
     for (int round = 0; round < rounds; ++round)
@@ -63,7 +64,7 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
                                   static_cast<std::size_t>(round) * rows.size() + place,
                                   static_cast<std::size_t>(rounds) * rows.size());
             runs[i]->measure_one_round_of_frames(
-                choose_frame_count_of_round(options.iterations, rounds, round));
+                study::choose_frame_count_of_round(options.iterations, rounds, round));
             runs[i]->suspend_frames();
         }
     if (repeated_frames > 0)
@@ -113,4 +114,4 @@ std::vector<CountedWorkKind> list_fitted_kinds() {
     return kinds;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

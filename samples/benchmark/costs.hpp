@@ -9,7 +9,10 @@
 
 /// Functions that measure the rows from whose times and counted work the unit costs of a device are
 /// fitted.
-namespace catoptric::app {
+namespace catoptric::benchmark {
+
+using namespace session;
+using namespace study;
 
 /// Measures each technique of the request in rounds, at the request's size and at half of it, with
 /// the model `everything` and with `required`. Returns the median time of a frame, and the counted
@@ -28,4 +31,4 @@ std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const R
 /// subgroups of the same size.
 std::vector<CountedWorkKind> list_fitted_kinds();
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

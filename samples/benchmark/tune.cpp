@@ -6,7 +6,7 @@
 
 #include <memory>
 
-namespace catoptric::app {
+namespace catoptric::benchmark {
 
 namespace {
 
@@ -62,4 +62,4 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     return tuned;
 }
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

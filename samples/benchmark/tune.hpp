@@ -5,7 +5,9 @@
 #include "session/run.hpp"
 
 /// Functions that measure which variants of shaders (gpu/variants.hpp) are fastest on a device.
-namespace catoptric::app {
+namespace catoptric::benchmark {
+
+using namespace session;
 
 /// Technique with which shader variants are measured. Its frame consists of the ray tracer's shader
 /// alone.
@@ -25,4 +27,4 @@ struct TuningResult {
 TuningResult tune_shader_variants(Engine& engine, const Request& request,
                                   const BenchOptions& options);
 
-} // namespace catoptric::app
+} // namespace catoptric::benchmark

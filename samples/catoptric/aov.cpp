@@ -49,8 +49,9 @@ std::vector<float> integers_to_floats(const std::vector<std::uint32_t>& numbers)
 }
 
 /// Returns the values of a layer's channel.
-std::vector<float> list_aov_values(PictureAov aov, int channel, const app::FirstSurfaces& surfaces,
-                                   const std::optional<app::ReflectionTiers>& tiers) {
+std::vector<float> list_aov_values(PictureAov aov, int channel,
+                                   const session::FirstSurfaces& surfaces,
+                                   const std::optional<session::ReflectionTiers>& tiers) {
     std::vector<float> values;
     switch (aov) {
     case PictureAov::distance: return surfaces.distance;
@@ -87,15 +88,15 @@ std::string describe_aovs() {
     std::string text;
     for (const AovRow& row : list_aov_rows())
         text += fmt::format("  {:<13} {}\n", row.name, row.help);
-    const std::vector<app::ReflectionTierInfo>& tiers = app::list_reflection_tiers();
+    const std::vector<session::ReflectionTierInfo>& tiers = session::list_reflection_tiers();
     for (std::size_t i = 0; i < tiers.size(); ++i)
         text += fmt::format("  {} {:<11} {}\n", i, tiers[i].name, tiers[i].help);
     return text;
 }
 
 std::vector<measure::ExtraPictureChannel>
-make_aov_channels(const std::vector<PictureAov>& aovs, const app::FirstSurfaces& surfaces,
-                  const std::optional<app::ReflectionTiers>& tiers) {
+make_aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
+                  const std::optional<session::ReflectionTiers>& tiers) {
     std::vector<measure::ExtraPictureChannel> channels;
     for (const PictureAov aov : aovs) {
         const AovRow& row = list_aov_rows()[static_cast<std::size_t>(aov)];

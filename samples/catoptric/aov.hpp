@@ -21,7 +21,7 @@ std::string describe_aovs();
 
 /// Returns the channels of the layers. `tiers`: set if `aovs` has PictureAov::tier.
 std::vector<measure::ExtraPictureChannel>
-make_aov_channels(const std::vector<PictureAov>& aovs, const app::FirstSurfaces& surfaces,
-                  const std::optional<app::ReflectionTiers>& tiers);
+make_aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
+                  const std::optional<session::ReflectionTiers>& tiers);
 
 } // namespace catoptric::cli

@@ -15,9 +15,10 @@ namespace catoptric::cli {
 namespace {
 
 bool has_knob_of_axis(const std::string& technique, const std::string& knob) {
-    for (const app::TechniqueInfo& info : app::techniques())
+    for (const session::TechniqueInfo& info : session::techniques())
         if (info.name == technique)
-            return std::ranges::find(info.knobs, knob, &app::KnobInfo::name) != info.knobs.end();
+            return std::ranges::find(info.knobs, knob, &session::KnobInfo::name) !=
+                   info.knobs.end();
     return false;
 }
 
@@ -37,7 +38,7 @@ std::string format_setting(const Setting& setting) {
 /// Returns the technique as text with the values of all its knobs. Two texts that mean the same
 /// technique give the same result.
 std::string format_technique_with_all_knobs(const std::string& text) {
-    const app::ParsedTechnique choice = app::parse_technique(text);
+    const session::ParsedTechnique choice = session::parse_technique(text);
     std::string all = choice.technique;
     for (const Setting& setting : choice.settings) all += " " + format_setting(setting);
     return all;
@@ -48,7 +49,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
     std::vector<std::string> rows;
     bool is_known = false;
     const auto varies = [&](const std::string& text) {
-        return has_knob_of_axis(app::parse_technique(text).technique, axis.knob) &&
+        return has_knob_of_axis(session::parse_technique(text).technique, axis.knob) &&
                !sets_knob(text, axis.knob);
     };
     // A new row may equal an existing row, if the value is the knob's default. Such a row is left
@@ -57,7 +58,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
     for (const std::string& text : techniques)
         if (!varies(text)) known.push_back(format_technique_with_all_knobs(text));
     for (const std::string& text : techniques) {
-        is_known |= has_knob_of_axis(app::parse_technique(text).technique, axis.knob);
+        is_known |= has_knob_of_axis(session::parse_technique(text).technique, axis.knob);
         if (!varies(text)) {
             rows.push_back(text);
             continue;
@@ -76,7 +77,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
     if (!is_known) {
         std::vector<std::string> names;
         for (const std::string& text : techniques)
-            for (const Setting& setting : app::parse_technique(text).settings)
+            for (const Setting& setting : session::parse_technique(text).settings)
                 if (std::ranges::find(names, setting.name) == names.end())
                     names.push_back(setting.name);
         fail(Failure::usage, "--axis ", axis.knob,

@@ -63,7 +63,7 @@ struct BenchArguments {
     std::vector<std::string> scenes;
     std::vector<std::string> techniques;
     std::string output;
-    int rounds = app::kRounds;
+    int rounds = study::kRounds;
     std::vector<std::string> before_and_after; ///< files to compare
     std::string against;                       ///< program of another build
     bool tunes = false;
@@ -95,28 +95,28 @@ std::vector<BenchSceneSelection> list_requested_scenes(const BenchArguments& opt
 }
 
 int choose_frame_count(const BenchArguments& options) {
-    return options.common.frames.value_or(app::Request().frames);
+    return options.common.frames.value_or(session::Request().frames);
 }
 
 void load_benchmark_scene(const CommonOptions& common) {
-    app::load_resolved_scene(common.scene, {.load = make_scene_file_options(common),
-                                            .overrides = common.overrides,
-                                            .use_scene_file = common.use_scene_file});
+    session::load_resolved_scene(common.scene, {.load = make_scene_file_options(common),
+                                                .overrides = common.overrides,
+                                                .use_scene_file = common.use_scene_file});
 }
 
 /// Adds the subjects to measure for one scene.
-void add_benchmark_subjects(app::Engine& engine, const BenchSceneSelection& asked,
-                            app::Request request, int iterations,
-                            std::vector<app::BenchmarkSubject>& subjects) {
+void add_benchmark_subjects(session::Engine& engine, const BenchSceneSelection& asked,
+                            session::Request request, int iterations,
+                            std::vector<benchmark::BenchmarkSubject>& subjects) {
     const CommonOptions common = asked.common;
-    subjects.push_back(app::make_benchmark_subject("load/" + request.scene.name,
-                                                   [common] { load_benchmark_scene(common); }));
-    subjects.push_back(app::make_session_benchmark_subject(engine, request.scene));
-    subjects.push_back(app::make_bvh_benchmark_subject(request.scene));
-    const auto session = std::make_shared<app::Session>(engine, request.scene);
+    subjects.push_back(benchmark::make_benchmark_subject(
+        "load/" + request.scene.name, [common] { load_benchmark_scene(common); }));
+    subjects.push_back(benchmark::make_session_benchmark_subject(engine, request.scene));
+    subjects.push_back(benchmark::make_bvh_benchmark_subject(request.scene));
+    const auto session = std::make_shared<session::Session>(engine, request.scene);
     for (const std::string& technique : asked.techniques) {
         request.techniques = {technique};
-        subjects.push_back(app::make_frame_benchmark_subject(session, request, iterations));
+        subjects.push_back(benchmark::make_frame_benchmark_subject(session, request, iterations));
     }
 }
 
@@ -139,11 +139,12 @@ void write_bench_result(const BenchArguments& options, const std::string& json,
 
 int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
-    const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
+    const session::ProcessorUsageMeter meter(
+        session::ProcessorUsageMeter::CountedThreadChoice::process);
     check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
     check_technique_list(options.techniques);
     const std::vector<BenchSceneSelection> list = list_requested_scenes(options);
-    std::vector<app::Request> requests;
+    std::vector<session::Request> requests;
     std::vector<std::filesystem::path> inputs;
     for (const BenchSceneSelection& asked : list) {
         requests.push_back(make_render_request_of_options(asked.common));
@@ -151,19 +152,19 @@ int run_measurement(const BenchArguments& options) {
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
     check_output_options(options, inputs, ", which the scene is read from");
-    app::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.output_options);
     const int iterations = choose_frame_count(options);
-    std::vector<app::BenchmarkSubject> subjects;
+    std::vector<benchmark::BenchmarkSubject> subjects;
     for (std::size_t i = 0; i < list.size(); ++i)
         add_benchmark_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
     ProgressPrinter progress(options.common.output_options);
-    const measure::BenchmarkRun run = app::run_benchmarks(
+    const measure::BenchmarkRun run = benchmark::run_benchmarks(
         subjects, meter,
         {.iterations = iterations,
          .rounds = options.rounds,
          .watcher = make_progress_watcher(progress)},
-        app::make_device_facts(engine), options.command);
+        session::make_device_facts(engine), options.command);
     progress.clear();
     write_bench_result(options, report::to_json(run), make_bench_table(run));
     if (options.common.device.validate) engine.check_validation();
@@ -214,7 +215,7 @@ int compare_benchmark_files(const BenchArguments& options) {
 }
 
 int run_against_program(const BenchArguments& options) {
-    app::check_round_limit(options.rounds);
+    study::check_round_limit(options.rounds);
     check_output_options(options, {options.against}, ", which is run");
     const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
     const int frames = std::max(1, (choose_frame_count(options) + options.rounds - 1) /
@@ -230,8 +231,8 @@ int run_against_program(const BenchArguments& options) {
 
 int run_shader_tuning(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
-          "--tune: wanted at most one SCENE and no --techniques, since ", app::kTuningTechnique,
-          " is what is measured");
+          "--tune: wanted at most one SCENE and no --techniques, since ",
+          benchmark::kTuningTechnique, " is what is measured");
     check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
     CommonOptions common = options.common;
     if (!options.scenes.empty()) common.scene = options.scenes.front();

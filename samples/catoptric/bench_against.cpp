@@ -58,7 +58,7 @@ std::vector<std::string> make_command_words_for_round(const std::vector<std::str
 std::array<measure::BenchmarkRun, 2>
 bench_programs_in_turn(const std::array<std::string, 2>& programs,
                        const std::vector<std::string>& words, int rounds,
-                       const app::Watcher& watcher) {
+                       const session::Watcher& watcher) {
     static const std::atomic<int> kNeverStop{0};
     std::array<measure::BenchmarkRun, 2> runs;
     for (int round = 0; round < rounds; ++round)

@@ -21,6 +21,6 @@ std::vector<std::string> make_command_words_for_round(const std::vector<std::str
 std::array<measure::BenchmarkRun, 2>
 bench_programs_in_turn(const std::array<std::string, 2>& programs,
                        const std::vector<std::string>& words, int rounds,
-                       const app::Watcher& watcher);
+                       const session::Watcher& watcher);
 
 } // namespace catoptric::cli

@@ -22,49 +22,51 @@ namespace {
 constexpr int kCostFitFrames = 12, kCostWarmupFrames = 14;
 
 /// Returns one request per scene.
-std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
+std::vector<session::Request> make_cost_requests(const CostsArguments& arguments) {
     std::vector<std::string> scenes = arguments.scenes;
     if (scenes.empty())
         for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
             scenes.emplace_back(scene.name);
-    std::vector<app::Request> requests;
+    std::vector<session::Request> requests;
     for (const std::string& scene : scenes) {
         CommonOptions common = arguments.common;
         common.scene = scene;
-        app::Request request = make_render_request_of_options(common, app::check_has_mirror);
+        session::Request request = make_render_request_of_options(common, study::check_has_mirror);
         request.frames = common.frames.value_or(kCostFitFrames);
         request.warmup = common.warmup.value_or(kCostWarmupFrames);
-        request.techniques = arguments.techniques.empty() ? app::list_default_techniques(request)
+        request.techniques = arguments.techniques.empty() ? study::list_default_techniques(request)
                                                           : arguments.techniques;
         requests.push_back(std::move(request));
     }
     return requests;
 }
 
-measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments, app::Engine& engine,
-                                              const std::vector<app::Request>& requests,
-                                              const app::Watcher& watcher) {
+measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments,
+                                              session::Engine& engine,
+                                              const std::vector<session::Request>& requests,
+                                              const session::Watcher& watcher) {
     std::vector<measure::TimedWorkSample> samples;
-    for (const app::Request& request : requests)
-        for (measure::TimedWorkSample& sample : app::measure_cost_samples(
+    for (const session::Request& request : requests)
+        for (measure::TimedWorkSample& sample : benchmark::measure_cost_samples(
                  engine, request,
                  {.iterations = request.frames, .rounds = arguments.rounds, .watcher = watcher}))
             samples.push_back(std::move(sample));
-    const measure::DeviceFacts device = app::make_device_facts(engine);
+    const measure::DeviceFacts device = session::make_device_facts(engine);
     return measure::fit_unit_costs(device.name + ", " + device.driver, std::move(samples),
-                                   app::list_fitted_kinds());
+                                   benchmark::list_fitted_kinds());
 }
 
 /// Fits unit costs of another device. The file gives the times of rows on that device, and the work
 /// of the rows is counted on this device.
-measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments, app::Engine& engine,
-                                               app::Request request, const app::Watcher& watcher) {
+measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments,
+                                               session::Engine& engine, session::Request request,
+                                               const session::Watcher& watcher) {
     const report::OtherDeviceTimes times = report::read_times_file(arguments.times);
     request.techniques.clear();
     for (const report::OtherDeviceTimes::TimedRowElsewhere& row : times.rows)
         request.techniques.push_back(row.technique);
-    std::vector<measure::TimedWorkSample> samples = app::count_work_samples(engine, request,
-                                                                            watcher);
+    std::vector<measure::TimedWorkSample> samples = benchmark::count_work_samples(engine, request,
+                                                                                  watcher);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ms = times.rows[i].ms;
     measure::DeviceCosts costs = measure::fit_unit_costs(times.device, std::move(samples),
                                                          times.kinds);
@@ -98,18 +100,18 @@ int run_cost_fit(const CostsArguments& arguments) {
     check(asked.times.empty() || asked.scenes.size() == 1, Failure::usage,
           "--times: wanted the one scene whose times were measured, found ", asked.scenes.size());
     if (!asked.times.empty()) report::read_times_file(asked.times); // refuses it before any work
-    std::vector<app::Request> requests = make_cost_requests(asked);
+    std::vector<session::Request> requests = make_cost_requests(asked);
     if (!asked.output.empty()) check_file_can_be_made(asked.output);
     std::vector<std::filesystem::path> inputs;
-    for (const app::Request& request : requests)
+    for (const session::Request& request : requests)
         inputs.insert(inputs.end(), request.scene.files.begin(), request.scene.files.end());
     if (!asked.times.empty()) inputs.emplace_back(asked.times);
     if (!asked.output.empty()) check_outputs_differ_from_inputs({asked.output}, inputs);
-    app::Engine engine(make_engine_options(asked.common.device));
+    session::Engine engine(make_engine_options(asked.common.device));
     print_device_and_warnings(engine, asked.common.output_options);
     ProgressPrinter progress(asked.common.output_options);
-    const app::Watcher watcher = make_progress_watcher(progress);
-    const app::WatchedWork watched(watcher);
+    const session::Watcher watcher = make_progress_watcher(progress);
+    const session::WatchedWork watched(watcher);
     const measure::DeviceCosts costs =
         asked.times.empty()
             ? fit_costs_of_this_device(asked, engine, requests, watcher)

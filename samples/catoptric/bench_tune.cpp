@@ -25,16 +25,16 @@ namespace {
 
 /// Returns the path of the device profile. Checks before the measurement that the file can be
 /// written.
-fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& device,
+fs::path choose_profile_path(const std::string& output, const session::DeviceInfo& device,
                              const std::vector<fs::path>& inputs) {
     fs::path place = output;
     if (output.empty()) {
-        const fs::path folder = app::find_profile_folder();
+        const fs::path folder = session::find_profile_folder();
         check(!folder.empty(), Failure::cannot_create,
               "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
               "absolute path; -o FILE writes it elsewhere");
         report::create_folder(folder); // fail before the measurement
-        place = folder / app::make_profile_file_name(device);
+        place = folder / session::make_profile_file_name(device);
     } else {
         check_file_can_be_made(place);
     }
@@ -44,7 +44,7 @@ fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& d
 
 } // namespace
 
-std::string make_tuning_table(const app::DeviceInfo& device,
+std::string make_tuning_table(const session::DeviceInfo& device,
                               const std::vector<measure::ShaderVariantTrial>& tried) {
     std::vector<std::vector<std::string>> cells{
         {"variant", "choice", "default", "ratio", "[95 %]", ""}};
@@ -61,20 +61,20 @@ std::string make_tuning_table(const app::DeviceInfo& device,
 }
 
 int run_device_tuning(const CommonOptions& common, int rounds, const std::string& output) {
-    app::check_round_limit(rounds);
+    study::check_round_limit(rounds);
     check(common.device.profile.empty(), Failure::usage,
           "--tune and --device-profile: wanted one of them, found both");
-    app::Request request = make_render_request_of_options(common);
-    request.techniques = {app::kTuningTechnique};
-    app::EngineOptions opened = make_engine_options(common.device);
+    session::Request request = make_render_request_of_options(common);
+    request.techniques = {benchmark::kTuningTechnique};
+    session::EngineOptions opened = make_engine_options(common.device);
     opened.profiles.clear(); // tuning starts from the defaults
-    app::Engine engine(opened);
+    session::Engine engine(opened);
     print_device_and_warnings(engine, common.output_options);
-    const app::DeviceInfo& device = engine.device();
+    const session::DeviceInfo& device = engine.device();
     const fs::path place = choose_profile_path(output, device, request.scene.files);
 
     ProgressPrinter progress(common.output_options);
-    const app::TuningResult tuned = app::tune_shader_variants(
+    const benchmark::TuningResult tuned = benchmark::tune_shader_variants(
         engine, request,
         {.iterations = request.frames,
          .rounds = rounds,
@@ -83,7 +83,7 @@ int run_device_tuning(const CommonOptions& common, int rounds, const std::string
     if (tuned.noisy)
         print_warning(
             "others were at work beside what was measured; what is taken may be their doing");
-    const std::string text = app::make_profile_text(device, tuned.tried);
+    const std::string text = session::make_profile_text(device, tuned.tried);
     print_result(common.output_options.json ? text : make_tuning_table(device, tuned.tried));
     write_file(place, text);
     print_note_unless_quiet(common.output_options, "written: " + place.string());

@@ -9,7 +9,7 @@
 
 namespace catoptric::cli {
 
-constexpr double kFramesPerSecond = 60; ///< frame rate of motions, as in app::Request::instant
+constexpr double kFramesPerSecond = 60; ///< frame rate of motions, as in session::Request::instant
 
 /// The camera at a time: seconds after the start of a camera path, or of the scene's motion.
 struct CameraKey {

@@ -53,7 +53,7 @@ public:
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Returns all output of the program until it closes its stdout.
-    std::string read_output(const app::Watcher& watcher) const {
+    std::string read_output(const session::Watcher& watcher) const {
         std::string text;
         for (;;) {
             throw_if_stopped(watcher);
@@ -95,7 +95,7 @@ private:
 std::string run_and_read_output(const std::vector<std::string>& command,
                                 const std::atomic<int>& stop) {
     ChildProcess child(command);
-    app::Watcher watcher;
+    session::Watcher watcher;
     watcher.stop = &stop;
     std::string text = child.read_output(watcher);
     child.check_exit_code_of_child();

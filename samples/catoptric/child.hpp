@@ -7,7 +7,7 @@
 namespace catoptric::cli {
 
 /// Runs a program to its end and returns its stdout. The program shares our stderr. If `stop` is
-/// set, it is ended by SIGTERM, and the function throws as app::throw_if_stopped does.
+/// set, it is ended by SIGTERM, and the function throws as session::throw_if_stopped does.
 /// Throws `missing_input` if the program cannot be started, and `bad_data` for an exit code other
 /// than 0.
 std::string run_and_read_output(const std::vector<std::string>& command,

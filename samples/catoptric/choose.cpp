@@ -45,7 +45,7 @@ nearest plan with what it proves, and the exit code is 1.)";
 
 struct ChooseOptions {
     CommonOptions common;
-    app::ChooseRequest limits; ///< request without scene, reference and watcher
+    study::ChooseRequest limits; ///< request without scene, reference and watcher
     std::string output, certified;
     std::vector<std::string> techniques;
     bool is_share_given = false, is_confidence_given = false, is_proof_seed_given = false;
@@ -53,12 +53,12 @@ struct ChooseOptions {
     std::vector<std::string> command;
 };
 
-void read_error_limit(const std::string& text, app::ChooseRequest& limits) {
+void read_error_limit(const std::string& text, study::ChooseRequest& limits) {
     const std::size_t end = text.find('=');
     const std::string quantity = text.substr(0, end);
     check(end != std::string::npos && (quantity == "flip" || quantity == "rmse"), Failure::usage,
           "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote_text_with_escapes(text));
-    limits.quantity = quantity == "flip" ? app::ErrorQuantity::flip : app::ErrorQuantity::rmse;
+    limits.quantity = quantity == "flip" ? study::ErrorQuantity::flip : study::ErrorQuantity::rmse;
     limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
 }
 
@@ -72,7 +72,7 @@ nlohmann::json read_certificate_of_plan(const std::string& file) {
 
 /// Sets size, exposure, reference, limits, share, confidence and seeds from a plan's certificate,
 /// where the options give none.
-void read_certificate(const ChooseOptions& options, app::ChooseRequest& request) {
+void read_certificate(const ChooseOptions& options, study::ChooseRequest& request) {
     const std::string& file = options.certified;
     const nlohmann::json certificate = read_certificate_of_plan(file);
     const auto number = [&](const char* name, double low, double high) -> std::optional<double> {
@@ -112,7 +112,7 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
     if (!request.max_error) {
         request.max_error = number("max_error", 0, 1);
         if (certificate.value("quantity", nlohmann::json()) == "rmse")
-            request.quantity = app::ErrorQuantity::rmse;
+            request.quantity = study::ErrorQuantity::rmse;
     }
     if (!request.max_ms) request.max_ms = number("max_ms", 0, 1e6);
     // A plan that keeps no requested limit states the error that it keeps.
@@ -136,38 +136,40 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
           Failure::usage, file, ": its limit of time is for another device; wanted --costs of it");
 }
 
-std::string make_candidate_table(const app::ChooseRequest& request, const app::PlanChoice& choice) {
+std::string make_candidate_table(const study::ChooseRequest& request,
+                                 const study::PlanChoice& choice) {
     std::vector<std::vector<std::string>> rows{
         {"candidate", request.costs.empty() ? "ms [95 %]" : "ms [range]",
-         fmt::format("largest {}", app::error_quantity_name(request.quantity)), "views", "result"}};
-    for (const app::JudgedPlan& plan : choice.candidates)
+         fmt::format("largest {}", study::error_quantity_name(request.quantity)), "views",
+         "result"}};
+    for (const study::JudgedPlan& plan : choice.candidates)
         rows.push_back(
-            {plan.text, app::format_milliseconds_with_range(plan),
+            {plan.text, study::format_milliseconds_with_range(plan),
              std::isnan(plan.largest_error) ? "-" : fmt::format("{:.5f}", plan.largest_error),
              fmt::format("{}", std::max<std::size_t>(1, plan.errors.size())), plan.why});
     return align_columns(rows, rows.front().size() - 1);
 }
 
 /// Returns the table of candidates, a line for each proof, and the choice or the nearest plan.
-std::string describe_choice(const app::ChooseRequest& request, const app::PlanChoice& choice) {
+std::string describe_choice(const study::ChooseRequest& request, const study::PlanChoice& choice) {
     std::string text = make_candidate_table(request, choice);
-    for (const app::PlanProof& proof : choice.proofs)
-        text += app::describe_verdict(request, proof) + ": " + app::describe_proof(request, proof) +
-                "\n";
+    for (const study::PlanProof& proof : choice.proofs)
+        text += study::describe_verdict(request, proof) + ": " +
+                study::describe_proof(request, proof) + "\n";
     if (choice.chosen) return text + "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n";
     return text + "no plan: " + choice.failure + "\nnearest: " +
-           app::describe_nearest_proof(request, choice.proofs.at(choice.nearest.value())) + "\n";
+           study::describe_nearest_proof(request, choice.proofs.at(choice.nearest.value())) + "\n";
 }
 
-app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options,
-                                                    ProgressPrinter& progress) {
-    app::ChooseRequest request = options.limits;
-    request.base = make_render_request_of_options(options.common, app::check_has_mirror);
+study::ChooseRequest make_choose_request_from_options(const ChooseOptions& options,
+                                                      ProgressPrinter& progress) {
+    study::ChooseRequest request = options.limits;
+    request.base = make_render_request_of_options(options.common, study::check_has_mirror);
     request.base.techniques = options.techniques;
-    request.reference = app::choose_reference(options.common.reference, request.base.scene,
-                                              app::ReferencePixelKind::centre);
+    request.reference = study::choose_reference(options.common.reference, request.base.scene,
+                                                study::ReferencePixelKind::centre);
     if (!options.certified.empty()) {
-        app::check_row_techniques({"plan:" + options.certified});
+        study::check_row_techniques({"plan:" + options.certified});
         read_certificate(options, request);
     }
     if (!request.costs.empty()) report::read_costs_file(request.costs); // before any work
@@ -182,14 +184,14 @@ app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options
 /// Measures how far the reference is from path tracing, in a session of its own. Called before the
 /// choice, so that a signal meanwhile loses no chosen plan.
 std::optional<measure::PathDistance>
-measure_distance_of_reference(const ChooseOptions& options, const app::ChooseRequest& request,
-                              app::Engine& engine, ProgressPrinter& progress) {
-    app::Request base = request.base;
-    app::Session session(engine, base.scene);
-    app::resolve_auto_exposure(session, base);
-    auto distance = app::measure_path_distance(
+measure_distance_of_reference(const ChooseOptions& options, const study::ChooseRequest& request,
+                              session::Engine& engine, ProgressPrinter& progress) {
+    session::Request base = request.base;
+    session::Session session(engine, base.scene);
+    session::resolve_auto_exposure(session, base);
+    auto distance = study::measure_path_distance(
         engine, session, base, request.reference,
-        options.path_distance_seconds.value_or(app::choose_path_distance_seconds(base.size)),
+        options.path_distance_seconds.value_or(study::choose_path_distance_seconds(base.size)),
         request.watcher, [&](const std::string& warning) {
             progress.clear();
             print_warning(warning);
@@ -208,27 +210,29 @@ std::string make_path_distance_line(const std::optional<measure::PathDistance>& 
     return distance ? report::describe_path_distance(*distance, {}) + "\n" : "";
 }
 
-int certify_plan_and_print_result(const ChooseOptions& options, const app::ChooseRequest& request,
-                                  app::Engine& engine, ProgressPrinter& progress) {
+int certify_plan_and_print_result(const ChooseOptions& options, const study::ChooseRequest& request,
+                                  session::Engine& engine, ProgressPrinter& progress) {
     const std::string plan = "plan:" + options.certified;
     const auto distance = measure_distance_of_reference(options, request, engine, progress);
-    const app::PlanProof proof = app::prove_plan(engine, request, plan);
+    const study::PlanProof proof = study::prove_plan(engine, request, plan);
     progress.clear();
-    report::Json document = app::make_proved_plan_json(request, plan, proof, options.common.scene);
+    report::Json document = study::make_proved_plan_json(request, plan, proof,
+                                                         options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
     if (!options.output.empty() && proof.may_hold())
         write_file(options.output, report::serialise_json(document));
     if (options.common.device.validate) engine.check_validation();
-    print_result(options.common.output_options.json ? report::serialise_json(document)
-                                                    : app::describe_verdict(request, proof) + ": " +
-                                                          app::describe_proof(request, proof) +
-                                                          "\n" + make_path_distance_line(distance));
+    print_result(options.common.output_options.json
+                     ? report::serialise_json(document)
+                     : study::describe_verdict(request, proof) + ": " +
+                           study::describe_proof(request, proof) + "\n" +
+                           make_path_distance_line(distance));
     return proof.may_hold() ? 0 : 1;
 }
 
 /// Throws `usage` if the file of the chosen plan would replace a file that the program reads.
-void check_output_place(const ChooseOptions& options, const app::ChooseRequest& request) {
+void check_output_place(const ChooseOptions& options, const study::ChooseRequest& request) {
     check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
     std::vector<std::filesystem::path> read;
     for (const std::string& file : {options.certified, request.costs})
@@ -258,16 +262,16 @@ int run_choose(const ChooseOptions& options) {
     if (!options.output.empty()) check_file_can_be_made(options.output);
     ProgressPrinter progress(options.common.output_options,
                              ProgressPrinter::ProgressOffTerminal::tenths);
-    const app::ChooseRequest request = make_choose_request_from_options(options, progress);
+    const study::ChooseRequest request = make_choose_request_from_options(options, progress);
     if (!options.output.empty()) check_output_place(options, request);
-    app::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.output_options);
     if (!options.certified.empty())
         return certify_plan_and_print_result(options, request, engine, progress);
     const auto distance = measure_distance_of_reference(options, request, engine, progress);
-    const app::PlanChoice choice = app::choose_plan(engine, request);
+    const study::PlanChoice choice = study::choose_plan(engine, request);
     progress.clear();
-    report::Json document = app::make_choice_json(request, choice, options.common.scene);
+    report::Json document = study::make_choice_json(request, choice, options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
     write_file(options.output, report::serialise_json(document));
@@ -282,7 +286,7 @@ int run_choose(const ChooseOptions& options) {
 }
 
 void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
-    app::ChooseRequest& limits = options.limits;
+    study::ChooseRequest& limits = options.limits;
     verb.option("--max-error", "Q=V",
                 "limit of the error over the mirrors in a view: flip=V or rmse=V, from 0 to 1",
                 [&limits](const std::string& text) { read_error_limit(text, limits); });
@@ -309,7 +313,7 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
             limits.reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
         });
     verb.option("--path-distance", "S",
-                std::string(app::find_study(app::kPathDistanceStudyName).help),
+                std::string(study::find_study(study::kPathDistanceStudyName).help),
                 [&options](const std::string& text) {
                     options.path_distance_seconds = static_cast<int>(
                         parse_integer("--path-distance", text, 0, 86'400));
@@ -322,7 +326,7 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
 }
 
 void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
-    app::ChooseRequest& limits = options.limits;
+    study::ChooseRequest& limits = options.limits;
     verb.option("--cameras-per-instant", "M",
                 "neighbouring training views of one instant, which share captures (3)",
                 [&limits](const std::string& text) {

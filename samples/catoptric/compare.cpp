@@ -61,12 +61,12 @@ struct CompareOptions {
     std::vector<std::string> techniques;
     std::vector<KnobAxis> axes;
     bool together = false;
-    double reference_seconds = app::CompareRequest().reference_seconds;
+    double reference_seconds = study::CompareRequest().reference_seconds;
     std::optional<int> cameras_per_instant; ///< of drawn views
-    app::ReferencePixelKind truth = app::ReferencePixelKind::centre;
+    study::ReferencePixelKind truth = study::ReferencePixelKind::centre;
     double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
     BaselineOptions baseline;
-    std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
+    std::optional<int> rounds; ///< none: study::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
     bool inlines_pictures = false; ///< pictures are in report.html, however large it becomes
     FigureOptions figures;
@@ -74,7 +74,7 @@ struct CompareOptions {
         return inlines_pictures ? report::PagePictures::inlined : report::PagePictures::automatic;
     }
     std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, PICTURES
-    std::vector<app::StudyChoice> studies;
+    std::vector<study::StudyChoice> studies;
     std::vector<std::string> command;
 };
 
@@ -86,30 +86,32 @@ std::vector<std::string> list_scenes_to_compare(const CompareOptions& options) {
 /// Throws `usage` for more rounds than frames, because each round measures at least one frame of
 /// each row.
 void check_round_limit(const CompareOptions& options) {
-    const int frames = options.common.frames.value_or(app::Request().frames);
+    const int frames = options.common.frames.value_or(session::Request().frames);
     check(!options.rounds || *options.rounds <= frames, Failure::usage, "--rounds: wanted at most ",
           frames, ", one for each of --frames, found ", options.rounds.value_or(0));
 }
 
 /// Returns the request for one scene, with the options for all scenes.
-app::CompareRequest make_compare_request(const CompareOptions& options, const std::string& scene) {
-    app::CompareRequest request;
+study::CompareRequest make_compare_request(const CompareOptions& options,
+                                           const std::string& scene) {
+    study::CompareRequest request;
     CommonOptions common = options.common;
     common.scene = scene;
-    request.base = make_render_request_of_options(common, app::check_has_mirror);
-    const bool keeps = common.both_models || request.base.model == app::RenderedWork::required;
-    if (keeps && !common.animate && !common.warmup) request.base.warmup = app::Request().total();
+    request.base = make_render_request_of_options(common, study::check_has_mirror);
+    const bool keeps = common.both_models || request.base.model == session::RenderedWork::required;
+    if (keeps && !common.animate && !common.warmup)
+        request.base.warmup = session::Request().total();
     request.base.techniques = options.techniques;
     request.both_models = options.common.both_models;
-    request.reference = app::choose_reference(options.common.reference, request.base.scene,
-                                              options.truth);
+    request.reference = study::choose_reference(options.common.reference, request.base.scene,
+                                                options.truth);
     request.reference_seconds = options.reference_seconds;
     const bool draws_views = std::ranges::any_of(
-        options.studies, [](const app::StudyChoice& study) { return study.name == "views"; });
+        options.studies, [](const study::StudyChoice& study) { return study.name == "views"; });
     check(!options.cameras_per_instant || draws_views, Failure::usage,
           "--cameras-per-instant: wanted --views N as well, found no drawn views");
     constexpr int kMinInstants = 6; // fewer would make the effective number of views uncertain
-    for (const app::StudyChoice& study : options.studies)
+    for (const study::StudyChoice& study : options.studies)
         check(study.name != "views" || !options.cameras_per_instant ||
                   *options.cameras_per_instant * kMinInstants <= study.count,
               Failure::usage, "--cameras-per-instant: wanted at most a sixth of the ", study.count,
@@ -125,24 +127,24 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     return request;
 }
 
-std::vector<std::string> list_requested_rows(const app::CompareRequest& request) {
-    const app::Request& base = request.base;
-    return base.techniques.empty() ? app::list_default_techniques(base) : base.techniques;
+std::vector<std::string> list_requested_rows(const study::CompareRequest& request) {
+    const session::Request& base = request.base;
+    return base.techniques.empty() ? study::list_default_techniques(base) : base.techniques;
 }
 
 /// Returns the requests for all scenes. All requests are made before any scene is measured, so that
 /// an error in the last scene is reported at once.
-std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
+std::vector<study::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_round_limit(options);
     check_technique_list(options.techniques);
     const std::string& reference = options.common.reference;
-    check(options.truth == app::ReferencePixelKind::centre || reference.empty(), Failure::usage,
+    check(options.truth == study::ReferencePixelKind::centre || reference.empty(), Failure::usage,
           "--truth chooses the reference; wanted no --reference beside it, found ", reference);
     // The report of several scenes names one reference: the reference of a scene without rough
     // mirrors.
-    const std::string judged_by = app::choose_reference(reference, scene::Scene(), options.truth);
-    for (const app::StudyChoice& choice : options.studies) app::check_study(choice, judged_by);
-    std::vector<app::CompareRequest> requests;
+    const std::string judged_by = study::choose_reference(reference, scene::Scene(), options.truth);
+    for (const study::StudyChoice& choice : options.studies) study::check_study(choice, judged_by);
+    std::vector<study::CompareRequest> requests;
     const std::vector<std::string> scenes = list_scenes_to_compare(options);
     check(options.common.reference_file.empty() || scenes.size() == 1, Failure::usage,
           "--reference ", options.common.reference_file, ": wanted one scene, found ",
@@ -150,32 +152,32 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     check(options.pictures.empty() || scenes.size() == 1, Failure::usage,
           "--row: wanted one scene, found ", scenes.size());
     for (const std::string& scene : scenes) {
-        app::CompareRequest request = make_compare_request(options, scene);
+        study::CompareRequest request = make_compare_request(options, scene);
         if (scenes.size() > 1)
             request.images = report::scene_images_folder(requests.size(), request.base.scene.name);
         if (!options.axes.empty())
             request.base.techniques = expand_techniques_along_axes(list_requested_rows(request),
                                                                    options.axes);
         request.base.techniques = list_requested_rows(request);
-        app::check_compare_inputs(request);
+        study::check_compare_inputs(request);
         requests.push_back(std::move(request));
     }
     return requests;
 }
 
 void check_output_places(const CompareOptions& options,
-                         const std::vector<app::CompareRequest>& requests) {
+                         const std::vector<study::CompareRequest>& requests) {
     std::vector<std::filesystem::path> outputs{kStdoutPath}, inputs;
     for (const std::string& file : {options.baseline.summary, options.baseline.junit})
         if (!file.empty()) outputs.emplace_back(file);
-    for (const app::CompareRequest& request : requests) {
+    for (const study::CompareRequest& request : requests) {
         std::vector<std::string> images;
         for (const std::string& text : list_requested_rows(request)) {
-            images.push_back(app::parse_technique(text).file_name);
+            images.push_back(session::parse_technique(text).file_name);
             if (request.both_models) images.push_back(images.back() + "-required");
         }
         for (std::size_t i = 0; i < request.pictures.size(); ++i) {
-            images.push_back(app::picture_row_image_name(request.pictures[i].first, i));
+            images.push_back(study::picture_row_image_name(request.pictures[i].first, i));
             inputs.emplace_back(request.pictures[i].second);
         }
         const bool is_first = &request == &requests.front();
@@ -271,16 +273,16 @@ private:
 
 /// Asks for the distance of the reference to path tracing, unless an option did. In small pictures
 /// it would take longer than the rows.
-void ask_for_path_distance(app::CompareRequest& request) {
-    if (std::ranges::find(request.studies, app::kPathDistanceStudyName, &app::StudyChoice::name) !=
-        request.studies.end())
+void ask_for_path_distance(study::CompareRequest& request) {
+    if (std::ranges::find(request.studies, study::kPathDistanceStudyName,
+                          &study::StudyChoice::name) != request.studies.end())
         return;
     request.studies.push_back(
-        {app::kPathDistanceStudyName, app::choose_path_distance_seconds(request.base.size)});
+        {study::kPathDistanceStudyName, study::choose_path_distance_seconds(request.base.size)});
 }
 
 /// Measures one scene and writes the report on all scenes so far.
-report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
+report::Comparison compare_scene(session::Engine& engine, study::CompareRequest& request,
                                  std::size_t index, const CompareOptions& options,
                                  ProgressPrinter& progress, CompareReportOutput& output,
                                  const BaselineGate& gate) {
@@ -293,7 +295,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
             gate.check_baseline_scene(so_far); // its exposure may be known only now
         output.write_scene_report(index, so_far);
     };
-    report::Comparison comparison = app::compare(engine, request);
+    report::Comparison comparison = study::compare(engine, request);
     comparison.max_ms = options.max_ms, comparison.max_flip = options.max_flip;
     progress.clear();
     // If no row was finished, nothing is written, because an earlier report in the folder is worth
@@ -316,23 +318,23 @@ int run_compare(const CompareOptions& options) {
     BaselineGate gate(options.baseline);
     ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::tenths,
                              "reading scenes, opening the device");
-    std::vector<app::CompareRequest> requests = make_compare_requests(options);
+    std::vector<study::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
-    for (const app::CompareRequest& request : requests) {
+    for (const study::CompareRequest& request : requests) {
         if (options.baseline.baseline.empty()) break;
         report::Comparison settings;
-        app::fill_comparison_settings(request, settings);
+        study::fill_comparison_settings(request, settings);
         gate.check_baseline_scene(settings);
     }
-    app::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(make_engine_options(options.common.device));
     progress.clear();
     print_device_and_warnings(engine, options.common.output_options);
     report::create_folder(options.folder);
-    for (const app::CompareRequest& request : requests)
+    for (const study::CompareRequest& request : requests)
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
     const report::DrawingConverter make_pdf = find_pdf_converter();
     if (!options.figures.folder.empty()) {
-        for (const app::CompareRequest& request : requests)
+        for (const study::CompareRequest& request : requests)
             report::create_folder(options.figures.scene_folder(request.images));
         if (!make_pdf)
             print_note_unless_quiet(output_options,
@@ -375,7 +377,7 @@ int run_compare(const CompareOptions& options) {
 
 enum class StudyOptionKind : std::uint8_t { number, words, flag };
 
-StudyOptionKind find_study_option_kind(const app::Study& study) {
+StudyOptionKind find_study_option_kind(const study::Study& study) {
     if (!study.number.empty()) return StudyOptionKind::number;
     return study.words.empty() ? StudyOptionKind::flag : StudyOptionKind::words;
 }
@@ -383,7 +385,7 @@ StudyOptionKind find_study_option_kind(const app::Study& study) {
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
 void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKind kind) {
-    for (const app::Study& study : app::list_studies()) {
+    for (const study::Study& study : study::list_studies()) {
         const std::string option = "--" + std::string(study.name), help(study.help);
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});
@@ -396,7 +398,7 @@ void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKi
         if (kind == StudyOptionKind::words) {
             verb.repeated(option, std::string(study.words), help, [&](const std::string& text) {
                 const auto known = std::ranges::find(options.studies, study.name,
-                                                     &app::StudyChoice::name);
+                                                     &study::StudyChoice::name);
                 if (known == options.studies.end())
                     options.studies.push_back({std::string(study.name), 1, {text}});
                 else
@@ -457,7 +459,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                 "number of rounds, in each of which all rows are measured; from 6 to --frames (6)",
                 [options](const std::string& text) {
                     options->rounds = static_cast<int>(
-                        parse_integer("--rounds", text, app::kRounds, 10000));
+                        parse_integer("--rounds", text, study::kRounds, 10000));
                 });
     verb.option(
         "--max-ms", "M",
@@ -479,7 +481,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                 "converged (the mean over the pixel's area) or paths (as centre, by path tracing: "
                 "with light between surfaces, lamps as areas and a shadowed environment) (centre)",
                 [options](const std::string& text) {
-                    options->truth = static_cast<app::ReferencePixelKind>(
+                    options->truth = static_cast<study::ReferencePixelKind>(
                         parse_choice_index("--truth", text, {"centre", "converged", "paths"}));
                 });
     verb.option(
@@ -534,7 +536,7 @@ CompareWords parse_compare_words(std::vector<std::string> words) {
     });
     program.parse(std::move(words))();
     check(is_comparison, Failure::usage, "wanted a comparison, found --help or --version");
-    std::vector<app::CompareRequest> requests = make_compare_requests(*options);
+    std::vector<study::CompareRequest> requests = make_compare_requests(*options);
     check(requests.size() == 1, Failure::usage, "wanted one scene, found ", requests.size());
     CompareWords parsed{std::move(requests.front()), options->common.device};
     parsed.request.base.techniques = list_requested_rows(parsed.request);

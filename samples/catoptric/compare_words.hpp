@@ -9,7 +9,7 @@
 namespace catoptric::cli {
 
 struct CompareWords {
-    app::CompareRequest request; ///< names its rows, also if the words name none
+    study::CompareRequest request; ///< names its rows, also if the words name none
     DeviceOptions device;
 };
 

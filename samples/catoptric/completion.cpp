@@ -32,7 +32,8 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
 
 std::vector<std::string> list_technique_names() {
     std::vector<std::string> names{"auto"};
-    for (const app::TechniqueInfo& technique : app::techniques()) names.push_back(technique.name);
+    for (const session::TechniqueInfo& technique : session::techniques())
+        names.push_back(technique.name);
     return names;
 }
 

@@ -56,7 +56,8 @@ std::vector<std::string> add_options_of_config_file(std::vector<std::string> wor
                                                     const std::vector<CompletionVerb>& verbs) {
     if (std::erase(words, kNoConfigOption) > 0 || words.empty()) return words;
     const auto verb = std::ranges::find(verbs, words.front(), &CompletionVerb::name);
-    const std::filesystem::path folder = app::find_config_folder(), path = folder / "config.json";
+    const std::filesystem::path folder = session::find_config_folder(),
+                                path = folder / "config.json";
     std::error_code ignored;
     if (verb == verbs.end() || folder.empty() || !std::filesystem::exists(path, ignored))
         return words;

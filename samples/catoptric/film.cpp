@@ -57,7 +57,7 @@ std::vector<std::string> list_ffmpeg_words(uvec2 size, double frames_per_second,
 }
 
 FilmWriter::FilmWriter(const std::string& file, uvec2 size, double frames_per_second,
-                       const app::Watcher& watcher)
+                       const session::Watcher& watcher)
     : name_(file), partial_(file), watcher_(watcher) {
     check_film_can_be_made(file, size);
     start_ffmpeg(list_ffmpeg_words(size, frames_per_second,
@@ -103,7 +103,7 @@ int FilmWriter::wait_for_ffmpeg() {
         const pid_t ended = ::waitpid(process_, &status, WNOHANG);
         if (ended < 0 && errno == EINTR) continue;
         if (ended == 0) {
-            app::throw_if_stopped(watcher_);
+            session::throw_if_stopped(watcher_);
             ::poll(nullptr, 0, kFilmStopCheckMilliseconds / 10);
             continue;
         }
@@ -115,7 +115,7 @@ int FilmWriter::wait_for_ffmpeg() {
 }
 
 void FilmWriter::fail_after_end_of_ffmpeg(int status) const {
-    app::throw_if_stopped(watcher_); // a signal from the terminal ends ffmpeg, too
+    session::throw_if_stopped(watcher_); // a signal from the terminal ends ffmpeg, too
     check(!WIFEXITED(status) || WEXITSTATUS(status) != 0, Failure::io, name_,
           ": wanted ffmpeg to read all frames, found that it ended before");
     fail(Failure::io, name_, ": cannot be written: ffmpeg, wanted exit code 0, found ",
@@ -125,7 +125,7 @@ void FilmWriter::fail_after_end_of_ffmpeg(int status) const {
 
 void FilmWriter::write_all_bytes(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t written = 0; written < bytes.size();) {
-        app::throw_if_stopped(watcher_);
+        session::throw_if_stopped(watcher_);
         pollfd ready{input_, POLLOUT, 0};
         if (::poll(&ready, 1, kFilmStopCheckMilliseconds) <= 0) continue;
         const ssize_t count = ::write(input_, bytes.data() + written, bytes.size() - written);

@@ -32,14 +32,14 @@ public:
     /// Starts ffmpeg. `watcher` must outlive this object: a stop ends the waits. Throws as
     /// check_film_can_be_made does.
     FilmWriter(const std::string& file, uvec2 size, double frames_per_second,
-               const app::Watcher& watcher);
+               const session::Watcher& watcher);
     /// Ends ffmpeg if the film is not finished.
     ~FilmWriter();
     FilmWriter(const FilmWriter&) = delete;
     FilmWriter& operator=(const FilmWriter&) = delete;
 
     /// Adds a frame: a picture as displayed. Throws `io` if ffmpeg has ended, and as
-    /// app::throw_if_stopped does.
+    /// session::throw_if_stopped does.
     void add_frame(const measure::Picture& display);
     /// Waits for ffmpeg and puts the film in place. Throws `io` if ffmpeg failed.
     void finish();
@@ -52,7 +52,7 @@ private:
 
     std::string name_;
     PartialFile partial_;
-    const app::Watcher& watcher_;
+    const session::Watcher& watcher_;
     pid_t process_ = 0; ///< 0: ended and waited for
     int input_ = -1;    ///< our end of ffmpeg's stdin; -1: closed
 };

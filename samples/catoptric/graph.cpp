@@ -34,18 +34,18 @@ struct GraphOptions {
     CommonOptions common;
     TechniqueOption drawn;
     std::string technique; ///< technique or plan, checked
-    std::optional<app::GraphPlanFormat> format;
+    std::optional<session::GraphPlanFormat> format;
     bool why = false;
 };
 
-app::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
-    const app::GraphPlanFormat asked = options.common.output_options.json
-                                           ? app::GraphPlanFormat::json
-                                           : app::GraphPlanFormat::text;
-    const app::GraphPlanFormat format = options.format.value_or(asked);
-    check(!options.common.output_options.json || format == app::GraphPlanFormat::json,
+session::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
+    const session::GraphPlanFormat asked = options.common.output_options.json
+                                               ? session::GraphPlanFormat::json
+                                               : session::GraphPlanFormat::text;
+    const session::GraphPlanFormat format = options.format.value_or(asked);
+    check(!options.common.output_options.json || format == session::GraphPlanFormat::json,
           Failure::usage, "--json and --format: stdout has room for one of them");
-    check(!options.why || format != app::GraphPlanFormat::dot, Failure::usage,
+    check(!options.why || format != session::GraphPlanFormat::dot, Failure::usage,
           "--why: wanted --format text or json, found dot");
     return format;
 }
@@ -53,10 +53,11 @@ app::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
 /// Returns the unit costs of the device that draws, or the default ones if the machine has none.
 require::UnitCostsOfDevice find_unit_costs_for_why(const DeviceOptions& options) {
     if (!options.name.empty())
-        return app::find_unit_costs_of_device(app::Engine(make_engine_options(options)).device());
+        return session::find_unit_costs_of_device(
+            session::Engine(make_engine_options(options)).device());
     try {
-        if (const std::vector<app::DeviceInfo> list = app::devices(); !list.empty())
-            return app::find_unit_costs_of_device(list.front());
+        if (const std::vector<session::DeviceInfo> list = session::devices(); !list.empty())
+            return session::find_unit_costs_of_device(list.front());
     } catch (const NoDevice&) {
     }
     require::UnitCostsOfDevice costs;
@@ -64,23 +65,23 @@ require::UnitCostsOfDevice find_unit_costs_for_why(const DeviceOptions& options)
     return costs;
 }
 
-void print_culling_report(const app::Request& request, app::GraphPlanFormat format,
+void print_culling_report(const session::Request& request, session::GraphPlanFormat format,
                           const require::UnitCostsOfDevice& costs,
-                          const std::optional<app::CaptureBudget>& capture_budget) {
-    print_result(format == app::GraphPlanFormat::json
-                     ? app::format_culling_as_json(request, costs, capture_budget)
-                     : app::format_culling_as_text(request, costs, capture_budget));
+                          const std::optional<session::CaptureBudget>& capture_budget) {
+    print_result(format == session::GraphPlanFormat::json
+                     ? session::format_culling_as_json(request, costs, capture_budget)
+                     : session::format_culling_as_text(request, costs, capture_budget));
 }
 
 int run_graph(const GraphOptions& options) {
-    const app::GraphPlanFormat format = find_graph_output_format(options);
+    const session::GraphPlanFormat format = find_graph_output_format(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     const bool is_limited = options.common.budget_ms > 0;
     check_budget_option(options.common);
     check(!is_limited || options.why, Failure::usage,
           "--budget-ms: wanted --why, since the plan is that of a frame at rest");
-    app::Request request = make_render_request_of_options(options.common);
+    session::Request request = make_render_request_of_options(options.common);
     request.techniques = {options.technique};
     check_outputs_differ_from_inputs({kStdoutPath}, request.scene.files);
     if (options.why && !is_limited) {
@@ -88,16 +89,16 @@ int run_graph(const GraphOptions& options) {
                              std::nullopt);
         return 0;
     }
-    app::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.output_options);
     if (options.why) {
-        request.model = app::RenderedWork::required;
-        print_culling_report(request, format, app::find_unit_costs_of_device(engine.device()),
-                             app::measure_capture_budget(engine, request));
+        request.model = session::RenderedWork::required;
+        print_culling_report(request, format, session::find_unit_costs_of_device(engine.device()),
+                             session::measure_capture_budget(engine, request));
         return 0;
     }
-    app::Session session(engine, request.scene);
-    std::string plan = app::Access::format_frame_plan(session, request, format);
+    session::Session session(engine, request.scene);
+    std::string plan = session::Access::format_frame_plan(session, request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     print_result(plan);
     if (options.common.device.validate) engine.check_validation();
@@ -115,8 +116,9 @@ void add_graph_verb(CommandLine& program) {
     verb.option(
         "--format", "F", "output format: text, dot or json (text)",
         [options](const std::string& text) {
-            constexpr app::GraphPlanFormat kGraphPlanFormats[] = {
-                app::GraphPlanFormat::text, app::GraphPlanFormat::dot, app::GraphPlanFormat::json};
+            constexpr session::GraphPlanFormat kGraphPlanFormats[] = {
+                session::GraphPlanFormat::text, session::GraphPlanFormat::dot,
+                session::GraphPlanFormat::json};
             options->format =
                 kGraphPlanFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
         });

@@ -32,12 +32,12 @@ constexpr const char* kInfoExamples = R"(Examples:
 ProgramInfo gather_info_facts(const DeviceOptions& device) {
     ProgramInfo facts;
     try {
-        app::EngineOptions options = make_engine_options(device);
+        session::EngineOptions options = make_engine_options(device);
         options.cache.clear(); // `info` compiles no shaders
-        const app::Engine engine(options);
+        const session::Engine engine(options);
         facts.device = engine.device();
-        facts.lanes = app::count_shader_lanes(engine);
-        if (const std::string text = app::make_vector_width_warning(engine); !text.empty())
+        facts.lanes = session::count_shader_lanes(engine);
+        if (const std::string text = session::make_vector_width_warning(engine); !text.empty())
             print_warning(text);
         if (!facts.device->warning.empty()) print_warning(facts.device->warning);
     } catch (const Error& error) {
@@ -45,7 +45,7 @@ ProgramInfo gather_info_facts(const DeviceOptions& device) {
         facts.why_no_device = error.what();
     }
     std::vector<std::string> techniques, scenes;
-    for (const app::TechniqueInfo& technique : app::techniques())
+    for (const session::TechniqueInfo& technique : session::techniques())
         techniques.push_back(technique.name);
     for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
         scenes.push_back(scene.name);
@@ -59,9 +59,9 @@ ProgramInfo gather_info_facts(const DeviceOptions& device) {
 }
 
 std::string format_info_facts(const ProgramInfo& facts) {
-    std::string text = fmt::format("catoptric {} ({})\n", app::version(), app::commit());
+    std::string text = fmt::format("catoptric {} ({})\n", session::version(), session::commit());
     if (facts.device) {
-        const app::DeviceInfo& device = *facts.device;
+        const session::DeviceInfo& device = *facts.device;
         const std::string threads = device.threads > 0 ? fmt::format(", {} threads", device.threads)
                                                        : "";
         text += fmt::format("{:<14} {} ({}, Vulkan {}, {}{})\n", "device", device.name, device.type,
@@ -86,7 +86,7 @@ struct InfoOptions {
 
 /// Returns the exposure that the scene is shown with, in stops; none if no device can measure it.
 /// Moves the scene out of the request.
-std::optional<double> find_shown_exposure(app::Request& request, const InfoOptions& options) {
+std::optional<double> find_shown_exposure(session::Request& request, const InfoOptions& options) {
     if (!request.auto_exposure) return request.exposure;
     constexpr std::size_t kMaxExposureTriangles =
         500'000; // building a BVH over more costs as much as a picture
@@ -99,10 +99,10 @@ std::optional<double> find_shown_exposure(app::Request& request, const InfoOptio
         return std::nullopt;
     }
     try {
-        app::Engine engine(make_engine_options(options.common.device));
+        session::Engine engine(make_engine_options(options.common.device));
         print_device_and_warnings(engine, options.common.output_options);
-        app::Session session(engine, std::move(request.scene));
-        return app::measure_auto_exposure(session, request);
+        session::Session session(engine, std::move(request.scene));
+        return session::measure_auto_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
         print_note_unless_quiet(options.common.output_options,
@@ -112,8 +112,8 @@ std::optional<double> find_shown_exposure(app::Request& request, const InfoOptio
 }
 
 /// Writes the overrides that the user gave, and the values that were added, to the scene's file.
-void write_scene_file(const InfoOptions& options, const app::ResolvedScene& wanted,
-                      const app::Request& request) {
+void write_scene_file(const InfoOptions& options, const session::ResolvedScene& wanted,
+                      const session::Request& request) {
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
           "--write: wanted a scene's file, beside which to write, found the built-in ",
@@ -134,9 +134,9 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
 
 int print_scene_info(const InfoOptions& options) {
     ResolvedRequest asked = make_resolved_request(options.common);
-    app::Request& request = asked.request;
+    session::Request& request = asked.request;
     if (options.writes) write_scene_file(options, asked.wanted, request);
-    SceneInfoFacts words{.info = app::make_scene_info(request)};
+    SceneInfoFacts words{.info = session::make_scene_info(request)};
     words.warnings = request.scene.warnings;
     words.auto_exposure = request.auto_exposure;
     words.exposure = find_shown_exposure(request, options); // moves the scene away

@@ -25,8 +25,8 @@ std::string serialise_json(const Json& document) {
 
 Json vector_to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json device_info_to_json(const app::DeviceInfo& device) {
-    Json row = report::make_device_json(app::make_device_facts(device));
+Json device_info_to_json(const session::DeviceInfo& device) {
+    Json row = report::make_device_json(session::make_device_facts(device));
     row["id"] = device.id;
     row["usable"] = device.missing.empty();
     if (!device.missing.empty()) row["missing"] = device.missing;
@@ -34,19 +34,20 @@ Json device_info_to_json(const app::DeviceInfo& device) {
 }
 
 /// Returns the times in the format of report.json.
-Json make_times_json(const app::RunResult& result, const app::DeviceInfo& device) {
+Json make_times_json(const session::RunResult& result, const session::DeviceInfo& device) {
     report::Row row;
-    app::fill_row_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
-    const std::vector<app::PassTime>& last = result.frames.back().passes;
+    study::fill_row_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
+    const std::vector<session::PassTime>& last = result.frames.back().passes;
     std::erase_if(row.passes,
                   [&](const report::PassFacts& pass) { // passes that only other frames had are left
                                                        // out
-                      return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
+                      return std::ranges::find(last, pass.name, &session::PassTime::name) ==
+                             last.end();
                   });
     return report::make_row_times_json(row);
 }
 
-Json make_culled_work_json(const app::TechniqueResult& part) {
+Json make_culled_work_json(const session::TechniqueResult& part) {
     Json list = Json::array();
     for (const auto& [what, why, saves, error] : part.left_out)
         list.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", error}});
@@ -54,7 +55,7 @@ Json make_culled_work_json(const app::TechniqueResult& part) {
 }
 
 /// Returns how many captures a frame draws again, and how old their contents can be.
-Json make_capture_budget_json(const std::optional<app::CaptureBudget>& capture_budget,
+Json make_capture_budget_json(const std::optional<session::CaptureBudget>& capture_budget,
                               double budget_ms) {
     if (!capture_budget) return nullptr;
     return {{"budget_ms", budget_ms},
@@ -64,7 +65,7 @@ Json make_capture_budget_json(const std::optional<app::CaptureBudget>& capture_b
             {"waiting", capture_budget->waiting},
             {"oldest_frames", capture_budget->frames_per_cycle() - 1},
             {"round_frames", capture_budget->frames_per_cycle()},
-            {"said", app::describe_capture_budget(*capture_budget)}};
+            {"said", session::describe_capture_budget(*capture_budget)}};
 }
 
 Json make_settings_json(const std::vector<Setting>& list) {
@@ -104,14 +105,15 @@ std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
     return serialise_json(document);
 }
 
-std::string make_render_json(const app::Request& request, int first_frame,
-                             const app::DeviceInfo& device, const app::RunResult& result,
+std::string make_render_json(const session::Request& request, int first_frame,
+                             const session::DeviceInfo& device, const session::RunResult& result,
                              const std::string& output) {
-    const app::TechniqueResult& part = result.parts.front();
-    const app::ParsedTechnique choice = app::parse_technique(request.techniques.front());
+    const session::TechniqueResult& part = result.parts.front();
+    const session::ParsedTechnique choice = session::parse_technique(request.techniques.front());
     using measure::ValueRange;
-    Json document{
-        {"schema", "catoptric/render/1"}, {"version", app::version()}, {"commit", app::commit()}};
+    Json document{{"schema", "catoptric/render/1"},
+                  {"version", session::version()},
+                  {"commit", session::commit()}};
     document["output"] = output;
     document["device"] = device_info_to_json(device);
     document["scene"] = request.scene.name;
@@ -123,7 +125,8 @@ std::string make_render_json(const app::Request& request, int first_frame,
     document["settled"] = request.until_settled ? Json(result.settled) : Json();
     document["time"] = request.time;
     document["exposure"] = request.exposure;
-    document["timing"] = request.timing == app::PassTimingMode::isolated ? "isolated" : "pipelined";
+    document["timing"] = request.timing == session::PassTimingMode::isolated ? "isolated"
+                                                                             : "pipelined";
     document["technique"] = choice.technique;
     document["label"] = choice.label;
     document["settings"] = make_settings_json(choice.settings);
@@ -151,8 +154,8 @@ std::string make_render_json(const app::Request& request, int first_frame,
 
 std::string make_picture_origin_json(const PictureOrigin& origin) {
     const Json json{{"schema", "catoptric/picture/1"},
-                    {"version", app::version()},
-                    {"commit", app::commit()},
+                    {"version", session::version()},
+                    {"commit", session::commit()},
                     {"device", origin.device},
                     {"driver", origin.driver},
                     {"scene", origin.scene},
@@ -166,7 +169,7 @@ std::string make_picture_origin_json(const PictureOrigin& origin) {
     return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-std::string make_trace_json(const app::FrameTimes& frame, const std::string& process) {
+std::string make_trace_json(const session::FrameTimes& frame, const std::string& process) {
     Json events = Json::array();
     const auto name_of = [&](const char* what, const std::string& name) {
         events.push_back(
@@ -174,7 +177,7 @@ std::string make_trace_json(const app::FrameTimes& frame, const std::string& pro
     };
     name_of("process_name", process);
     name_of("thread_name", "device");
-    for (const app::PassTime& pass : frame.passes) // Chrome's trace format uses microseconds
+    for (const session::PassTime& pass : frame.passes) // Chrome's trace format uses microseconds
         events.push_back({{"name", pass.name},
                           {"cat", "pass"},
                           {"ph", "X"},
@@ -185,17 +188,17 @@ std::string make_trace_json(const app::FrameTimes& frame, const std::string& pro
     return serialise_json({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
 }
 
-std::string make_devices_json(const std::vector<app::DeviceInfo>& devices) {
+std::string make_devices_json(const std::vector<session::DeviceInfo>& devices) {
     Json rows = Json::array();
-    for (const app::DeviceInfo& device : devices) rows.push_back(device_info_to_json(device));
+    for (const session::DeviceInfo& device : devices) rows.push_back(device_info_to_json(device));
     return serialise_json({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
-std::string make_techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
+std::string make_techniques_json(const std::vector<session::TechniqueInfo>& techniques) {
     Json rows = Json::array();
-    for (const app::TechniqueInfo& technique : techniques) {
+    for (const session::TechniqueInfo& technique : techniques) {
         Json knobs = Json::array();
-        for (const app::KnobInfo& knob : technique.knobs) {
+        for (const session::KnobInfo& knob : technique.knobs) {
             Json row{{"name", knob.name}, {"help", knob.help}, {"default", knob.value}};
             if (knob.choices.empty())
                 row["low"] = knob.low, row["high"] = knob.high,
@@ -231,8 +234,9 @@ std::string make_metrics_json() {
 }
 
 std::string make_info_json(const ProgramInfo& facts) {
-    Json document{
-        {"schema", "catoptric/info/1"}, {"version", app::version()}, {"commit", app::commit()}};
+    Json document{{"schema", "catoptric/info/1"},
+                  {"version", session::version()},
+                  {"commit", session::commit()}};
     document["device"] = facts.device ? device_info_to_json(*facts.device) : Json();
     if (facts.device) document["device"]["lanes"] = facts.lanes;
     if (!facts.device) document["no_device"] = facts.why_no_device;

@@ -25,8 +25,8 @@ struct PictureDiffFacts {
 std::string format_picture_difference_as_json(const PictureDiffFacts& facts);
 
 /// `first_frame`: number of the first measured frame in its sequence, from 1.
-std::string make_render_json(const app::Request& request, int first_frame,
-                             const app::DeviceInfo& device, const app::RunResult& result,
+std::string make_render_json(const session::Request& request, int first_frame,
+                             const session::DeviceInfo& device, const session::RunResult& result,
                              const std::string& output);
 
 /// What a picture was made of: with this and the files of the scene, it can be made again.
@@ -45,10 +45,10 @@ struct PictureOrigin {
 std::string make_picture_origin_json(const PictureOrigin& origin);
 
 /// Returns the passes of one frame in Chrome's trace-event format (chrome://tracing, Perfetto).
-std::string make_trace_json(const app::FrameTimes& frame, const std::string& process);
+std::string make_trace_json(const session::FrameTimes& frame, const std::string& process);
 
-std::string make_devices_json(const std::vector<app::DeviceInfo>& devices);
-std::string make_techniques_json(const std::vector<app::TechniqueInfo>& techniques);
+std::string make_devices_json(const std::vector<session::DeviceInfo>& devices);
+std::string make_techniques_json(const std::vector<session::TechniqueInfo>& techniques);
 
 struct NamedListEntry {
     std::string name, summary;
@@ -60,7 +60,7 @@ std::string make_named_list_json(const std::string& kind, const std::vector<Name
 std::string make_metrics_json();
 
 struct ProgramInfo {
-    std::optional<app::DeviceInfo> device;
+    std::optional<session::DeviceInfo> device;
     int lanes = 0; ///< lanes that run together in the device's shaders
     std::string why_no_device;
     /// Name of each group of features, and its features.
@@ -70,7 +70,7 @@ std::string make_info_json(const ProgramInfo& facts);
 
 /// Facts that `info SCENE` reports.
 struct SceneInfoFacts {
-    app::SceneInfo info;
+    session::SceneInfo info;
     std::optional<double> exposure; ///< stops; none: unknown
     bool auto_exposure = false;
     double ambient = 0;

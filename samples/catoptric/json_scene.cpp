@@ -17,7 +17,7 @@ Json make_colour_json(const vec3& colour) {
             scene::float_to_shortest_double(colour.z)};
 }
 
-Json make_material_json(const app::MaterialInfo& material) {
+Json make_material_json(const session::MaterialInfo& material) {
     Json json{{"name", material.name},
               {"kind", material.kind},
               {"objects", material.objects},
@@ -43,7 +43,7 @@ Json make_mirror_shape_json(const scene::MirrorShape& shape) {
     return json;
 }
 
-Json make_mirror_json(const app::MirrorInfo& mirror) {
+Json make_mirror_json(const session::MirrorInfo& mirror) {
     return {{"mirror", mirror.number},
             {"name", mirror.name},
             {"shape", make_mirror_shape_json(mirror.shape)},
@@ -63,11 +63,12 @@ Json make_list_json(const List& list, ToJson&& to_json) {
 } // namespace
 
 std::string make_scene_json(const SceneInfoFacts& words) {
-    const app::SceneInfo& info = words.info;
+    const session::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
     const measure::SceneContents& contents = measure::read_scene_contents(facts);
-    Json document{
-        {"schema", "catoptric/scene/1"}, {"version", app::version()}, {"commit", app::commit()}};
+    Json document{{"schema", "catoptric/scene/1"},
+                  {"version", session::version()},
+                  {"commit", session::commit()}};
     document["scene"] = facts.name;
     document["hash"] = facts.hash;
     document["scene_file"] = words.scene_file.empty() ? Json() : Json(words.scene_file);

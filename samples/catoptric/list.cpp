@@ -26,7 +26,7 @@ constexpr const char* kListExamples = R"(Examples:
 const std::vector<std::string> kListableKinds{"techniques", "scenes", "devices", "metrics",
                                               "costs"};
 
-std::string describe_knob(const app::KnobInfo& knob) {
+std::string describe_knob(const session::KnobInfo& knob) {
     const std::string range = knob.choices.empty()
                                   ? fmt::format("{:.0f} to {:.0f}{}", knob.low, knob.high,
                                                 knob.special.empty() ? "" : " or " + knob.special)
@@ -42,42 +42,42 @@ std::string format_technique_line(const std::string& name, const std::string& su
 }
 
 /// Returns one line per technique.
-std::string format_technique_list(const std::vector<app::TechniqueInfo>& techniques) {
+std::string format_technique_list(const std::vector<session::TechniqueInfo>& techniques) {
     std::string text;
-    for (const app::TechniqueInfo& technique : techniques)
+    for (const session::TechniqueInfo& technique : techniques)
         text += format_technique_line(technique.name, technique.summary);
     return text + format_technique_line("auto", kAutoSummary) +
            "\nKnobs of a technique: catoptric list techniques NAME\n";
 }
 
 /// Returns the text of one technique with its knobs.
-std::string describe_technique(const app::TechniqueInfo& technique) {
+std::string describe_technique(const session::TechniqueInfo& technique) {
     std::string text = format_technique_line(technique.name, technique.summary);
-    for (const app::KnobInfo& knob : technique.knobs) text += describe_knob(knob);
+    for (const session::KnobInfo& knob : technique.knobs) text += describe_knob(knob);
     return text;
 }
 
 /// Returns only the technique of this name. Throws `usage` for an unknown name, with the nearest.
-std::vector<app::TechniqueInfo> keep_named_technique(std::vector<app::TechniqueInfo> techniques,
-                                                     const std::string& name) {
+std::vector<session::TechniqueInfo>
+keep_named_technique(std::vector<session::TechniqueInfo> techniques, const std::string& name) {
     if (name == "auto") return {{.name = "auto", .summary = kAutoSummary}};
     std::vector<std::string> names;
-    for (const app::TechniqueInfo& technique : techniques) names.push_back(technique.name);
+    for (const session::TechniqueInfo& technique : techniques) names.push_back(technique.name);
     return {techniques[parse_choice_index("list techniques", name, names)]};
 }
 
 std::string make_technique_list_text(const std::string& name, bool json) {
-    std::vector<app::TechniqueInfo> techniques = app::techniques();
+    std::vector<session::TechniqueInfo> techniques = session::techniques();
     if (!name.empty()) techniques = keep_named_technique(std::move(techniques), name);
     if (json) return make_techniques_json(techniques);
     return name.empty() ? format_technique_list(techniques)
                         : describe_technique(techniques.front());
 }
 
-std::string format_device_list(const std::vector<app::DeviceInfo>& devices) {
+std::string format_device_list(const std::vector<session::DeviceInfo>& devices) {
     std::string text;
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        const app::DeviceInfo& device = devices[i];
+        const session::DeviceInfo& device = devices[i];
         text += fmt::format("{}  {}  {}, Vulkan {}, {}{}{}\n", i, device.name, device.type,
                             device.api, device.driver,
                             device.profile.empty() ? "" : ", profile " + device.profile,
@@ -139,8 +139,9 @@ std::string make_list_output(const std::string& kind, const std::string& name, b
           "' wanted no further argument, found '", name, "'");
     if (kind == "techniques") return make_technique_list_text(name, json);
     if (kind == "devices") {
-        const std::vector<app::DeviceInfo> devices = app::devices(app::find_profile_folder());
-        for (const app::DeviceInfo& device : devices)
+        const std::vector<session::DeviceInfo> devices = session::devices(
+            session::find_profile_folder());
+        for (const session::DeviceInfo& device : devices)
             if (!device.warning.empty()) print_warning(device.warning);
         return json ? make_devices_json(devices) : format_device_list(devices);
     }

@@ -63,7 +63,8 @@ void parse_model_option(const std::string& text, CommonOptions& common) {
     const std::size_t choice = parse_choice_index("--model", text,
                                                   {"everything", "required", "both"});
     common.both_models = choice == 2;
-    common.model = choice == 1 ? app::RenderedWork::required : app::RenderedWork::everything;
+    common.model = choice == 1 ? session::RenderedWork::required
+                               : session::RenderedWork::everything;
 }
 
 void add_choice_options(CommandVerb& verb, CommonOptions& common) {
@@ -89,27 +90,27 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
         [&](const std::string& text) {
             const bool isolated = parse_choice_index("--timing", text, {"isolated", "pipelined"}) ==
                                   0;
-            common.timing = isolated ? app::PassTimingMode::isolated
-                                     : app::PassTimingMode::pipelined;
+            common.timing = isolated ? session::PassTimingMode::isolated
+                                     : session::PassTimingMode::pipelined;
         });
 }
 
-scene::Camera choose_camera(const CommonOptions& common, app::ResolvedScene& wanted) {
+scene::Camera choose_camera(const CommonOptions& common, session::ResolvedScene& wanted) {
     if (wanted.is_camera_seeded) {
-        scene::Camera camera = app::make_seeded_camera(wanted.scene, common.time.value_or(0),
-                                                       common.seed);
+        scene::Camera camera = session::make_seeded_camera(wanted.scene, common.time.value_or(0),
+                                                           common.seed);
         print_note_unless_quiet(common.output_options, "camera drawn from seed " +
                                                            std::to_string(common.seed) + ": " +
                                                            camera.name);
         return camera;
     }
-    return app::choose_or_add_camera(wanted, double(common.size.x) / double(common.size.y));
+    return session::choose_or_add_camera(wanted, double(common.size.x) / double(common.size.y));
 }
 
 /// Warns of a scene without a mirror, with options that add one.
 void warn_of_no_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
-    const std::vector<std::string> options = app::suggest_mirror_options(scene, 1);
+    const std::vector<std::string> options = session::suggest_mirror_options(scene, 1);
     print_warning("scene " + quote_text_with_escapes(scene.name) + " has no mirror" +
                   (options.empty() ? "" : "; try " + options.front()));
 }
@@ -123,8 +124,8 @@ scene::SceneFileOptions make_scene_file_options(const CommonOptions& common) {
 }
 
 std::string parse_reference(const std::string& text) {
-    const app::ParsedTechnique choice = parse_option("--reference",
-                                                     [&] { return app::parse_technique(text); });
+    const session::ParsedTechnique choice = parse_option(
+        "--reference", [&] { return session::parse_technique(text); });
     check(choice.technique != "plan", Failure::usage,
           "--reference: wanted one technique for all mirrors, found '", text, "'");
     return choice.label;
@@ -194,7 +195,8 @@ void add_budget_option(CommandVerb& verb, CommonOptions& common) {
 }
 
 void check_budget_option(const CommonOptions& common) {
-    check(common.budget_ms == 0 || common.model != app::RenderedWork::everything, Failure::usage,
+    check(common.budget_ms == 0 || common.model != session::RenderedWork::everything,
+          Failure::usage,
           "--budget-ms and --model everything: wanted --model required, which keeps captures");
 }
 
@@ -228,21 +230,21 @@ void check_technique_list(const std::vector<std::string>& techniques) {
         check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
               "'; SCENE comes before --techniques");
     }
-    parse_option("--techniques", [&] { app::check_row_techniques(techniques); });
+    parse_option("--techniques", [&] { study::check_row_techniques(techniques); });
 }
 
 ResolvedRequest make_resolved_request(const CommonOptions& common,
                                       const std::function<void(const scene::Scene&)>& check) {
     ResolvedRequest asked;
-    app::Request& request = asked.request;
+    session::Request& request = asked.request;
     request.seed = common.seed;
     double load_ms = 0;
     {
         const Stopwatch watch(load_ms);
-        asked.wanted = app::load_resolved_scene(common.scene,
-                                                {.load = make_scene_file_options(common),
-                                                 .overrides = common.overrides,
-                                                 .use_scene_file = common.use_scene_file});
+        asked.wanted = session::load_resolved_scene(common.scene,
+                                                    {.load = make_scene_file_options(common),
+                                                     .overrides = common.overrides,
+                                                     .use_scene_file = common.use_scene_file});
     }
     request.load_ms = load_ms;
     if (check) check(asked.wanted.scene);
@@ -256,8 +258,8 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     request.warmup = common.warmup.value_or(request.warmup);
     request.time = common.time.value_or(0);
     request.animate = common.animate;
-    request.ambient = app::choose_ambient_light(asked.wanted);
-    const std::optional<double> exposure = app::find_exposure(asked.wanted);
+    request.ambient = session::choose_ambient_light(asked.wanted);
+    const std::optional<double> exposure = session::find_exposure(asked.wanted);
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
     request.timing = common.timing;
@@ -267,25 +269,26 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     return asked;
 }
 
-app::Request make_render_request_of_options(const CommonOptions& common,
-                                            const std::function<void(const scene::Scene&)>& check) {
+session::Request
+make_render_request_of_options(const CommonOptions& common,
+                               const std::function<void(const scene::Scene&)>& check) {
     return make_resolved_request(common, check).request;
 }
 
-app::EngineOptions make_engine_options(const DeviceOptions& device) {
+session::EngineOptions make_engine_options(const DeviceOptions& device) {
     const bool by_default = device.profile == kNoProfileName;
     return {.device = device.name,
             .validate = device.validate,
             .profile = by_default ? "" : device.profile,
-            .profiles = by_default ? std::filesystem::path() : app::find_profile_folder(),
-            .cache = app::find_cache_folder()};
+            .profiles = by_default ? std::filesystem::path() : session::find_profile_folder(),
+            .cache = session::find_cache_folder()};
 }
 
-void print_device_and_warnings(const app::Engine& engine, const OutputOptions& output_options) {
+void print_device_and_warnings(const session::Engine& engine, const OutputOptions& output_options) {
     print_detail_if_verbose(output_options,
                             "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) print_warning(engine.warning());
-    if (const std::string text = app::make_vector_width_warning(engine); !text.empty())
+    if (const std::string text = session::make_vector_width_warning(engine); !text.empty())
         print_warning(text);
     if (!engine.device().warning.empty()) print_warning(engine.device().warning);
 }

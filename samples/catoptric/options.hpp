@@ -44,13 +44,13 @@ struct CommonOptions {
         overrides; ///< scene overrides: mirrors, lights, environment, camera, exposure ...
     bool use_scene_file = true;
     std::string reference_file; ///< file of the reference's halves; empty: none
-    std::string reference;      ///< empty: app::choose_reference chooses
+    std::string reference;      ///< empty: study::choose_reference chooses
     DeviceOptions device;
     /// Model of the required work; none: default of the verb.
-    std::optional<app::RenderedWork> model;
+    std::optional<session::RenderedWork> model;
     bool both_models = false; ///< `compare` only: measures each row with both models
     double budget_ms = 0;     ///< time for captures per frame, milliseconds; 0: no limit
-    app::PassTimingMode timing = app::PassTimingMode::isolated;
+    session::PassTimingMode timing = session::PassTimingMode::isolated;
 };
 
 /// Headings of the help, after kCommonOptions.
@@ -92,25 +92,25 @@ void throw_unless_option_given(bool given, const std::string& verb, const std::s
                                const std::string& what);
 
 /// Throws `usage` if the list of --techniques contains a scene, because the option takes all words
-/// that follow it. Also throws as app::check_row_techniques does.
+/// that follow it. Also throws as study::check_row_techniques does.
 void check_technique_list(const std::vector<std::string>& techniques);
 
 /// Returns the request to the engine, without techniques: scene, camera and numbers. Prints
 /// messages of the loader, and parts that were added to the scene, to stderr. `check`, if given,
 /// may refuse the scene before any other message. Without it, a scene without a mirror causes a
 /// warning.
-app::Request
+session::Request
 make_render_request_of_options(const CommonOptions& common,
                                const std::function<void(const scene::Scene&)>& check = {});
 /// A request, with the resolved scene from which it was made.
 struct ResolvedRequest {
-    app::Request request;
-    app::ResolvedScene wanted; ///< without its scene, which is in `request`
+    session::Request request;
+    session::ResolvedScene wanted; ///< without its scene, which is in `request`
 };
 ResolvedRequest make_resolved_request(const CommonOptions& common,
                                       const std::function<void(const scene::Scene&)>& check = {});
-app::EngineOptions make_engine_options(const DeviceOptions& device);
+session::EngineOptions make_engine_options(const DeviceOptions& device);
 /// Prints the device and the engine's warnings to stderr.
-void print_device_and_warnings(const app::Engine& engine, const OutputOptions& output_options);
+void print_device_and_warnings(const session::Engine& engine, const OutputOptions& output_options);
 
 } // namespace catoptric::cli

@@ -56,7 +56,7 @@ int run_program_and_check_streams(int argc, char** argv) {
     const auto make_program = [] {
         return std::make_unique<CommandLine>(
             "catoptric", "Measures the cost and the error of each way of rendering reflections.",
-            "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
+            "catoptric " + session::version() + " (" + session::commit() + ")", kProgramExamples);
     };
     const std::unique_ptr<CommandLine> known = make_program();
     add_all_verbs(*known, command);
@@ -90,7 +90,7 @@ int run_and_get_exit_code(const std::string& name, const std::function<int()>& w
 int run_program_catching_errors(const std::string& name, const std::function<int()>& work) {
     prepare_standard_streams();
     const int code = run_and_get_exit_code(name, work);
-    if (app::has_abandoned_device())
+    if (session::has_abandoned_device())
         std::_Exit(code); // destroying objects that a driver still uses is unsafe
     return code;
 }

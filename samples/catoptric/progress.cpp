@@ -33,7 +33,7 @@ std::size_t count_terminal_columns() {
 
 } // namespace
 
-app::Watcher make_progress_watcher(ProgressPrinter& progress) {
+session::Watcher make_progress_watcher(ProgressPrinter& progress) {
     return {.on_row = [&](const std::string& label, std::size_t index,
                           std::size_t count) { progress.row(label, index, count); },
             .on_frame = [&](int number, int total) { progress.frame(number, total); },

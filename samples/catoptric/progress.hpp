@@ -74,7 +74,7 @@ private:
 
 /// Returns a watcher that shows every row and frame, and stops the work at the first signal
 /// (signals.hpp). `progress` must outlive it.
-app::Watcher make_progress_watcher(ProgressPrinter& progress);
+session::Watcher make_progress_watcher(ProgressPrinter& progress);
 
 /// Returns a duration as text: "0:07", "12:40", "3:02:10".
 std::string format_duration(double seconds);

@@ -159,10 +159,10 @@ void check_picture_places(const RenderOptions& options, const scene::Scene& scen
                                          ", which the camera's path is read from");
 }
 
-app::Request make_render_request(const RenderOptions& options) {
-    app::Request request = make_render_request_of_options(options.common);
+session::Request make_render_request(const RenderOptions& options) {
+    session::Request request = make_render_request_of_options(options.common);
     request.techniques = {options.technique};
-    request.model = options.common.model.value_or(app::RenderedWork::required);
+    request.model = options.common.model.value_or(session::RenderedWork::required);
     request.with_lookup = writes_aov(options, PictureAov::tier);
     if (!wants_only_picture(options)) return request;
     request.frames += request.warmup; // the same number as `compare` renders
@@ -174,14 +174,14 @@ app::Request make_render_request(const RenderOptions& options) {
 /// Returns what pictures of the request are made of, but for the camera and the instant. Empty
 /// without --origin.
 std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
-                                                 const app::Request& request,
-                                                 const app::DeviceInfo& device) {
+                                                 const session::Request& request,
+                                                 const session::DeviceInfo& device) {
     if (!options.origin) return std::nullopt;
     return PictureOrigin{.device = device.name,
                          .driver = device.driver,
                          .scene = request.scene.name,
                          .scene_hash = scene::hash_scene(request.scene),
-                         .technique = app::parse_technique(options.technique).label,
+                         .technique = session::parse_technique(options.technique).label,
                          .model = rendered_work_name(request.model),
                          .seed = request.seed,
                          .exposure = request.exposure};
@@ -190,7 +190,7 @@ std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
 /// Reads the cameras of the frames. Unless --frames is given, sets the number of frames so that
 /// they cover the whole file.
 std::optional<FrameCameras> read_cameras_of_request(const RenderOptions& options,
-                                                    app::Request& request) {
+                                                    session::Request& request) {
     if (options.camera_path.empty()) return std::nullopt;
     FrameCameras cameras = read_frame_cameras(options.camera_path, request.scene);
     for (const auto& [given, option] : {std::pair(options.common.animate, "--animate"),
@@ -215,7 +215,7 @@ public:
     /// `files`: as list_output_files returns them. `origin`: what the pictures are made of, but for
     /// the camera and the instant. All arguments but the last must outlive this object.
     RunOutput(const RenderOptions& options, const std::vector<std::string>& files,
-              app::Session& session, const app::Watcher& watcher,
+              session::Session& session, const session::Watcher& watcher,
               std::optional<PictureOrigin> origin)
         : options_(options), files_(files), session_(session), origin_(std::move(origin)) {
         if (writes_film(options))
@@ -226,8 +226,8 @@ public:
     bool writes_each_frame() const { return film_ || files_.size() > 1; }
     /// Writes a measured frame, with its number from 0. `spec`: of the frame. `part`: its result.
     /// The frame cannot be read afterwards.
-    void write_frame(std::size_t number, const app::Frame& frame, const app::FrameSpec& spec,
-                     const app::TechniqueResult& part) {
+    void write_frame(std::size_t number, const session::Frame& frame,
+                     const session::FrameSpec& spec, const session::TechniqueResult& part) {
         if (files_.empty()) return print_picture_bytes(measure::encode_picture_png(part.display));
         if (film_) return film_->add_frame(part.display);
         const std::string& file = files_.at(std::min(number, files_.size() - 1));
@@ -240,36 +240,38 @@ public:
     }
 
 private:
-    std::string encode_exr_of_frame(const app::Frame& frame, const app::FrameSpec& spec,
-                                    const app::TechniqueResult& part) {
+    std::string encode_exr_of_frame(const session::Frame& frame, const session::FrameSpec& spec,
+                                    const session::TechniqueResult& part) {
         std::string text;
         if (origin_) {
-            origin_->camera = app::make_camera_facts(spec.camera, spec.time);
+            origin_->camera = session::make_camera_facts(spec.camera, spec.time);
             origin_->time = spec.time;
             text = make_picture_origin_json(*origin_);
         }
         if (options_.aovs.empty()) return measure::encode_exr(part.hdr, text);
-        std::optional<app::ReflectionTiers> tiers;
+        std::optional<session::ReflectionTiers> tiers;
         if (writes_aov(options_, PictureAov::tier))
-            tiers = app::Access::read_reflection_tiers(frame);
-        const app::FirstSurfaces surfaces = app::Access::trace_first_surfaces(session_, spec);
+            tiers = session::Access::read_reflection_tiers(frame);
+        const session::FirstSurfaces surfaces = session::Access::trace_first_surfaces(session_,
+                                                                                      spec);
         return measure::encode_exr_with_channels(
             part.hdr, make_aov_channels(options_.aovs, surfaces, tiers), text);
     }
 
     const RenderOptions& options_;
     const std::vector<std::string>& files_;
-    app::Session& session_;
+    session::Session& session_;
     std::optional<PictureOrigin> origin_;
     std::optional<FilmWriter> film_;
 };
 
 /// Renders all frames and writes them. Returns the results.
-app::RunResult render_and_write_frames(app::Session& session, const app::Request& request,
-                                       int first_frame, const std::optional<FrameCameras>& cameras,
-                                       RunOutput& output, const app::Watcher& watcher) {
-    app::FrameLoop frames(session, request);
-    app::FrameSpec shown = request;
+session::RunResult render_and_write_frames(session::Session& session,
+                                           const session::Request& request, int first_frame,
+                                           const std::optional<FrameCameras>& cameras,
+                                           RunOutput& output, const session::Watcher& watcher) {
+    session::FrameLoop frames(session, request);
+    session::FrameSpec shown = request;
     int number = first_frame - request.warmup; // below first_frame: warm-up
     const auto find_instant = [&] {
         return cameras && cameras->has_instants() ? cameras->instant_of_frame(number)
@@ -277,7 +279,7 @@ app::RunResult render_and_write_frames(app::Session& session, const app::Request
     };
     throw_if_stopped(watcher);
     for (;; ++number) {
-        app::FrameSpec next = shown;
+        session::FrameSpec next = shown;
         next.camera = cameras ? cameras->camera_of_frame(number) : request.camera;
         next.time = find_instant();
         if (!frames.render_next(next.camera, next.time)) break;
@@ -289,23 +291,23 @@ app::RunResult render_and_write_frames(app::Session& session, const app::Request
                                shown, frames.current_frame().read());
         report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     }
-    app::RunResult result = frames.result();
+    session::RunResult result = frames.result();
     output.write_frame(static_cast<std::size_t>(request.frames - 1), frames.current_frame(), shown,
                        result.parts.front());
     output.finish();
     return result;
 }
 
-std::vector<double> list_gpu_times(const app::RunResult& result) {
+std::vector<double> list_gpu_times(const session::RunResult& result) {
     std::vector<double> ms;
-    for (const app::FrameTimes& frame : result.frames) ms.push_back(frame.gpu_ms);
+    for (const session::FrameTimes& frame : result.frames) ms.push_back(frame.gpu_ms);
     return ms;
 }
 
-void print_render_summary(const RenderOptions& options, const app::Request& request,
-                          const app::RunResult& result) {
+void print_render_summary(const RenderOptions& options, const session::Request& request,
+                          const session::RunResult& result) {
     const OutputOptions& output_options = options.common.output_options;
-    const app::TechniqueResult& part = result.parts.front();
+    const session::TechniqueResult& part = result.parts.front();
     for (const std::string& what : part.notes)
         print_note_unless_quiet(output_options, part.label + ": " + what);
     const measure::Mean mean = measure::mean_of(part.hdr, measure::ValueRange::clamped);
@@ -321,9 +323,10 @@ void print_render_summary(const RenderOptions& options, const app::Request& requ
                             fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}",
                                         part.label, part.scene_passes, frames, mean.all, output));
     if (part.capture_budget)
-        print_detail_if_verbose(output_options, app::describe_capture_budget(*part.capture_budget));
+        print_detail_if_verbose(output_options,
+                                session::describe_capture_budget(*part.capture_budget));
     if (request.until_settled) return;
-    for (const app::PassTime& pass : result.frames.back().passes)
+    for (const session::PassTime& pass : result.frames.back().passes)
         print_detail_if_verbose(output_options,
                                 fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
 }
@@ -337,29 +340,29 @@ void warn_of_nonfinite(const measure::Picture& picture) {
 
 int run_render(const RenderOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
-    const app::ParsedTechnique choice = app::parse_technique(options.technique);
+    const session::ParsedTechnique choice = session::parse_technique(options.technique);
     check_output_options(options);
     ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::nothing,
                              "reading the scene, opening the device");
-    app::Request request = make_render_request(options);
+    session::Request request = make_render_request(options);
     const std::optional<FrameCameras> cameras = read_cameras_of_request(options, request);
     const std::vector<std::string> files = list_output_files(options, request.frames);
     check_picture_places(options, request.scene, files);
-    app::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(make_engine_options(options.common.device));
     progress.clear();
     print_device_and_warnings(engine, options.common.output_options);
 
-    const app::Watcher watcher = make_progress_watcher(progress);
-    const app::WatchedWork watched(watcher);
+    const session::Watcher watcher = make_progress_watcher(progress);
+    const session::WatchedWork watched(watcher);
     report_row_to_watcher(watcher, choice.label, 0, 1);
     std::optional<PictureOrigin> origin = make_picture_origin(options, request, engine.device());
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
-    app::Session session(engine, std::move(scene));
-    app::resolve_auto_exposure(session, request);
+    session::Session session(engine, std::move(scene));
+    session::resolve_auto_exposure(session, request);
     if (origin) origin->exposure = request.exposure;
     RunOutput output(options, files, session, watcher, std::move(origin));
-    const app::RunResult result = render_and_write_frames(
+    const session::RunResult result = render_and_write_frames(
         session, request, options.common.first_frame, cameras, output, watcher);
     progress.clear();
 

@@ -41,7 +41,7 @@ std::string format_titled_table(const std::string& title, const SceneTableCells&
 /// The first factors, metallic and roughness, have columns of their own.
 constexpr std::size_t kMaterialFactorColumns = 2;
 
-std::string describe_material_details(const app::MaterialInfo& material) {
+std::string describe_material_details(const session::MaterialInfo& material) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
     if (material.light != vec3(0)) add("lights " + format_colour(material.light));
@@ -56,11 +56,11 @@ std::string describe_material_details(const app::MaterialInfo& material) {
     return text.empty() ? "-" : text;
 }
 
-SceneTableCells list_material_cells(const app::SceneInfo& info) {
+SceneTableCells list_material_cells(const session::SceneInfo& info) {
     constexpr std::size_t kMaxListedMaterials = 50;
     SceneTableCells cells{
         {"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
-    for (const app::MaterialInfo& material : info.materials) {
+    for (const session::MaterialInfo& material : info.materials) {
         if (cells.size() > kMaxListedMaterials) {
             cells.push_back(
                 {fmt::format("... {} more: --json", info.materials.size() - kMaxListedMaterials),
@@ -84,9 +84,9 @@ std::string describe_mirror_shape(const scene::MirrorShape& shape) {
     return text;
 }
 
-SceneTableCells list_mirror_cells(const app::SceneInfo& info) {
+SceneTableCells list_mirror_cells(const session::SceneInfo& info) {
     SceneTableCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
-    for (const app::MirrorInfo& mirror : info.mirrors)
+    for (const session::MirrorInfo& mirror : info.mirrors)
         cells.push_back({std::to_string(mirror.number), escape_control_characters(mirror.name),
                          describe_mirror_shape(mirror.shape),
                          fmt::format("{:.1f} %", 100 * mirror.screen_share),
@@ -155,7 +155,7 @@ SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
 } // namespace
 
 std::string format_scene_info(const SceneInfoFacts& words) {
-    const app::SceneInfo& info = words.info;
+    const session::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
     std::string text = format_info_line("scene", escape_control_characters(facts.name) + ", hash " +
                                                      facts.hash);

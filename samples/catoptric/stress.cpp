@@ -63,7 +63,7 @@ int run_stress(const StressOptions& options) {
             outputs.push_back(entry.path());
         check_outputs_differ_from_inputs(outputs, {});
     }
-    app::Engine engine(make_engine_options(options.device));
+    session::Engine engine(make_engine_options(options.device));
     print_device_and_warnings(engine, options.output_options);
     if (!options.folder.empty())
         report::create_folder(std::filesystem::path(options.folder) / "images");

@@ -83,7 +83,7 @@ MachineLock::MachineLock(Use use, const std::atomic<int>& stop)
             check(error == EWOULDBLOCK || error == EINTR, Failure::io,
                   find_machine_lock_file().string(),
                   ": cannot be locked: ", std::generic_category().message(error));
-            app::throw_if_stopped({.stop = &stop});
+            session::throw_if_stopped({.stop = &stop});
             std::this_thread::sleep_for(kLockPollInterval);
         }
     } catch (...) {

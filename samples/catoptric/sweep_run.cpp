@@ -44,15 +44,15 @@ std::string read_host_name() {
 
 /// Returns the identity of results: program, driver and processor, which decide the bits of a
 /// picture.
-SweepJson make_identity(const app::Engine& engine) {
-    const measure::DeviceFacts device = app::make_device_facts(engine);
+SweepJson make_identity(const session::Engine& engine) {
+    const measure::DeviceFacts device = session::make_device_facts(engine);
     const bool on_processor = device.type == "cpu";
-    return {{"version", app::version()},
-            {"commit", app::commit()},
+    return {{"version", session::version()},
+            {"commit", session::commit()},
             {"device", device.name},
             {"driver", device.driver},
             {"lanes", device.lanes},
-            {"processor", on_processor ? SweepJson(app::read_processor_name()) : SweepJson()}};
+            {"processor", on_processor ? SweepJson(session::read_processor_name()) : SweepJson()}};
 }
 
 /// Converts JSON of a report, whose members are in order of writing, to JSON with sorted members.
@@ -75,9 +75,9 @@ std::string describe_piece(const SweepPiece& piece) {
 /// settle once for all successive pieces of an instant. This changes no byte of a picture.
 struct SweepScene {
     SweepJson key; ///< the part of a piece's content that does not depend on its view
-    app::CompareRequest request;
-    std::unique_ptr<app::Session> session;                   ///< of the reference
-    std::vector<std::unique_ptr<app::Session>> row_sessions; ///< may be empty
+    study::CompareRequest request;
+    std::unique_ptr<session::Session> session;                   ///< of the reference
+    std::vector<std::unique_ptr<session::Session>> row_sessions; ///< may be empty
     std::optional<double> instant; ///< for which the captures of all rows have settled
 };
 
@@ -210,13 +210,13 @@ private:
 
     /// Returns the engine for a piece's device. The engine of the last piece is used again if its
     /// device is the same.
-    app::Engine& prepare_engine(const DeviceOptions& device) {
+    session::Engine& prepare_engine(const DeviceOptions& device) {
         const SweepJson key{device.name, device.profile, device.validate};
         if (engine_ && key == engine_key_) return *engine_;
         scene_ = {};
         if (engine_ && is_validated_) engine_->check_validation();
         engine_.reset();
-        engine_ = std::make_unique<app::Engine>(make_engine_options(device));
+        engine_ = std::make_unique<session::Engine>(make_engine_options(device));
         engine_key_ = key;
         is_validated_ = device.validate;
         print_device_and_warnings(*engine_, options_.output_options);
@@ -254,27 +254,28 @@ private:
         if (scene_.session && scene_.key == key) return scene_;
         CompareWords words = parse_compare_words(make_compare_words_of_piece(key, folder_));
         check_scene_unchanged(piece, words.request.base.scene);
-        app::Engine& engine = prepare_engine(words.device);
+        session::Engine& engine = prepare_engine(words.device);
         scene_ = {}; // frees the last scene's memory; stays empty on failure
         SweepScene scene{key, std::move(words.request), nullptr};
-        scene.session = std::make_unique<app::Session>(engine, scene.request.base.scene);
-        app::resolve_auto_exposure(*scene.session, scene.request.base);
+        scene.session = std::make_unique<session::Session>(engine, scene.request.base.scene);
+        session::resolve_auto_exposure(*scene.session, scene.request.base);
         if (shares_instant_with_other_piece(piece))
             for (std::size_t i = 0; i < scene.request.base.techniques.size(); ++i)
                 scene.row_sessions.push_back(
-                    std::make_unique<app::Session>(engine, scene.request.base.scene));
+                    std::make_unique<session::Session>(engine, scene.request.base.scene));
         scene_ = std::move(scene);
         return scene_;
     }
 
     /// Returns the view of a piece: a view drawn from the piece's seed, or the view of the options.
-    static measure::View make_view(const SweepJson& view, const app::Request& base) {
+    static measure::View make_view(const SweepJson& view, const session::Request& base) {
         if (view.is_null())
-            return {app::make_camera_facts(base.camera, base.time), base.time, base.seed};
+            return {session::make_camera_facts(base.camera, base.time), base.time, base.seed};
         const auto seed = view["seed"].get<std::uint64_t>();
         const auto time = view["time"].get<double>();
-        return {app::make_camera_facts(app::make_seeded_camera(base.scene, time, seed), time), time,
-                seed};
+        return {
+            session::make_camera_facts(session::make_seeded_camera(base.scene, time, seed), time),
+            time, seed};
     }
 
     /// Returns a row for each technique, with its errors in the piece's view. For a common piece,
@@ -285,18 +286,18 @@ private:
         comparison.views = {make_view(piece.content["view"], scene.request.base)};
         for (const std::string& text : scene.request.base.techniques)
             comparison.rows.emplace_back().label = text;
-        std::vector<app::Session*> row_sessions;
+        std::vector<session::Session*> row_sessions;
         for (const auto& session : scene.row_sessions) row_sessions.push_back(session.get());
         const double instant = comparison.views.front().time;
         const bool continues = !row_sessions.empty() &&
                                std::exchange(scene.instant, std::nullopt) == instant;
-        app::measure_views(*scene.session,
-                           {.base = scene.request.base,
-                            .reference = scene.request.reference,
-                            .watcher = {.stop = watcher_.stop},
-                            .row_sessions = std::move(row_sessions),
-                            .continues_instant = continues},
-                           comparison);
+        study::measure_views(*scene.session,
+                             {.base = scene.request.base,
+                              .reference = scene.request.reference,
+                              .watcher = {.stop = watcher_.stop},
+                              .row_sessions = std::move(row_sessions),
+                              .continues_instant = continues},
+                             comparison);
         scene.instant = instant; // not after an exception, which leaves rows unfinished
         if (is_common(piece)) write_common_pictures(piece, comparison);
         return comparison;
@@ -342,10 +343,10 @@ private:
         CompareWords words = parse_compare_words(
             make_compare_words_of_piece(piece.content, folder_));
         check_scene_unchanged(piece, words.request.base.scene);
-        app::Engine& engine = prepare_engine(words.device);
+        session::Engine& engine = prepare_engine(words.device);
         words.request.watcher = {.stop = watcher_.stop};
         words.request.reference_seconds = 0;
-        const report::Comparison comparison = app::compare(engine, words.request);
+        const report::Comparison comparison = study::compare(engine, words.request);
         if (comparison.stopped)
             throw_error(comparison.stopped->failure, comparison.stopped->what());
         report::Json rows = report::Json::array();
@@ -414,8 +415,8 @@ private:
     const SweepRunOptions& options_;
     PieceLockFile locks_;
     ProgressPrinter progress_;
-    app::Watcher watcher_;
-    std::unique_ptr<app::Engine> engine_;
+    session::Watcher watcher_;
+    std::unique_ptr<session::Engine> engine_;
     SweepJson engine_key_;
     SweepJson identity_;                     ///< identity of the engine
     bool has_drawn_common_pictures_ = false; ///< whether this process tried to draw the pictures

@@ -35,7 +35,7 @@ std::string check_technique_choice(const TechniqueOption& drawn, const std::stri
     if (plan.empty()) {
         throw_unless_option_given(!technique.empty(), verb, "--technique T",
                                   "see 'catoptric list techniques'; or --plan");
-        const auto parse = [&] { return app::parse_technique(technique); };
+        const auto parse = [&] { return session::parse_technique(technique); };
         check(parse_option("--technique", parse).technique != "plan", Failure::usage,
               "--technique: wanted one technique for all mirrors, found '", technique,
               "'; --plan takes several");
@@ -43,7 +43,7 @@ std::string check_technique_choice(const TechniqueOption& drawn, const std::stri
     }
     const bool is_file = plan.ends_with(".json"); // may hold `auto` for all mirrors
     std::string text = is_file ? "plan:" + plan : plan;
-    const auto parse = [&] { return app::parse_technique(text); };
+    const auto parse = [&] { return session::parse_technique(text); };
     check(parse_option("--plan", parse).technique == "plan" || is_file, Failure::usage,
           "--plan: wanted \"PATTERN=TECHNIQUE ...\" or a file that ends in .json, found '", plan,
           "'; --technique takes one technique for all mirrors");

@@ -16,7 +16,7 @@ struct TechniqueOption {
 void add_technique_options(CommandVerb& verb, TechniqueOption& drawn,
                            const std::string& otherwise = "");
 
-/// Returns the technique or plan that was given, as app::FrameSpec::techniques takes it. Throws
+/// Returns the technique or plan that was given, as session::FrameSpec::techniques takes it. Throws
 /// `usage` if none or both were given or the text is invalid, and as reading a plan's file does
 /// (session/plan_file.hpp).
 std::string check_technique_choice(const TechniqueOption& drawn, const std::string& verb);

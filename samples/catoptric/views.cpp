@@ -41,16 +41,17 @@ struct ViewsOptions {
 };
 
 /// Returns view 0, which is the comparison's own camera, and the drawn views.
-std::vector<measure::View> list_views(const app::Request& request, int count) {
+std::vector<measure::View> list_views(const session::Request& request, int count) {
     std::vector<measure::View> views{
-        {app::make_camera_facts(request.camera, request.time), request.time, request.seed}};
-    for (measure::View& view : app::draw_random_views(request, count)) views.push_back(view);
+        {session::make_camera_facts(request.camera, request.time), request.time, request.seed}};
+    for (measure::View& view : study::draw_random_views(request, count)) views.push_back(view);
     return views;
 }
 
-Json make_views_document(const app::Request& request, const std::vector<measure::View>& views) {
-    Json document{
-        {"schema", "catoptric/views/1"}, {"version", app::version()}, {"commit", app::commit()}};
+Json make_views_document(const session::Request& request, const std::vector<measure::View>& views) {
+    Json document{{"schema", "catoptric/views/1"},
+                  {"version", session::version()},
+                  {"commit", session::commit()}};
     document["scene"] = request.scene.name;
     document["width"] = request.size.x, document["height"] = request.size.y;
     document["exposure"] = request.auto_exposure ? Json("auto")
@@ -58,7 +59,7 @@ Json make_views_document(const app::Request& request, const std::vector<measure:
     document["seed"] = request.seed;
     document["views"] = Json::array();
     for (std::size_t i = 0; i < views.size(); ++i)
-        document["views"].push_back({{"name", app::view_picture_name(i)},
+        document["views"].push_back({{"name", study::view_picture_name(i)},
                                      {"time", report::make_number_json(views[i].time)},
                                      {"camera", report::make_camera_json(views[i].camera)}});
     return document;
@@ -92,7 +93,7 @@ Json make_gltf_camera_node(const measure::View& view, std::size_t index) {
     const dvec3 back = glm::normalize(camera.eye - camera.target),
                 right = glm::normalize(glm::cross(camera.up, back));
     const glm::dquat turn = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back));
-    return {{"name", app::view_picture_name(index)},
+    return {{"name", study::view_picture_name(index)},
             {"camera", index},
             {"translation", make_number_list({camera.eye.x, camera.eye.y, camera.eye.z})},
             {"rotation", make_number_list({turn.x, turn.y, turn.z, turn.w})},
@@ -103,7 +104,7 @@ Json make_views_gltf(const std::vector<measure::View>& views, uvec2 size) {
     Json document{{"asset", {{"version", "2.0"}, {"generator", "catoptric views"}}}, {"scene", 0}};
     Json nodes = Json::array(), cameras = Json::array(), roots = Json::array();
     for (std::size_t i = 0; i < views.size(); ++i) {
-        cameras.push_back(make_gltf_camera(views[i].camera, app::view_picture_name(i), size));
+        cameras.push_back(make_gltf_camera(views[i].camera, study::view_picture_name(i), size));
         nodes.push_back(make_gltf_camera_node(views[i], i));
         roots.push_back(i);
     }
@@ -119,7 +120,7 @@ std::string make_views_text(const std::vector<measure::View>& views) {
                        "up_z\tvertical_fov_degrees\torthographic_height\n";
     for (std::size_t i = 0; i < views.size(); ++i) {
         const measure::CameraFacts& camera = views[i].camera;
-        text += fmt::format("{}\t{}", app::view_picture_name(i), views[i].time);
+        text += fmt::format("{}\t{}", study::view_picture_name(i), views[i].time);
         for (const dvec3& point : {camera.eye, camera.target, camera.up})
             text += fmt::format("\t{}\t{}\t{}", point.x, point.y, point.z);
         text += fmt::format("\t{}\t{}\n", camera.vertical_fov_degrees, camera.orthographic_height);
@@ -131,7 +132,7 @@ int run_views(const ViewsOptions& options) {
     scene::check_scene_exists(options.common.scene);
     throw_unless_option_given(!options.folder.empty(), "views", "-o DIR",
                               "the folder for the views");
-    const app::Request request = make_render_request_of_options(options.common);
+    const session::Request request = make_render_request_of_options(options.common);
     const std::vector<measure::View> views = list_views(request, options.count);
     const std::filesystem::path folder = options.folder;
     std::vector<std::filesystem::path> files;
@@ -162,7 +163,7 @@ void add_views_verb(CommandLine& program) {
                   options->common.scene, CommandVerb::VerbArgumentNeed::optional);
     verb.option("-o,--output", "DIR", "folder for the views, created if missing; required",
                 options->folder);
-    const app::Study& study = app::find_study("views");
+    const study::Study& study = study::find_study("views");
     verb.option("--count", "N",
                 "number of drawn views, as of compare --views: 1 (none) or at least 6 (1)",
                 [options, &study](const std::string& text) {

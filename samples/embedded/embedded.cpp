@@ -135,14 +135,14 @@ int main() try {
     const VkDeviceMemory memory = allocate_memory_for(own, wants, false);
     throw_unless_vulkan_success(vkBindImageMemory(own.device, image, memory, 0));
     {
-        app::Engine engine = embed::make_engine(own);
-        app::Session session(engine, scene::load("cornell-mirrors"), 2);
-        const app::FrameSpec spec{.techniques = {"parallax:face=64"},
-                                  .camera = session.scene().cameras.front(),
-                                  .size = {kPictureSideInPixels, kPictureSideInPixels}};
+        session::Engine engine = embed::make_engine(own);
+        session::Session session(engine, scene::load("cornell-mirrors"), 2);
+        const session::FrameSpec spec{.techniques = {"parallax:face=64"},
+                                      .camera = session.scene().cameras.front(),
+                                      .size = {kPictureSideInPixels, kPictureSideInPixels}};
         const embed::Target target{image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
         for (int k = 0; k < 5; ++k) embed::render_frame_into(session, spec, target);
-        const app::Frame last = embed::render_frame_into(session, spec, target);
+        const session::Frame last = embed::render_frame_into(session, spec, target);
         const measure::Picture shown = read_back_image(own,
                                                        image); // the queue runs this copy after the
                                                                // frame

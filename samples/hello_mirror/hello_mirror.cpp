@@ -10,14 +10,14 @@ using namespace catoptric;
 
 int main() try {
     const scene::Scene scene = scene::load("cornell-mirrors");
-    app::Engine engine({});
-    app::Session session(engine, scene);
+    session::Engine engine({});
+    session::Session session(engine, scene);
 
-    const app::FrameSpec spec{
+    const session::FrameSpec spec{
         .techniques = {"parallax"}, .camera = scene.cameras.front(), .size = {256, 256}};
     // Mirrors show each other's last captures: each frame adds a bounce.
     for (int bounce = 0; bounce < 7; ++bounce) session.frame(spec).times();
-    const app::Frame frame = session.frame(spec);
+    const session::Frame frame = session.frame(spec);
 
     const measure::Picture hdr = frame.hdr();
     std::printf("%s: mean %.4f, %.2f ms\n", engine.device().name.c_str(),

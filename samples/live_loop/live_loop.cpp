@@ -19,27 +19,27 @@ scene::Camera turn_camera_along_path(scene::Camera camera, double turn) {
     return camera;
 }
 
-void run_live_loop(app::Engine& engine, const char* plan_file) {
-    app::Session session(engine, scene::load("cornell-mirrors"), 2);
+void run_live_loop(session::Engine& engine, const char* plan_file) {
+    session::Session session(engine, scene::load("cornell-mirrors"), 2);
     const scene::Camera camera = session.scene().cameras.front();
     const std::size_t ball = scene::mirrors(session.scene()).front();
     const dmat4 rest = session.scene().objects[ball].world_from_object;
-    std::deque<app::Frame> under_way;
+    std::deque<session::Frame> under_way;
     double host_ms = 0, gpu_ms = 0;
     const auto finish_frames = [&](std::size_t most) { // waits for the device
         for (; under_way.size() > most; under_way.pop_front()) {
-            const app::FrameTimes& times = under_way.front().times();
+            const session::FrameTimes& times = under_way.front().times();
             host_ms += times.host.sum(), gpu_ms += times.gpu_ms;
         }
     };
-    app::FrameSpec spec{.techniques = {"parallax:face=64"},
-                        .size = {160, 160},
-                        .model = app::RenderedWork::required};
-    std::optional<app::PlanAudit> audit;
+    session::FrameSpec spec{.techniques = {"parallax:face=64"},
+                            .size = {160, 160},
+                            .model = session::RenderedWork::required};
+    std::optional<study::PlanAudit> audit;
     if (plan_file != nullptr)
-        audit.emplace(plan_file, app::AuditOptions{.every = 4, // often, because the loop is short
-                                                   .most_time = 100,
-                                                   .before_audit = [&] { finish_frames(0); }});
+        audit.emplace(plan_file, study::AuditOptions{.every = 4, // often, because the loop is short
+                                                     .most_time = 100,
+                                                     .before_audit = [&] { finish_frames(0); }});
     const int frames = audit ? 90 : 30;
     for (int k = 0; k < frames; ++k) {
         dmat4 place = rest;
@@ -47,7 +47,7 @@ void run_live_loop(app::Engine& engine, const char* plan_file) {
         session.change(scene::move(ball, place));
         spec.camera = turn_camera_along_path(camera, .005 * k);
         if (audit) spec.techniques = {audit->plan()};
-        const app::Frame frame = under_way.emplace_back(session.frame(spec));
+        const session::Frame frame = under_way.emplace_back(session.frame(spec));
         finish_frames(1);
         if (audit && k + 1 < frames) audit->watch_frame(session, frame, spec, k / 60.0);
     }
@@ -64,10 +64,11 @@ int main(int argc, char** argv) try {
     if (argc != 1 && (argc != 3 || argv[1] != std::string("--audit")))
         throw UsageError("wanted no option, or --audit PLAN.json");
     for (int attempt = 0;; ++attempt) try {
-            app::Engine engine({});
+            session::Engine engine({});
             run_live_loop(engine, argc == 3 ? argv[2] : nullptr);
             std::fflush(stdout);
-            if (app::has_abandoned_device()) std::_Exit(0); // a lost device's driver may be at work
+            if (session::has_abandoned_device())
+                std::_Exit(0); // a lost device's driver may be at work
             return 0;
         } catch (const DeviceLost& error) { // start again, once
             if (attempt > 0) throw;

@@ -54,8 +54,8 @@ scene::Scene make_wave_scene() {
 } // namespace
 
 int main() try {
-    app::Engine engine({});
-    app::Session session(engine, make_wave_scene());
+    session::Engine engine({});
+    session::Session session(engine, make_wave_scene());
     const auto picture = [&](const char* technique) {
         return session
             .frame({.techniques = {technique},

@@ -10,7 +10,7 @@ using namespace catoptric;
 
 namespace {
 
-const app::RegisteredSearch kBlendSearch{
+const session::RegisteredSearch kBlendSearch{
     {.name = "blend",
      .summary = "Blends between reuse (amount=0) and parallax (amount=1).",
      .shader = "blend.frag",
@@ -19,7 +19,7 @@ const app::RegisteredSearch kBlendSearch{
 } // namespace
 
 int main() try {
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base.scene = scene::load("cornell-mirrors");
     request.base.camera = request.base.scene.cameras.front();
     request.base.size = {64, 64};
@@ -28,8 +28,8 @@ int main() try {
                                "blend:amount=1,face=64,lookup=bilinear", "parallax:face=64"};
 
     report::create_folder("blend-report"); // before the measuring
-    app::Engine engine({});
-    const measure::Comparison found = app::compare(engine, request);
+    session::Engine engine({});
+    const measure::Comparison found = study::compare(engine, request);
     for (const measure::Row& row : found.rows)
         std::printf("%-52s %7.2f ms  FLIP %.4f over the mirrors\n", row.label.c_str(),
                     row.gpu_ms.median, row.error.flip);

@@ -42,9 +42,10 @@ bool StressTestBench::is_error_that_ends_run(const Error& error) const {
     return is_fault || is_failure_by_stop_signal(error.failure) || !bench_engine_.usable();
 }
 
-app::Request StressTestBench::make_stress_request(const scene::Scene& scene,
-                                                  const std::string& technique, int frames) const {
-    app::Request request;
+session::Request StressTestBench::make_stress_request(const scene::Scene& scene,
+                                                      const std::string& technique,
+                                                      int frames) const {
+    session::Request request;
     request.scene = scene;
     request.techniques = {technique};
     request.camera = scene.cameras.empty() ? scene::make_default_camera(scene)
@@ -55,22 +56,22 @@ app::Request StressTestBench::make_stress_request(const scene::Scene& scene,
     return request;
 }
 
-app::TechniqueResult StressTestBench::render_technique(const app::Request& request) {
-    app::Session session(bench_engine_, request.scene);
-    app::FrameLoop frames(session, request);
+session::TechniqueResult StressTestBench::render_technique(const session::Request& request) {
+    session::Session session(bench_engine_, request.scene);
+    session::FrameLoop frames(session, request);
     while (frames.render_next()) throw_if_stopped(watcher_);
     return frames.current_frame().read();
 }
 
 std::string StressTestBench::fit_captures(const std::string& technique) const {
     if (!has_small_pictures()) return technique;
-    const std::vector<app::TechniqueInfo> infos = app::techniques();
+    const std::vector<session::TechniqueInfo> infos = session::techniques();
     const auto info = std::ranges::find(infos, technique.substr(0, technique.find(':')),
-                                        &app::TechniqueInfo::name);
+                                        &session::TechniqueInfo::name);
     if (info == infos.end()) return technique;
     std::string fitted = technique;
     for (const auto& [knob, texels] : {std::pair("face", "64"), std::pair("shadow_map", "256")}) {
-        const bool is_knob = std::ranges::find(info->knobs, knob, &app::KnobInfo::name) !=
+        const bool is_knob = std::ranges::find(info->knobs, knob, &session::KnobInfo::name) !=
                              info->knobs.end();
         if (!is_knob || technique.find(std::string(knob) + "=") != technique.npos) continue;
         fitted += (fitted.find(':') == fitted.npos ? ":" : ",") + std::string(knob) + "=" + texels;
@@ -78,13 +79,14 @@ std::string StressTestBench::fit_captures(const std::string& technique) const {
     return fitted;
 }
 
-void StressTestBench::plan_stress_technique(const app::Request& request) {
-    app::Session session(bench_engine_, request.scene);
-    app::Access::format_frame_plan(session, request, app::GraphPlanFormat::text);
+void StressTestBench::plan_stress_technique(const session::Request& request) {
+    session::Session session(bench_engine_, request.scene);
+    session::Access::format_frame_plan(session, request, session::GraphPlanFormat::text);
 }
 
-void StressTestBench::add_mean_flip_case(const std::string& what, const app::TechniqueResult& found,
-                                         const app::TechniqueResult& wanted, double limit,
+void StressTestBench::add_mean_flip_case(const std::string& what,
+                                         const session::TechniqueResult& found,
+                                         const session::TechniqueResult& wanted, double limit,
                                          const std::string& seen) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
     row_.cases.push_back({what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit,
@@ -97,7 +99,7 @@ void StressTestBench::add_mean_flip_case(const std::string& what, const app::Tec
 }
 
 void StressTestBench::add_nonfinite_pixel_case(const std::string& what,
-                                               const app::TechniqueResult& part) {
+                                               const session::TechniqueResult& part) {
     add_measured_case(what + ": pixels that are no numbers",
                       static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
 }

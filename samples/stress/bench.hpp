@@ -14,25 +14,25 @@ namespace catoptric::stress {
 /// row.
 class StressTestBench {
 public:
-    StressTestBench(app::Engine& engine, const app::Watcher& watcher, uvec2 size,
+    StressTestBench(session::Engine& engine, const session::Watcher& watcher, uvec2 size,
                     std::uint64_t seed, report::StressRow& row)
         : bench_engine_(engine), watcher_(watcher), size_(size), random_(seed), row_(row) {}
 
     /// Returns a request for the scene as its first camera sees it, for the picture after `frames`
     /// frames at rest. These are defaults: a property may change any field.
-    app::Request make_stress_request(const scene::Scene& scene, const std::string& technique,
-                                     int frames = 4) const;
-    app::TechniqueResult render_technique(const app::Request& request);
+    session::Request make_stress_request(const scene::Scene& scene, const std::string& technique,
+                                         int frames = 4) const;
+    session::TechniqueResult render_technique(const session::Request& request);
     /// Renders one frame of a property's own loop. Throws if the user stopped the run.
-    app::Frame render_frame(app::Session& session, const app::FrameSpec& spec,
-                            const app::FrameHooks& hooks = {}) {
+    session::Frame render_frame(session::Session& session, const session::FrameSpec& spec,
+                                const session::FrameHooks& hooks = {}) {
         throw_if_stopped(watcher_);
-        return app::Access::render_frame(session, spec, hooks);
+        return session::Access::render_frame(session, spec, hooks);
     }
     /// Compiles the plan of the request's frame without rendering.
-    void plan_stress_technique(const app::Request& request);
-    app::TechniqueResult render_technique(const scene::Scene& scene, const std::string& technique,
-                                          int frames = 4) {
+    void plan_stress_technique(const session::Request& request);
+    session::TechniqueResult render_technique(const scene::Scene& scene,
+                                              const std::string& technique, int frames = 4) {
         return render_technique(make_stress_request(scene, fit_captures(technique), frames));
     }
 
@@ -54,11 +54,11 @@ public:
     }
     /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit. With
     /// `seen` the case only warns, as add_warning_case.
-    void add_mean_flip_case(const std::string& what, const app::TechniqueResult& found,
-                            const app::TechniqueResult& wanted, double limit,
+    void add_mean_flip_case(const std::string& what, const session::TechniqueResult& found,
+                            const session::TechniqueResult& wanted, double limit,
                             const std::string& seen = {});
     /// Adds the number of pixels that are NaN or infinite, with limit 0.
-    void add_nonfinite_pixel_case(const std::string& what, const app::TechniqueResult& part);
+    void add_nonfinite_pixel_case(const std::string& what, const session::TechniqueResult& part);
     /// Adds a part that the device does not allow. It is reported and has no measured value.
     void add_skipped_part(std::string what, const Error& error) {
         row_.not_run.push_back({std::move(what), error.what()});
@@ -76,7 +76,7 @@ public:
     /// property.
     bool is_error_that_ends_run(const Error& error) const;
 
-    app::Engine& bench_engine() { return bench_engine_; }
+    session::Engine& bench_engine() { return bench_engine_; }
     uvec2 picture_size() const { return size_; }
     /// Returns the picture size with both edges raised to `edge`, for figures that are shares or
     /// means of few pixels: in smaller pictures they would measure chance.
@@ -87,8 +87,8 @@ public:
     }
 
 private:
-    app::Engine& bench_engine_;
-    const app::Watcher& watcher_;
+    session::Engine& bench_engine_;
+    const session::Watcher& watcher_;
     uvec2 size_;
     std::mt19937_64 random_;
     report::StressRow& row_;

@@ -28,10 +28,10 @@ struct FurnaceMeasurement {
 
 FurnaceMeasurement measure_picture_in_furnace(StressTestBench& bench, const scene::Scene& scene,
                                               const std::string& technique, int frames) {
-    app::Request request = bench.make_stress_request(scene, technique, frames);
+    session::Request request = bench.make_stress_request(scene, technique, frames);
     request.ambient = 0;
     request.size = bench.picture_size_of_at_least(128); // .0001 of the pixels is one
-    const app::TechniqueResult part = bench.render_technique(request);
+    const session::TechniqueResult part = bench.render_technique(request);
     FurnaceMeasurement seen;
     for (const vec3& pixel : part.hdr.pixels) {
         seen.dark += !(pixel.x >= .998f);
@@ -72,7 +72,7 @@ void judge_vanishing_ball(StressTestBench& bench) {
                                                    {"radius 1e-9", dvec3(1e-9)},
                                                    {"flattened", dvec3(1e-7, 1e-7, 1e-12)}};
     for (const std::string technique : {"raytrace", "parallax", "pyramid"}) {
-        const app::TechniqueResult without = bench.render_technique(scene, technique);
+        const session::TechniqueResult without = bench.render_technique(scene, technique);
         for (const auto& [what, size] : sizes) {
             scene::Scene with = scene;
             add_stress_ball(with, mirror, {place, 1});
@@ -100,7 +100,7 @@ void judge_many_mirrors(StressTestBench& bench) {
         const std::string what = std::to_string(mirrors) + " mirrors";
         try {
             const int frames = bench.has_small_pictures() ? 1 : 2;
-            const app::TechniqueResult part = bench.render_technique(
+            const session::TechniqueResult part = bench.render_technique(
                 scene, "reuse:face=8,shadow=none", frames);
             bench.add_nonfinite_pixel_case(what, part);
             bench.add_measured_case(what + ": passes off N + 1",
@@ -119,20 +119,20 @@ void judge_many_mirrors(StressTestBench& bench) {
 void judge_face_sizes(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 1);
     const auto render = [&](const std::string& technique, int frames = 4) {
-        app::Request request = bench.make_stress_request(scene, technique, frames);
+        session::Request request = bench.make_stress_request(scene, technique, frames);
         request.size = bench.picture_size_of_at_least(64);
         return bench.render_technique(request);
     };
-    const app::TechniqueResult truth = render("raytrace");
+    const session::TechniqueResult truth = render("raytrace");
     const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
-    const auto mean_of = [&](const app::TechniqueResult& part) {
+    const auto mean_of = [&](const session::TechniqueResult& part) {
         return measure::mean_of(part.hdr, measure::ValueRange::clamped, mirrors).all;
     };
     const double wanted = mean_of(truth);
     for (const char* face : {"1", "2", "3"})
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
             const std::string text = technique + ":face=" + face;
-            const app::TechniqueResult part = render(text);
+            const session::TechniqueResult part = render(text);
             bench.add_nonfinite_pixel_case(text, part);
             // With captures of a few texels, it depends on chance whether a texel sees the lamp.
             const double mean = mean_of(part);
@@ -144,37 +144,37 @@ void judge_face_sizes(StressTestBench& bench) {
         }
     // A large capture must show the same picture as a small one. The plan of the frame states
     // whether the device has enough memory.
-    const app::TechniqueResult usual = render("naive:bounces=1,face=1024", 1);
+    const session::TechniqueResult usual = render("naive:bounces=1,face=1024", 1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
-            const app::Request request = bench.make_stress_request(scene, technique + face, 1);
+            const session::Request request = bench.make_stress_request(scene, technique + face, 1);
             if (!bench.add_case_of_success_or_refusal(
                     technique + face + " planned", [&] { bench.plan_stress_technique(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
-            const app::TechniqueResult large = render(technique + face, 1);
+            const session::TechniqueResult large = render(technique + face, 1);
             if (technique.starts_with("naive"))
                 bench.add_mean_flip_case(technique + face, large, usual, .01);
             else
                 bench.add_nonfinite_pixel_case(technique + face, large);
         }
     bench.add_expected_error("face=32769", Failure::usage, "16384",
-                             [] { app::parse_technique("parallax:face=32769"); });
+                             [] { session::parse_technique("parallax:face=32769"); });
 }
 
 /// Moves ball 4 through its whole path and compares adjacent frames.
 void judge_moving_ball(StressTestBench& bench) {
     constexpr int kWarmupFrames = 8, kPathFrames = 120;
     constexpr double kMotionPathSeconds = 4;
-    app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(),
-                                                     bench.fit_captures("parallax:face=128"), 1);
+    session::Request request = bench.make_stress_request(
+        scene::make_cornell_mirrors(), bench.fit_captures("parallax:face=128"), 1);
     request.size = bench.picture_size_of_at_least(128);
-    app::Session session(bench.bench_engine(), request.scene);
+    session::Session session(bench.bench_engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;
     for (int k = 1; k <= kWarmupFrames + kPathFrames; ++k) {
         request.time = kMotionPathSeconds * (k - 1) / kPathFrames;
-        const app::Frame frame = bench.render_frame(session, request);
+        const session::Frame frame = bench.render_frame(session, request);
         if (k < kWarmupFrames) continue;
         measure::Picture now = frame.read().display;
         if (k > kWarmupFrames) steps.push_back(measure::flip_mean(measure::flip(now, last)));
@@ -187,13 +187,14 @@ void judge_moving_ball(StressTestBench& bench) {
 
 void judge_parallax_correction(StressTestBench& bench) {
     const auto contract = [&](const std::string& technique, int frames) {
-        app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(), technique,
-                                                         frames);
+        session::Request request = bench.make_stress_request(scene::make_cornell_mirrors(),
+                                                             technique, frames);
         request.size = {512, 512}; // ball 4 is only about 30 pixels wide at half this size
         return bench.render_technique(request);
     };
-    const app::TechniqueResult truth = contract("raytrace:depth=16", 1),
-                               plain = contract("reuse", 8), corrected = contract("parallax", 8);
+    const session::TechniqueResult truth = contract("raytrace:depth=16", 1),
+                                   plain = contract("reuse", 8),
+                                   corrected = contract("parallax", 8);
     const std::vector<float> no_flip(truth.hdr.pixels.size());
     const auto share = [&](const measure::Mask& mask) {
         return measure::difference(corrected.hdr, truth.hdr, mask, no_flip).rmse /

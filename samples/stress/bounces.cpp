@@ -27,7 +27,8 @@ struct TracedBouncePictures {
     measure::Mask mirrors;
 };
 
-TracedBouncePictures render_bounces(StressTestBench& bench, app::Request request, int face = 128) {
+TracedBouncePictures render_bounces(StressTestBench& bench, session::Request request,
+                                    int face = 128) {
     const auto render = [&](const std::string& technique) {
         request.techniques = {technique};
         return bench.render_technique(request);
@@ -69,7 +70,7 @@ void add_case_of_falling_differences(StressTestBench& bench, const std::string& 
 }
 
 void judge_cornell_bounces(StressTestBench& bench) {
-    app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(), "naive", 1);
+    session::Request request = bench.make_stress_request(scene::make_cornell_mirrors(), "naive", 1);
     request.size = uvec2(bench.has_small_pictures() ? kMinBouncePictureEdge : 512);
     add_case_of_falling_differences(
         bench, "the report's room",
@@ -93,7 +94,7 @@ double compute_added_light(const TracedBouncePictures& bounces, std::size_t k) {
 /// random, and so is an rmse, which a few bright pixels decide. Only the light that bounce 4 adds
 /// is judged.
 void judge_small_ball_bounces(StressTestBench& bench) {
-    app::Request request = bench.make_stress_request(make_stress_room(bench, 4), "naive", 1);
+    session::Request request = bench.make_stress_request(make_stress_room(bench, 4), "naive", 1);
     request.size = bench.picture_size_of_at_least(kMinBouncePictureEdge);
     const TracedBouncePictures bounces = render_bounces(bench, request);
     compute_bounce_differences(bench, "a room", bounces);
@@ -139,7 +140,7 @@ struct MirrorWedge {
 /// reflectance.
 void judge_mirror_wedge(StressTestBench& bench) {
     const MirrorWedge wedge{bench.draw_random_number(.2, .3), bench.draw_random_number(.05, .08)};
-    app::Request request = bench.make_stress_request(
+    session::Request request = bench.make_stress_request(
         wedge.make_wedge_scene({bench.draw_random_number(-.1, .1),
                                 bench.draw_random_number(-.2, .2),
                                 bench.draw_random_number(-.9, -.7)}),

@@ -38,13 +38,13 @@ scene::Scene make_room_with_one_mirror(std::size_t mirror) {
 /// them.
 render::CapturedCubes render_and_read_captures(StressTestBench& bench, const scene::Scene& scene,
                                                std::uint32_t edge, TexelFormat format) {
-    app::Request request = bench.make_stress_request(
+    session::Request request = bench.make_stress_request(
         scene,
         fmt::format("parallax:shadow=none,face={},distance={}", edge, texel_format_name(format)));
     request.size = {16, 16};
     request.ambient = 0;
-    app::Session session(bench.bench_engine(), scene);
-    return app::Access::read_captures(
+    session::Session session(bench.bench_engine(), scene);
+    return session::Access::read_captures(
         bench.render_frame(session, request, {.with_captures = true}));
 }
 
@@ -180,7 +180,7 @@ void judge_seams_at_cube_edges(StressTestBench& bench) {
         wanted[along] = bench.draw_random_number(-1, 1);
         wanted[(along + 1) % 3] = edge & 1 ? 1 : -1;
         wanted[(along + 2) % 3] = edge & 2 ? 1 : -1;
-        app::Request request = bench.make_stress_request(
+        session::Request request = bench.make_stress_request(
             scene, fmt::format("naive:bounces=1,shadow=none,face={}", kCaptureFaceEdge), 1);
         request.camera = make_camera_along(normalize(wanted));
         request.size = kCaptureTestPictureSize;

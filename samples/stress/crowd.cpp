@@ -58,10 +58,10 @@ void judge_mirrors_in_cells(StressTestBench& bench) {
     std::vector<std::string> techniques{"raytrace:depth=1", "reuse:face=8"};
     if (!bench.has_small_pictures()) techniques.push_back("parallax:face=8");
     for (const std::string& technique : techniques) {
-        app::Request request = bench.make_stress_request(scene, technique, 1);
+        session::Request request = bench.make_stress_request(scene, technique, 1);
         request.size = kCrowdPictureSize;
         request.ambient = 1;
-        const app::TechniqueResult part = bench.render_technique(request);
+        const session::TechniqueResult part = bench.render_technique(request);
         if (hits.empty()) hits = part.hits;
         std::vector<int> own(std::size_t{kBallsPerEdge} * kBallsPerEdge);
         for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 /// half.
 double count_saturated_capture_texels(StressTestBench& bench, const scene::Scene& scene,
                                       const std::string& technique) {
-    app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique));
+    session::Request request = bench.make_stress_request(scene, bench.fit_captures(technique));
     request.with_lookup = true;
     return double(bench.render_technique(request).saturated.value());
 }
@@ -29,19 +29,19 @@ constexpr int kFramesBeforeLampRemoval = 4,
 
 void judge_lamp_removal(StressTestBench& bench, const scene::Scene& lit, const scene::Scene& dark,
                         std::size_t lamp, const std::string& technique, const std::string& what) {
-    const app::Request request = bench.make_stress_request(lit, bench.fit_captures(technique));
+    const session::Request request = bench.make_stress_request(lit, bench.fit_captures(technique));
     const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
-    app::Session session(bench.bench_engine(), lit);
-    app::TechniqueResult soon, late;
+    session::Session session(bench.bench_engine(), lit);
+    session::TechniqueResult soon, late;
     for (int k = 1; k <= kFrameLongAfterLampRemoval; ++k) {
         if (k == kFramesBeforeLampRemoval + 1) session.change(out);
-        const app::Frame frame = bench.render_frame(session, request);
+        const session::Frame frame = bench.render_frame(session, request);
         if (k == kFramesBeforeLampRemoval)
             bench.add_nonfinite_pixel_case(what + ", with it", frame.read());
         if (k == kFrameSoonAfterLampRemoval) soon = frame.read();
         if (k == kFrameLongAfterLampRemoval) late = frame.read();
     }
-    app::Session untouched(bench.bench_engine(), dark);
+    session::Session untouched(bench.bench_engine(), dark);
     measure::Picture wanted;
     for (int k = 1; k <= kFrameLongAfterLampRemoval; ++k)
         wanted = bench.render_frame(untouched, request).hdr();
@@ -85,8 +85,8 @@ void judge_bright_emission(StressTestBench& bench) {
     dim.materials.front().albedo = vec3(1e-40f);
     black.materials.front().albedo = vec3(0);
     for (const std::string technique : {"raytrace", "pyramid"}) {
-        const app::TechniqueResult found = bench.render_technique(dim, technique),
-                                   wanted = bench.render_technique(black, technique);
+        const session::TechniqueResult found = bench.render_technique(dim, technique),
+                                       wanted = bench.render_technique(black, technique);
         double most = 0;
         for (std::size_t i = 0; i < found.hdr.pixels.size(); ++i) {
             const dvec3 off = abs(dvec3(found.hdr.pixels[i]) - dvec3(wanted.hdr.pixels[i]));

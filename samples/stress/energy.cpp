@@ -14,16 +14,17 @@ namespace {
 
 const std::vector<MirrorBall> kTwoMirrorBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.5}, 1.2}};
 
-app::TechniqueResult render_without_ambient(StressTestBench& bench, const scene::Scene& scene,
-                                            const std::string& technique, int frames) {
-    app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique), frames);
+session::TechniqueResult render_without_ambient(StressTestBench& bench, const scene::Scene& scene,
+                                                const std::string& technique, int frames) {
+    session::Request request = bench.make_stress_request(scene, bench.fit_captures(technique),
+                                                         frames);
     request.ambient = 0;
     return bench.render_technique(request);
 }
 
 void judge_white_furnace(StressTestBench& bench) {
     const scene::Scene scene = make_white_furnace_scene(kTwoMirrorBalls);
-    for (const app::TechniqueInfo& technique : app::techniques())
+    for (const session::TechniqueInfo& technique : session::techniques())
         bench.add_measured_case(
             technique.name + ": brightest of 1",
             find_brightest_channel(render_without_ambient(bench, scene, technique.name, 8).hdr),
@@ -45,11 +46,12 @@ void judge_white_furnace(StressTestBench& bench) {
 /// from one place only. A pixel may therefore show another number of reflections than ray tracing,
 /// which counts as a loss of quality and not as an error. Additional light would be an error.
 void judge_corridor_captures(StressTestBench& bench, const scene::Scene& scene) {
-    const app::TechniqueResult truth = render_without_ambient(bench, scene, "raytrace:depth=16", 1);
+    const session::TechniqueResult truth = render_without_ambient(bench, scene, "raytrace:depth=16",
+                                                                  1);
     for (const std::string technique :
          {"reuse", "parallax", "secant:continue=8", "march:continue=8", "pyramid:continue=8",
           "layered:continue=8", "hybrid:continue=8"}) {
-        const app::TechniqueResult part = render_without_ambient(bench, scene, technique, 8);
+        const session::TechniqueResult part = render_without_ambient(bench, scene, technique, 8);
         std::size_t off = 0;
         for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
             off += !(std::abs(part.hdr.pixels[i].x - truth.hdr.pixels[i].x) <=

@@ -18,7 +18,7 @@ constexpr double kMaxEqualFlip = .001; // largest FLIP of pictures that count as
 void judge_stray_triangle(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 3);
     for (const char* technique : kComparedTechniques) {
-        const app::TechniqueResult plain = bench.render_technique(scene, technique);
+        const session::TechniqueResult plain = bench.render_technique(scene, technique);
         for (const double distance : {1e2, 1e4, 1e6, 1e9}) {
             scene::Scene with = scene;
             const dvec3 at(distance, 0, distance);
@@ -81,9 +81,9 @@ void judge_tiny_ball(StressTestBench& bench) {
     add_stress_ball(scene, mirror, {centre, 1e-3});
     scene.cameras = {
         {.eye = centre + dvec3(1e-3, 2e-3, -6e-3), .target = centre, .vertical_fov_degrees = 30}};
-    const app::Request request = bench.make_stress_request(scene, "raytrace:sphere=exact");
+    const session::Request request = bench.make_stress_request(scene, "raytrace:sphere=exact");
     const DoublePrecisionTracer tracer(scene, request.ambient);
-    app::TechniqueResult wanted;
+    session::TechniqueResult wanted;
     wanted.hdr = measure::Picture(static_cast<int>(request.size.x),
                                   static_cast<int>(request.size.y));
     for (std::uint32_t y = 0; y < request.size.y; ++y)

@@ -26,9 +26,9 @@ double max_channel_difference(const dvec3& a, const dvec3& b) {
 
 /// Returns the share of pixels that differ from the double tracer by more than
 /// kMaxChannelDifference.
-double share_of_pixels_unlike_double_tracer(const app::TechniqueResult& part,
+double share_of_pixels_unlike_double_tracer(const session::TechniqueResult& part,
                                             const scene::Scene& scene,
-                                            const app::Request& request) {
+                                            const session::Request& request) {
     const DoublePrecisionTracer tracer(scene, request.ambient);
     std::size_t off = 0;
     for (std::uint32_t y = 0; y < request.size.y; ++y)
@@ -77,8 +77,8 @@ scene::Camera make_narrow_camera(const scene::Scene& scene, double ambient, int&
 }
 
 /// Returns the share of pixels without a mirror in which two pictures differ.
-double share_of_pixels_differing_off_mirrors(const app::TechniqueResult& drawn,
-                                             const app::TechniqueResult& traced) {
+double share_of_pixels_differing_off_mirrors(const session::TechniqueResult& drawn,
+                                             const session::TechniqueResult& traced) {
     std::size_t off = 0, seen = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -102,13 +102,14 @@ void judge_eye_placement(StressTestBench& bench) {
     for (const TestedEyePlacement& eye : {TestedEyePlacement{"1e-3 above the floor", low},
                                           {"field of view .01", narrow},
                                           {"field of view 179.9", wide}}) {
-        app::Request request = bench.make_stress_request(scene, "raytrace:sphere=exact,depth=16");
+        session::Request request = bench.make_stress_request(scene,
+                                                             "raytrace:sphere=exact,depth=16");
         request.camera = eye.camera;
         const auto render = [&](const std::string& technique) {
             request.techniques = {technique};
             return bench.render_technique(request);
         };
-        const app::TechniqueResult traced = render("raytrace:sphere=exact,depth=16");
+        const session::TechniqueResult traced = render("raytrace:sphere=exact,depth=16");
         bench.add_nonfinite_pixel_case(fmt::format("{}, raytrace", eye.what), traced);
         bench.add_measured_case(
             fmt::format("{}, raytrace: share of pixels more than .01 off a reference in doubles",

@@ -37,18 +37,18 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         {"on the surface, looking at it", eye(1, -out), false}};
     for (const TestedEyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
-            app::Request request = bench.make_stress_request(scene, technique);
+            session::Request request = bench.make_stress_request(scene, technique);
             request.size = bench.picture_size_of_at_least(64);
             request.camera = place.camera;
             return bench.render_technique(request);
         };
-        const app::TechniqueResult traced = render("raytrace:depth=16");
+        const session::TechniqueResult traced = render("raytrace:depth=16");
         if (place.inside)
             bench.add_measured_case(fmt::format("{}, raytrace: brightest of 0", place.what),
                                     find_brightest_channel(traced.hdr), 0);
         // The correction by one distance fails where a ball fills the picture and something stands
         // before the wall that it reflects.
-        const app::TechniqueResult corrected = render("parallax");
+        const session::TechniqueResult corrected = render("parallax");
         bench.add_mean_flip_case(fmt::format("{}, parallax", place.what), corrected, traced, .03,
                                  place.inside
                                      ? ""
@@ -57,13 +57,13 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         for (const std::string technique : {"pyramid", "hybrid"})
             bench.add_mean_flip_case(fmt::format("{}, {}", place.what, technique),
                                      render(technique), traced, .03);
-        const app::TechniqueResult plain = render("reuse");
+        const session::TechniqueResult plain = render("reuse");
         if (place.inside)
             bench.add_mean_flip_case(fmt::format("{}, reuse", place.what), plain, traced, .03);
         // From outside, a look-up without parallax correction is wrong for every camera, and most
         // wrong if the ball fills the picture.
         else {
-            const auto error = [&](const app::TechniqueResult& part) {
+            const auto error = [&](const session::TechniqueResult& part) {
                 return measure::flip_mean(measure::flip(part.display, traced.display));
             };
             bench.add_warning_case(
@@ -89,14 +89,14 @@ void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);
     for (const std::string technique : {"raytrace", "parallax"}) {
-        app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique),
-                                                         kSettlingFrames);
+        session::Request request = bench.make_stress_request(scene, bench.fit_captures(technique),
+                                                             kSettlingFrames);
         request.camera = camera;
-        app::Session session(bench.bench_engine(), scene);
+        session::Session session(bench.bench_engine(), scene);
         int wrong = 0, inside = 0;
         for (int k = 0; k < kSettlingFrames; ++k) {
             request.time = double(k) / kSettlingFrames;
-            const app::Frame frame = bench.render_frame(session, request);
+            const session::Frame frame = bench.render_frame(session, request);
             const scene::Scene now = scene::scene_at_time(scene, request.time);
             const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
                                          object.sphere->radius;

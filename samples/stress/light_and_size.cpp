@@ -54,8 +54,8 @@ void judge_lamp_position(StressTestBench& bench) {
         if (dark.materials[object.material].emission != vec3(0))
             dark.materials[object.material].emission = vec3(0);
     for (const std::string technique : {"raytrace", "reuse"}) {
-        const app::TechniqueResult a = bench.render_technique(away, technique),
-                                   b = bench.render_technique(dark, technique);
+        const session::TechniqueResult a = bench.render_technique(away, technique),
+                                       b = bench.render_technique(dark, technique);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i)
             differ += a.hdr.pixels[i] != b.hdr.pixels[i] &&
@@ -68,7 +68,7 @@ void judge_picture_sizes(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
         for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-            app::Request request = bench.make_stress_request(scene, technique, 2);
+            session::Request request = bench.make_stress_request(scene, technique, 2);
             request.size = size;
             bench.add_nonfinite_pixel_case(fmt::format("{}x{}, {}", size.x, size.y, technique),
                                            bench.render_technique(request));
@@ -76,24 +76,24 @@ void judge_picture_sizes(StressTestBench& bench) {
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
         bench.add_expected_error(
             fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1", [&] {
-                app::Request request = bench.make_stress_request(scene, "raytrace");
+                session::Request request = bench.make_stress_request(scene, "raytrace");
                 request.size = size;
                 bench.render_technique(request);
             });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
         bench.add_expected_error(
             fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_", [&] {
-                app::Request request = bench.make_stress_request(scene, "raytrace");
+                session::Request request = bench.make_stress_request(scene, "raytrace");
                 request.size = size;
                 bench.plan_stress_technique(request);
             });
     for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-        app::Request request = bench.make_stress_request(scene, technique, 1);
+        session::Request request = bench.make_stress_request(scene, technique, 1);
         request.size = {16384, 16384};
         bench.add_case_of_success_or_refusal("16384x16384, " + technique + ", planned",
                                              [&] { bench.plan_stress_technique(request); });
     }
-    app::Request large = bench.make_stress_request(scene, "raytrace", 1);
+    session::Request large = bench.make_stress_request(scene, "raytrace", 1);
     large.size = uvec2(bench.has_small_pictures() ? 2048 : 4096);
     bench.add_nonfinite_pixel_case(fmt::format("{0}x{0}, raytrace", large.size.x),
                                    bench.render_technique(large));
@@ -140,7 +140,7 @@ void judge_triangle_counts(StressTestBench& bench) {
                     9); // 4^10 triangles
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
-            const app::TechniqueResult part = bench.render_technique(scene, technique, 2);
+            const session::TechniqueResult part = bench.render_technique(scene, technique, 2);
             bench.add_nonfinite_pixel_case(what + ", " + technique, part);
             double bright = 0;
             for (const vec3& pixel : part.hdr.pixels) bright += pixel.x > .5f;
@@ -154,7 +154,7 @@ void judge_triangle_counts(StressTestBench& bench) {
     const bool on_processor = bench.bench_engine().device().type == "cpu";
     const auto start = std::chrono::steady_clock::now();
     const std::clock_t start_of_processor = std::clock();
-    const app::TechniqueResult part = bench.render_technique(many, "raytrace", 1);
+    const session::TechniqueResult part = bench.render_technique(many, "raytrace", 1);
     // On a processor, other programs change the elapsed time.
     const double seconds =
         on_processor
@@ -175,7 +175,7 @@ void judge_triangle_counts(StressTestBench& bench) {
     add_mesh(ten, make_rippled_grid(2237),
              add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
     bench.add_case_of_success_or_refusal("10,008,338 triangles, raytrace", [&] {
-        const app::TechniqueResult seen = bench.render_technique(ten, "raytrace", 1);
+        const session::TechniqueResult seen = bench.render_technique(ten, "raytrace", 1);
         bench.add_nonfinite_pixel_case("10,008,338 triangles, raytrace", seen);
         bench.add_measured_case(
             "10,008,338 triangles, raytrace: pixels of the middle that show none",

@@ -21,7 +21,7 @@ void compare_scene_under_transforms(StressTestBench& bench,
                                     double traced, double cubes) {
     const scene::Scene scene = make_stress_room(bench, 3);
     const auto with = [&](const std::string& technique, double limit) {
-        const app::TechniqueResult plain = bench.render_technique(scene, technique);
+        const session::TechniqueResult plain = bench.render_technique(scene, technique);
         for (const auto& [what, root] : roots)
             bench.add_mean_flip_case(
                 technique + ", " + what,
@@ -63,7 +63,7 @@ void judge_mirrored_scene(StressTestBench& bench) {
     dmat4 root(1);
     root[0][0] = -1;
     for (const std::string technique : {"raytrace", "pyramid"}) {
-        app::TechniqueResult plain = bench.render_technique(scene, technique);
+        session::TechniqueResult plain = bench.render_technique(scene, technique);
         for (int y = 0; y < plain.display.height; ++y)
             for (int x = 0; x < plain.display.width / 2; ++x)
                 std::swap(plain.display.at(x, y), plain.display.at(plain.display.width - 1 - x, y));
@@ -83,8 +83,8 @@ void judge_distant_walls(StressTestBench& bench) {
         add_stress_ball(scene, mirror, {{0, 0, 0}, 1});
         scene.cameras.front() = {
             .eye = {.5, .3, -6}, .target = {0, 0, 0}, .vertical_fov_degrees = 30};
-        const app::TechniqueResult plain = bench.render_technique(scene, "reuse"),
-                                   corrected = bench.render_technique(scene, "parallax");
+        const session::TechniqueResult plain = bench.render_technique(scene, "reuse"),
+                                       corrected = bench.render_technique(scene, "parallax");
         const std::string what = fmt::format("{} wide", width);
         bench.add_nonfinite_pixel_case(what, corrected);
         bench.add_mean_flip_case(what + ", parallax against reuse", corrected, plain, .0005);

@@ -76,7 +76,7 @@ double mean_of_picture(const measure::Picture& picture) {
 void judge_rough_energy(StressTestBench& bench) {
     judge_lobe_energy(bench);
     const auto render = [&](const scene::Scene& scene, const char* technique) {
-        app::Request request = bench.make_stress_request(scene, technique, 3);
+        session::Request request = bench.make_stress_request(scene, technique, 3);
         request.size = {96, 96};
         request.ambient = 0;
         return bench.render_technique(request).hdr;

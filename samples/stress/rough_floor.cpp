@@ -67,7 +67,7 @@ scene::Scene make_rough_floor(const scene::Material& material, double degrees, b
 
 std::array<double, kFloorStripRoughness.size()>
 measure_strips(StressTestBench& bench, const scene::Scene& floor, const std::string& technique) {
-    app::Request request = bench.make_stress_request(floor, technique, 2);
+    session::Request request = bench.make_stress_request(floor, technique, 2);
     request.size = kFloorPictureSize;
     request.ambient = 0;
     const measure::Picture picture = bench.render_technique(request).hdr;

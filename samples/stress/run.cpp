@@ -24,7 +24,7 @@ report::StressVerdict judge_stress_row(const report::StressRow& row) {
     return looks_worse ? report::StressVerdict::quality_warning : report::StressVerdict::pass;
 }
 
-report::StressRow judge_stress_property(app::Engine& engine, const StressRequest& request,
+report::StressRow judge_stress_property(session::Engine& engine, const StressRequest& request,
                                         const StressProperty& property) {
     report::StressRow row{std::string(property.id),
                           std::string(property.stimulus),
@@ -61,18 +61,18 @@ report::StressRow judge_stress_property(app::Engine& engine, const StressRequest
 
 } // namespace
 
-report::StressResults run_stress_properties(app::Engine& engine, const StressRequest& request) {
-    const app::WatchedWork watched(request.watcher);
+report::StressResults run_stress_properties(session::Engine& engine, const StressRequest& request) {
+    const session::WatchedWork watched(request.watcher);
     std::vector<const StressProperty*> chosen;
     for (const std::string& id : request.only) chosen.push_back(&find_stress_property(id));
     if (chosen.empty()) chosen = list_stress_properties();
-    report::StressResults stress{app::version(),
-                                 app::commit(),
+    report::StressResults stress{session::version(),
+                                 session::commit(),
                                  request.command,
                                  false,
                                  chosen.size(),
                                  {},
-                                 app::make_device_facts(engine),
+                                 session::make_device_facts(engine),
                                  static_cast<int>(request.size.x),
                                  static_cast<int>(request.size.y),
                                  request.seed,

@@ -11,7 +11,7 @@ struct StressRequest {
     uvec2 size{256, 256};
     std::uint64_t seed = 1; ///< seed of the scenes, which are made for the run
     std::vector<std::string> command;
-    app::Watcher watcher; ///< receives progress; a property counts as a row
+    session::Watcher watcher; ///< receives progress; a property counts as a row
     /// Called after each property with the results so far, which are not `complete`. May be empty.
     std::function<void(const report::StressResults&)> on_finished_row;
 };
@@ -21,6 +21,6 @@ struct StressRequest {
 /// that text and no measured value. An error that ends the run (a signal, a lost device, no memory,
 /// `on_finished_row`) is stored in `stopped` of the rows so far. Without any row such an error is
 /// thrown unless it was a signal. Throws `usage` for an unknown id.
-report::StressResults run_stress_properties(app::Engine& engine, const StressRequest& request);
+report::StressResults run_stress_properties(session::Engine& engine, const StressRequest& request);
 
 } // namespace catoptric::stress

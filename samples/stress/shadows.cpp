@@ -110,7 +110,7 @@ double find_farthest_wrong_pixel(const std::vector<ShadowSample>& spots,
 ShadowedPicture render_with_and_without_board(StressTestBench& bench, const scene::Scene& scene,
                                               const std::string& with, const std::string& without) {
     const auto render = [&](const std::string& technique) {
-        app::Request request = bench.make_stress_request(scene, technique, 1);
+        session::Request request = bench.make_stress_request(scene, technique, 1);
         request.ambient = 0; // without ambient light, only the lamp lights the plane
         return bench.render_technique(request).hdr;
     };
@@ -226,14 +226,17 @@ scene::Scene make_plane_lit_by_lamps(bool first, bool second) {
 /// plane, both shadows and their reflections in the ball.
 void judge_sum_of_lights(StressTestBench& bench) {
     const auto render = [&](const scene::Scene& scene, const std::string& technique) {
-        app::Request request = bench.make_stress_request(scene, technique, 2);
+        session::Request request = bench.make_stress_request(scene, technique, 2);
         request.ambient = 0;
         return bench.render_technique(request);
     };
     for (const std::string technique : {"raytrace", "reuse", "parallax", "pyramid", "layered"}) {
-        const app::TechniqueResult both = render(make_plane_lit_by_lamps(true, true), technique),
-                                   first = render(make_plane_lit_by_lamps(true, false), technique),
-                                   second = render(make_plane_lit_by_lamps(false, true), technique);
+        const session::TechniqueResult both = render(make_plane_lit_by_lamps(true, true),
+                                                     technique),
+                                       first = render(make_plane_lit_by_lamps(true, false),
+                                                      technique),
+                                       second = render(make_plane_lit_by_lamps(false, true),
+                                                       technique);
         double off = 0;
         std::size_t only_first = 0, only_second = 0;
         for (std::size_t i = 0; i < both.hdr.pixels.size(); ++i) {

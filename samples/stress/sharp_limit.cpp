@@ -60,12 +60,12 @@ void judge_sharp_limit(StressTestBench& bench) {
         const auto render = [&, &technique = technique,
                              &frames = frames](scene::Material material) {
             material.name = "smooth";
-            app::Request request = bench.make_stress_request(
+            session::Request request = bench.make_stress_request(
                 make_room_of_smooth_and_rough_objects(room, material), technique, frames);
             request.size = {96, 96};
             return bench.render_technique(request);
         };
-        const app::TechniqueResult wanted = render({.mirror = true});
+        const session::TechniqueResult wanted = render({.mirror = true});
         for (const float roughness : {0.f, 1e-8f, .01f, shared::kMaxSharpRoughness})
             bench.add_measured_case(
                 fmt::format("{}, roughness {}: largest difference from a perfect mirror", technique,

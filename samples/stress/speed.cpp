@@ -29,8 +29,8 @@ CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
                                                     const scene::Scene& scene,
                                                     const std::string& technique, int moving,
                                                     int resting) {
-    app::Request request = bench.make_stress_request(scene, bench.fit_captures(technique), 1);
-    app::Session session(bench.bench_engine(), scene);
+    session::Request request = bench.make_stress_request(scene, bench.fit_captures(technique), 1);
+    session::Session session(bench.bench_engine(), scene);
     CameraMotionMeasurement seen;
     for (int k = 1 - moving; k <= resting; ++k) {
         request.time = k < 1 ? .17 * (1 - k) : 0;

@@ -59,7 +59,7 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
     made.insert(made.end(), {"--camera", camera, "--time", fmt::format("{}", state.motion.time),
                              "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
                              fmt::format("{}", state.exposure), "--model",
-                             app::rendered_work_name(state.model), "-o", "view.png"});
+                             session::rendered_work_name(state.model), "-o", "view.png"});
     made.insert(made.end(), end, words.end());
     return made;
 }
@@ -70,7 +70,7 @@ std::string quote_for_shell(const std::string& word) {
         "0123456789_-+=:,./@%";
     const bool is_plain = !word.empty() &&
                           word.find_first_not_of(kUnquotedCharacters) == std::string::npos;
-    return is_plain ? word : app::quote_for_shell(word);
+    return is_plain ? word : session::quote_for_shell(word);
 }
 
 std::string make_render_command(const std::vector<std::string>& words, const ViewState& state,

@@ -42,7 +42,7 @@ ImGuiControls::~ImGuiControls() {
     ImGui::DestroyContext();
 }
 
-void ImGuiControls::upload_overlay_font(app::WindowScreen& screen) const {
+void ImGuiControls::upload_overlay_font(session::WindowScreen& screen) const {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
@@ -60,10 +60,10 @@ void ImGuiControls::begin(uvec2 window, const UserInput& inputs) {
     ImGui::NewFrame();
 }
 
-app::WindowOverlay ImGuiControls::end() {
+session::WindowOverlay ImGuiControls::end() {
     ImGui::Render();
     const ImDrawData& data = *ImGui::GetDrawData();
-    app::WindowOverlay overlay;
+    session::WindowOverlay overlay;
     for (int l = 0; l < data.CmdListsCount; ++l) {
         const ImDrawList& list = *data.CmdLists[l];
         const auto first_vertex = static_cast<std::uint32_t>(overlay.vertices.size());

@@ -94,8 +94,9 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
                                                                     : ComparisonPicture::other;
         break;
     case KeyAction::model:
-        state_.model = state_.model == app::RenderedWork::required ? app::RenderedWork::everything
-                                                                   : app::RenderedWork::required;
+        state_.model = state_.model == session::RenderedWork::required
+                           ? session::RenderedWork::everything
+                           : session::RenderedWork::required;
         break;
     case KeyAction::camera:
         select_camera(
@@ -134,7 +135,7 @@ void ViewLoop::perform_panel_requests(const PanelButtonRequests& wants) try {
 /// device, the current scene stays.
 void ViewLoop::load(const std::string& file) {
     const ViewOptions options = view_options_;
-    const app::Request request = request_;
+    const session::Request request = request_;
     const ViewState state = state_;
     try {
         const cli::CommonOptions defaults;

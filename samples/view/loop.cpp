@@ -43,7 +43,7 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
 void ViewLoop::start_audit() {
     audit_.reset();
     if (view_options_.audit.empty()) return;
-    app::AuditOptions options;
+    study::AuditOptions options;
     options.every = view_options_.audit_every;
     options.most_time = view_options_.audit_percent / 100;
     options.before_audit = [this] { viewer_->collect_finished_frames(0); };
@@ -61,7 +61,7 @@ void ViewLoop::audit_last_frame(const UserInput& inputs) {
     if (!audit_) return;
     if (viewer_->cut_count() != audited_cuts_) audit_->wait_until_settled();
     audited_cuts_ = viewer_->cut_count();
-    const app::AuditState audited = viewer_->audit_last_frame(*audit_, seconds_);
+    const study::AuditState audited = viewer_->audit_last_frame(*audit_, seconds_);
     if (audited.has_new_plan) state_.plan = parse_plan_text(audit_->plan());
     if (!audited.message.empty()) show_message(audited.message);
 }
@@ -79,12 +79,12 @@ uvec2 ViewLoop::initial_window_size() const {
 void ViewLoop::open(SceneChangeOrigin scene) {
     viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
-    const app::EngineOptions options = cli::make_engine_options(view_options_.common.device);
+    const session::EngineOptions options = cli::make_engine_options(view_options_.common.device);
     viewer_ = std::make_unique<SceneViewer>(window_, options, request_);
     controls_.upload_overlay_font(viewer_->window_screen());
     if (scene == SceneChangeOrigin::same) return; // the state stays the same
     cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.output_options);
-    app::resolve_auto_exposure(viewer_->viewer_session(), request_);
+    session::resolve_auto_exposure(viewer_->viewer_session(), request_);
     state_.camera = request_.camera;
     state_.exposure = request_.exposure;
     state_.motion.time = request_.time;
@@ -95,7 +95,7 @@ void ViewLoop::open(SceneChangeOrigin scene) {
 }
 
 /// Renders a frame of the state.
-void ViewLoop::render(const UserInput& inputs, app::WindowOverlay overlay) {
+void ViewLoop::render(const UserInput& inputs, session::WindowOverlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
     const uvec2 size = is_user_simulated() && is_first &&
                                state_.shows_panels == settings_.shows_panels
@@ -148,7 +148,7 @@ void ViewLoop::show_frame(const UserInput& inputs) {
     draw_control_panels(state_,
                         {request_.scene, *viewer_, entries_, period_, audit_ ? &*audit_ : nullptr},
                         last_, wants);
-    app::WindowOverlay overlay = controls_.end();
+    session::WindowOverlay overlay = controls_.end();
     perform_panel_requests(wants);
     render(inputs, std::move(overlay));
     ++frame_;

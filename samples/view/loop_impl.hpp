@@ -25,7 +25,7 @@ private:
     void load(const std::string& file);
     void start_audit();
     void show_frame(const UserInput& inputs);
-    void render(const UserInput& inputs, app::WindowOverlay overlay);
+    void render(const UserInput& inputs, session::WindowOverlay overlay);
     void audit_last_frame(const UserInput& inputs);
     void recover_from_error(const Error& error);
     void show_message(const std::string& text);
@@ -37,7 +37,7 @@ private:
     ViewOptions view_options_;
     const SimulatedUser& driver_;
     SavedViewerSettings settings_;
-    app::Request request_;
+    session::Request request_;
     ViewState state_, good_; ///< good: state of the last frame that could be rendered
     ViewWindow window_;
     ImGuiControls controls_;
@@ -49,10 +49,10 @@ private:
     dvec2 scale_{1};           ///< UserInput::scale
     bool waits_ = false;       ///< whether it waits for window events, because nothing can be shown
     std::size_t frame_ = 0;
-    int losses_ = 0;                      ///< device losses since the last rendered frame
-    std::optional<app::PlanAudit> audit_; ///< audit of the plan of --audit
-    std::size_t audited_cuts_ = 0;        ///< number of cuts before the last frame
-    double seconds_ = 0;                  ///< time of the frames shown so far
+    int losses_ = 0;                        ///< device losses since the last rendered frame
+    std::optional<study::PlanAudit> audit_; ///< audit of the plan of --audit
+    std::size_t audited_cuts_ = 0;          ///< number of cuts before the last frame
+    double seconds_ = 0;                    ///< time of the frames shown so far
     double reach_ = 1, period_ = 0;
     bool ends_ = false;
 };

@@ -39,7 +39,7 @@ std::string choose_first_technique(const ViewOptions& options) {
     if (!options.audit.empty()) {
         check(!is_given, Failure::usage,
               "--audit: its file has the plan: wanted no --technique and no --plan beside it");
-        return app::PlanAudit(options.audit).plan();
+        return study::PlanAudit(options.audit).plan();
     }
     if (!is_given) drawn.technique = "secant";
     return check_technique_choice(drawn, "catoptric-view");
@@ -68,7 +68,7 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
                                         const std::function<int(const ViewOptions&)>& run) {
     auto program = std::make_shared<cli::CommandLine>(
         "catoptric-view", "Shows a scene in a window, drawn by any technique.",
-        "catoptric-view " + app::version() + " (" + app::commit() + ")", kViewExamples);
+        "catoptric-view " + session::version() + " (" + session::commit() + ")", kViewExamples);
     const auto options = std::make_shared<ViewOptions>();
     options->words = words;
     cli::CommandVerb& verb = program->only_command_verb();
@@ -93,9 +93,9 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
 
 cli::ResolvedRequest resolve_view_request(const ViewOptions& options) {
     cli::ResolvedRequest asked = make_resolved_request(options.common);
-    app::Request& request = asked.request;
+    session::Request& request = asked.request;
     request.techniques = {options.technique};
-    request.model = options.common.model.value_or(app::RenderedWork::required);
+    request.model = options.common.model.value_or(session::RenderedWork::required);
     if (!options.screenshot.empty())
         cli::check_outputs_differ_from_inputs({options.screenshot}, request.scene.files);
     return asked;

@@ -12,7 +12,7 @@ namespace catoptric::view {
 struct ViewOptions {
     cli::CommonOptions common;
     cli::TechniqueOption drawn;
-    std::string technique; ///< technique text as app::FrameSpec::techniques takes it
+    std::string technique; ///< technique text as session::FrameSpec::techniques takes it
     std::string screenshot;
     std::string audit;        ///< file of `catoptric choose` whose plan is audited; empty: none
     int audit_every = 60;     ///< frames of a block, from which one frame is drawn for the audit

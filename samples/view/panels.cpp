@@ -66,7 +66,8 @@ void draw_playback_controls(ViewState& state, double period) {
     if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
 }
 
-void draw_error_figures(ViewState& state, const SceneViewer& viewer, const app::PlanAudit* audit) {
+void draw_error_figures(ViewState& state, const SceneViewer& viewer,
+                        const study::PlanAudit* audit) {
     if (audit != nullptr) ImGui::TextWrapped("%s", audit->describe().c_str());
     ImGui::Checkbox("errors against the traced reference", &state.judges);
     const int passes = viewer.progressive_reference().rendered_pass_count();
@@ -80,14 +81,14 @@ void draw_error_figures(ViewState& state, const SceneViewer& viewer, const app::
 }
 
 void draw_culled_work(ViewState& state, const SceneViewer& viewer) {
-    int model = state.model == app::RenderedWork::required;
+    int model = state.model == session::RenderedWork::required;
     ImGui::RadioButton("required", &model, 1);
     ImGui::SameLine();
     ImGui::RadioButton("everything", &model, 0);
-    state.model = model ? app::RenderedWork::required : app::RenderedWork::everything;
+    state.model = model ? session::RenderedWork::required : session::RenderedWork::everything;
     if (viewer.capture_budget_of_technique())
         ImGui::TextWrapped(
-            "%s", app::describe_capture_budget(*viewer.capture_budget_of_technique()).c_str());
+            "%s", session::describe_capture_budget(*viewer.capture_budget_of_technique()).c_str());
     for (const require::CulledWork& left : viewer.culled_work())
         ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
                            left.saves.c_str());

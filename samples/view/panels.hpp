@@ -11,7 +11,7 @@ struct PanelShownData {
     const SceneViewer& viewer;
     const std::vector<PlanEntry>& entries; ///< entries of the plan as the user typed it
     double period = 0; ///< period of the scene's motion, seconds; 0: nothing moves
-    const app::PlanAudit* audit = nullptr; ///< audit of the shown plan; null: no plan is audited
+    const study::PlanAudit* audit = nullptr; ///< audit of the shown plan; null: no plan is audited
 };
 
 /// Requests from the buttons of the panels.

@@ -11,7 +11,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_choice_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
+void draw_choice_knob(TechniqueSettings& drawing, const session::KnobInfo& knob) {
     const std::string value = find_knob_value(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
@@ -21,7 +21,7 @@ void draw_choice_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
 }
 
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
-void draw_number_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
+void draw_number_knob(TechniqueSettings& drawing, const session::KnobInfo& knob) {
     constexpr int kMaxSliderRange = 64;
     const std::string text = find_knob_value(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
@@ -54,9 +54,9 @@ void draw_number_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
 }
 
 void draw_knob_controls(TechniqueSettings& drawing) {
-    const app::TechniqueInfo* technique = find_technique_info(drawing.technique);
+    const session::TechniqueInfo* technique = find_technique_info(drawing.technique);
     if (!technique) return;
-    for (const app::KnobInfo& knob : technique->knobs) {
+    for (const session::KnobInfo& knob : technique->knobs) {
         ImGui::PushID(knob.name.c_str());
         if (knob.choices.empty())
             draw_number_knob(drawing, knob);
@@ -69,7 +69,7 @@ void draw_knob_controls(TechniqueSettings& drawing) {
 
 void draw_technique_controls(TechniqueSettings& drawing) {
     if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
-        for (const app::TechniqueInfo& technique : list_technique_infos()) {
+        for (const session::TechniqueInfo& technique : list_technique_infos()) {
             if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
                 technique.name != drawing.technique)
                 drawing = {technique.name, {}};

@@ -27,14 +27,14 @@ nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& dr
 
 } // namespace
 
-const std::vector<app::TechniqueInfo>& list_technique_infos() {
-    static const std::vector<app::TechniqueInfo> kTechniqueInfos = app::techniques();
+const std::vector<session::TechniqueInfo>& list_technique_infos() {
+    static const std::vector<session::TechniqueInfo> kTechniqueInfos = session::techniques();
     return kTechniqueInfos;
 }
 
-const app::TechniqueInfo* find_technique_info(const std::string& technique) {
+const session::TechniqueInfo* find_technique_info(const std::string& technique) {
     const auto found = std::ranges::find(list_technique_infos(), technique,
-                                         &app::TechniqueInfo::name);
+                                         &session::TechniqueInfo::name);
     return found == list_technique_infos().end() ? nullptr : &*found;
 }
 
@@ -62,11 +62,11 @@ std::vector<std::string> make_plan_option_words(const EditedPlanState& plan) {
     constexpr std::string_view kPlanFilePrefix = "plan:";
     const std::string text = technique_text_of_plan(plan);
     if (text.starts_with(kPlanFilePrefix)) return {"--plan", text.substr(kPlanFilePrefix.size())};
-    return {app::parse_technique(text).technique == "plan" ? "--plan" : "--technique", text};
+    return {session::parse_technique(text).technique == "plan" ? "--plan" : "--technique", text};
 }
 
 EditedPlanState parse_plan_text(const std::string& text) {
-    const app::ParsedTechnique choice = app::parse_technique(text);
+    const session::ParsedTechnique choice = session::parse_technique(text);
     EditedPlanState plan;
     if (find_technique_info(choice.technique))
         plan.rest = make_technique_settings(choice.technique, choice.settings);
@@ -87,7 +87,7 @@ EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
     return made;
 }
 
-void set_knob_from_text(TechniqueSettings& drawing, const app::KnobInfo& knob,
+void set_knob_from_text(TechniqueSettings& drawing, const session::KnobInfo& knob,
                         const std::string& value) {
     if (value == knob.value)
         drawing.knobs.erase(knob.name);
@@ -95,7 +95,7 @@ void set_knob_from_text(TechniqueSettings& drawing, const app::KnobInfo& knob,
         drawing.knobs[knob.name] = value;
 }
 
-std::string find_knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob) {
+std::string find_knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob) {
     const auto found = drawing.knobs.find(knob.name);
     return found == drawing.knobs.end() ? knob.value : found->second;
 }
@@ -103,9 +103,9 @@ std::string find_knob_value(const TechniqueSettings& drawing, const app::KnobInf
 EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
                                  const std::string& value) {
     const auto change = [&](TechniqueSettings& drawing) {
-        const app::TechniqueInfo* technique = find_technique_info(drawing.technique);
+        const session::TechniqueInfo* technique = find_technique_info(drawing.technique);
         if (!technique) return;
-        const auto known = std::ranges::find(technique->knobs, knob, &app::KnobInfo::name);
+        const auto known = std::ranges::find(technique->knobs, knob, &session::KnobInfo::name);
         if (known != technique->knobs.end()) set_knob_from_text(drawing, *known, value);
     };
     change(plan.rest);

@@ -29,20 +29,20 @@ struct EditedPlanState {
 
 /// Returns the technique with its knobs, such as "secant:face=64".
 std::string technique_text_of_settings(const TechniqueSettings& drawing);
-/// Returns the plan as app::FrameSpec::techniques takes it.
+/// Returns the plan as session::FrameSpec::techniques takes it.
 std::string technique_text_of_plan(const EditedPlanState& plan);
 /// Returns the words of the options by which `catoptric render` draws the plan.
 std::vector<std::string> make_plan_option_words(const EditedPlanState& plan);
-/// Returns the plan of a command-line text. Throws `usage` as app::parse_technique does.
+/// Returns the plan of a command-line text. Throws `usage` as session::parse_technique does.
 EditedPlanState parse_plan_text(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
 EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
                                        const std::vector<PlanEntry>& entries);
 /// Sets a knob. Removes its entry if the value is the default.
-void set_knob_from_text(TechniqueSettings& drawing, const app::KnobInfo& knob,
+void set_knob_from_text(TechniqueSettings& drawing, const session::KnobInfo& knob,
                         const std::string& value);
 /// Returns the value of a knob.
-std::string find_knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob);
+std::string find_knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
 EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
                                  const std::string& value);
@@ -50,8 +50,8 @@ EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
 std::string plan_to_json(const EditedPlanState& plan);
 
 /// Returns all techniques. The list is built once.
-const std::vector<app::TechniqueInfo>& list_technique_infos();
+const std::vector<session::TechniqueInfo>& list_technique_infos();
 /// Returns the technique of this name, or null.
-const app::TechniqueInfo* find_technique_info(const std::string& technique);
+const session::TechniqueInfo* find_technique_info(const std::string& technique);
 
 } // namespace catoptric::view

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t kFirstReferenceSeed = 1'000'000;
 
-app::TechniqueResult render_ray_traced(app::Session& session, app::FrameSpec spec,
-                                       const std::string& technique, std::uint64_t seed) {
+session::TechniqueResult render_ray_traced(session::Session& session, session::FrameSpec spec,
+                                           const std::string& technique, std::uint64_t seed) {
     spec.techniques = {technique};
     spec.seed = seed;
     spec.keeps_history = true;
@@ -21,7 +21,8 @@ app::TechniqueResult render_ray_traced(app::Session& session, app::FrameSpec spe
 
 } // namespace
 
-std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::FrameSpec& spec) {
+std::vector<std::uint32_t> render_mirror_hits(session::Session& session,
+                                              const session::FrameSpec& spec) {
     return render_ray_traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
 }
 
@@ -37,7 +38,8 @@ void ProgressiveReference::add_pass(const measure::Picture& picture, double expo
     if (has_noise_) judged_ = std::move(mean);
 }
 
-bool ProgressiveReference::render_one_pass(app::Session& session, const app::FrameSpec& spec) {
+bool ProgressiveReference::render_one_pass(session::Session& session,
+                                           const session::FrameSpec& spec) {
     if (passes_ == kMaxReferencePasses) return false;
     const auto pass = static_cast<std::uint64_t>(passes_);
     if (passes_++ > 0) {
@@ -49,8 +51,9 @@ bool ProgressiveReference::render_one_pass(app::Session& session, const app::Fra
         add_pass(render_ray_traced(session, spec, technique, pass).hdr, spec.exposure);
         return true;
     }
-    has_noise_ = app::does_reference_have_noise("raytrace:depth=16,rays=16", session.scene());
-    app::TechniqueResult part = render_ray_traced(session, spec, "raytrace:depth=16", spec.seed);
+    has_noise_ = study::does_reference_have_noise("raytrace:depth=16,rays=16", session.scene());
+    session::TechniqueResult part = render_ray_traced(session, spec, "raytrace:depth=16",
+                                                      spec.seed);
     hits_ = std::move(part.hits);
     judged_ = std::move(part.hdr);
     sum_ = measure::Picture(judged_.width, judged_.height);

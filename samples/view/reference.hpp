@@ -20,7 +20,7 @@ public:
     void restart_reference() { *this = {}; }
     /// Renders one more pass outside the session's frame sequence and waits for it. `spec` is that
     /// of the live frame. Returns false if no further pass is needed.
-    bool render_one_pass(app::Session& session, const app::FrameSpec& spec);
+    bool render_one_pass(session::Session& session, const session::FrameSpec& spec);
     int rendered_pass_count() const { return passes_; }
     /// Returns whether errors can be measured: after a pass, or after 16 if passes have noise.
     bool can_measure_errors() const { return has_noise_ ? passes_ > 16 : passes_ > 0; }
@@ -42,8 +42,9 @@ private:
     std::shared_ptr<const measure::Picture> display_;
 };
 
-/// Returns what camera rays meet first (app::TechniqueResult::hits), by a frame outside the
+/// Returns what camera rays meet first (session::TechniqueResult::hits), by a frame outside the
 /// session's sequence.
-std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::FrameSpec& spec);
+std::vector<std::uint32_t> render_mirror_hits(session::Session& session,
+                                              const session::FrameSpec& spec);
 
 } // namespace catoptric::view

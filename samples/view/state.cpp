@@ -32,22 +32,24 @@ bool needs_host_picture(const ViewState& state) {
 }
 
 ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
-    ShownTechniquesAndPictures shown{
-        {technique_text_of_plan(state.plan)}, app::WindowPictures::PictureArrangement::one, 0, 0};
+    ShownTechniquesAndPictures shown{{technique_text_of_plan(state.plan)},
+                                     session::WindowPictures::PictureArrangement::one,
+                                     0,
+                                     0};
     switch (state.mode) {
     case ViewMode::plan: break;
     case ViewMode::answers:
         shown.techniques = {technique_text_of_plan(set_knob_in_plan(state.plan, "show", "state"))};
         break;
     case ViewMode::numbers:
-    case ViewMode::causes: shown.first = app::WindowPictures::kCanvasPicture; break;
+    case ViewMode::causes: shown.first = session::WindowPictures::kCanvasPicture; break;
     case ViewMode::split:
     case ViewMode::difference:
         shown.kind = state.mode == ViewMode::split
-                         ? app::WindowPictures::PictureArrangement::split
-                         : app::WindowPictures::PictureArrangement::difference;
+                         ? session::WindowPictures::PictureArrangement::split
+                         : session::WindowPictures::PictureArrangement::difference;
         if (state.against == ComparisonPicture::reference) {
-            shown.second = app::WindowPictures::kCanvasPicture;
+            shown.second = session::WindowPictures::kCanvasPicture;
         } else if (const std::string other = technique_text_of_plan(state.other);
                    other != shown.techniques[0]) {
             shown.techniques.push_back(other);

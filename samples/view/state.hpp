@@ -45,7 +45,7 @@ struct ViewState {
     scene::Camera camera;
     bool flies = false;
     ScenePlayback motion;
-    app::RenderedWork model = app::RenderedWork::required;
+    session::RenderedWork model = session::RenderedWork::required;
     double exposure = 0;
     bool judges = false; ///< whether errors against the traced reference are measured at rest
     bool shows_panels = true, shows_keys = false;
@@ -58,8 +58,9 @@ struct ViewState {
 /// The techniques that one frame renders, and the pictures that it shows.
 struct ShownTechniquesAndPictures {
     std::vector<std::string> techniques;
-    app::WindowPictures::PictureArrangement kind = app::WindowPictures::PictureArrangement::one;
-    std::size_t first = 0, second = 0; ///< indices of the pictures for app::WindowPictures
+    session::WindowPictures::PictureArrangement kind =
+        session::WindowPictures::PictureArrangement::one;
+    std::size_t first = 0, second = 0; ///< indices of the pictures for session::WindowPictures
 };
 
 /// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror
@@ -79,7 +80,7 @@ double advance_playback_time(const ScenePlayback& motion, double seconds);
 /// Returns a distinct display colour for each mirror number; black for 0.
 vec3 mirror_number_colour(std::uint32_t mirror);
 /// Returns a picture of mirror numbers from the first hits of camera rays
-/// (app::TechniqueResult::hits).
+/// (session::TechniqueResult::hits).
 measure::Picture make_mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size);
 /// Returns the difference of two displayed pictures times `gain`.
 measure::Picture make_difference_picture(const measure::Picture& a, const measure::Picture& b,

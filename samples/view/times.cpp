@@ -8,8 +8,9 @@ namespace catoptric::view {
 
 namespace {
 
-bool have_equal_passes(const app::FrameTimes& a, const app::FrameTimes& b) {
-    return std::ranges::equal(a.passes, b.passes, {}, &app::PassTime::name, &app::PassTime::name);
+bool have_equal_passes(const session::FrameTimes& a, const session::FrameTimes& b) {
+    return std::ranges::equal(a.passes, b.passes, {}, &session::PassTime::name,
+                              &session::PassTime::name);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ public:
     /// Times of one frame. `host_ms` covers update, record and submit, measured by the host's
     /// clock. `interval_ms` is the time since the start of the previous frame.
     struct FrameTimeSample {
-        app::FrameTimes frame;
+        session::FrameTimes frame;
         double host_ms = 0, acquire_ms = 0, present_ms = 0, interval_ms = 0;
     };
     void add(FrameTimeSample sample);

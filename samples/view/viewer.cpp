@@ -29,22 +29,22 @@ double current_milliseconds() {
 /// Returns whether a signal asks the program to end. Work beside the frames then begins no more.
 bool is_stopped() { return cli::stop_on_signals().load() != 0; }
 
-bool do_specs_show_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
+bool do_specs_show_same_picture(const session::FrameSpec& a, const session::FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
            a.time == b.time && a.exposure == b.exposure && a.model == b.model;
 }
 
 } // namespace
 
-SceneViewer::SceneViewer(ViewWindow& window, const app::EngineOptions& options,
-                         const app::Request& request) {
-    app::EngineHooks hooks;
+SceneViewer::SceneViewer(ViewWindow& window, const session::EngineOptions& options,
+                         const session::Request& request) {
+    session::EngineHooks hooks;
     window.add_window_hooks_to_engine(hooks);
-    engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
-    screen_ = std::make_unique<app::WindowScreen>(*engine_);
+    engine_.reset(new session::Engine(session::Access::make_engine(options, hooks)));
+    screen_ = std::make_unique<session::WindowScreen>(*engine_);
     given_ = request.scene;
     separate_mirror_materials(given_);
-    session_ = std::make_unique<app::Session>(*engine_, given_, kFramesInFlight);
+    session_ = std::make_unique<session::Session>(*engine_, given_, kFramesInFlight);
     spec_ = request;
     budget_ms_ = request.budget_ms;
 }
@@ -92,14 +92,14 @@ bool SceneViewer::update_roughness(const MirrorRoughness& roughness) {
 
 /// Updates the frame specification from the state, and counts frames at rest.
 void SceneViewer::update_frame_spec_from_view_state(const ViewState& state, uvec2 size) {
-    app::FrameSpec next = spec_;
+    session::FrameSpec next = spec_;
     next.techniques = choose_shown_pictures(state).techniques;
     next.camera = state.camera;
     next.size = size;
     next.time = state.motion.time;
     next.exposure = state.exposure;
     next.model = state.model;
-    next.budget_ms = state.model == app::RenderedWork::required ? budget_ms_ : 0;
+    next.budget_ms = state.model == session::RenderedWork::required ? budget_ms_ : 0;
     const bool is_changed = update_roughness(state.roughness);
     const bool same = do_specs_show_same_picture(next, spec_) && !is_changed;
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
@@ -125,7 +125,7 @@ void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
         discard_frame_history();
         for (int k = 0; k < kUnshownFramesAfterCut && !is_stopped(); ++k) {
             last_ = session_->frame(spec_);
-            if (!app::Access::does_frame_part_need_previous_frame(*last_)) break;
+            if (!session::Access::does_frame_part_need_previous_frame(*last_)) break;
         }
     }
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
@@ -159,17 +159,17 @@ std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const Vie
             make_mirror_number_picture(render_mirror_hits(*session_, spec_), spec_.size));
         return made_;
     }
-    app::FrameSpec aside = spec_;
+    session::FrameSpec aside = spec_;
     aside.keeps_history = true;
     const measure::Picture as_it_is = session_->frame(aside).read().display;
     made_ = std::make_shared<measure::Picture>(make_difference_picture(
         as_it_is,
-        app::Access::render_frame(*session_, aside, {.ablated = state.cause}).read().display,
+        session::Access::render_frame(*session_, aside, {.ablated = state.cause}).read().display,
         static_cast<float>(state.gain)));
     return made_;
 }
 
-void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay,
+void SceneViewer::render_frame(const ViewState& state, uvec2 size, session::WindowOverlay overlay,
                                bool is_seen) {
     update_frame_spec_from_view_state(state, size);
     measure_errors_when_camera_rests(state);
@@ -183,13 +183,14 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
                 std::move(overlay)};
     if (needs_host_picture(state)) showing_.canvas = make_host_picture(state);
     if (!showing_.canvas) { // not made yet: show the plan's picture
-        if (showing_.first == app::WindowPictures::kCanvasPicture) showing_.first = 0;
-        if (showing_.second == app::WindowPictures::kCanvasPicture) showing_.second = 0;
+        if (showing_.first == session::WindowPictures::kCanvasPicture) showing_.first = 0;
+        if (showing_.second == session::WindowPictures::kCanvasPicture) showing_.second = 0;
     }
     collect_finished_frames(kFramesInFlight - 1);
     const double begin = current_milliseconds();
-    app::Frame made = is_seen ? app::Access::show_in_window(*session_, spec_, *screen_, showing_)
-                              : session_->frame(spec_);
+    session::Frame made = is_seen ? session::Access::show_in_window(*session_, spec_, *screen_,
+                                                                    showing_)
+                                  : session_->frame(spec_);
     TimeStatistics::FrameTimeSample sample;
     if (is_seen)
         sample.acquire_ms = screen_->acquire_ms(), sample.present_ms = screen_->present_ms();
@@ -197,13 +198,13 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
     sample.interval_ms = frames_ > 0 ? begin - began_ : 0;
     began_ = begin;
     last_ = made;
-    left_out_ = app::Access::rendered_model(made).left_out;
+    left_out_ = session::Access::rendered_model(made).left_out;
     capture_budget_ = made.capture_budget();
     pending_.push_back({std::move(made), std::move(sample)});
     ++frames_;
 }
 
-app::AuditState SceneViewer::audit_last_frame(app::PlanAudit& audit, double seconds) {
+study::AuditState SceneViewer::audit_last_frame(study::PlanAudit& audit, double seconds) {
     if (!last_) return {};
     return audit.watch_frame(*session_, *last_, spec_, seconds);
 }
@@ -220,13 +221,13 @@ void SceneViewer::write_picture(const std::filesystem::path& file) const {
     check(last_.has_value(), Failure::usage, "there is no frame yet to be written");
     if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
     const auto picture = [&](std::size_t part) {
-        return part == app::WindowPictures::kCanvasPicture ? *showing_.canvas
-                                                           : last_->read(part).display;
+        return part == session::WindowPictures::kCanvasPicture ? *showing_.canvas
+                                                               : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
-    if (showing_.kind == app::WindowPictures::PictureArrangement::difference)
+    if (showing_.kind == session::WindowPictures::PictureArrangement::difference)
         shown = make_difference_picture(shown, picture(showing_.second), showing_.gain);
-    if (showing_.kind == app::WindowPictures::PictureArrangement::split) {
+    if (showing_.kind == session::WindowPictures::PictureArrangement::split) {
         const measure::Picture right = picture(showing_.second);
         for (int y = 0; y < shown.height; ++y)
             for (int x = static_cast<int>(showing_.divider); x < shown.width; ++x)

@@ -19,13 +19,14 @@ class SceneViewer {
 public:
     /// Opens the request's scene with its size and first instant. Throws as Engine, WindowScreen
     /// and Session do.
-    SceneViewer(ViewWindow& window, const app::EngineOptions& options, const app::Request& request);
+    SceneViewer(ViewWindow& window, const session::EngineOptions& options,
+                const session::Request& request);
     /// Waits for frames in flight.
     ~SceneViewer();
 
-    app::WindowScreen& window_screen() { return *screen_; }
-    app::Session& viewer_session() { return *session_; }
-    app::Engine& viewer_engine() { return *engine_; }
+    session::WindowScreen& window_screen() { return *screen_; }
+    session::Session& viewer_session() { return *session_; }
+    session::Engine& viewer_engine() { return *engine_; }
     const TimeStatistics& time_statistics() const { return times_; }
     const ProgressiveReference& progressive_reference() const { return reference_; }
     const std::optional<measure::Difference>& measured_error() const { return error_; }
@@ -33,22 +34,23 @@ public:
     std::vector<PlanEntry> entries() const;
     const std::vector<require::CulledWork>& culled_work() const { return left_out_; }
     /// Returns the capture budget of the first technique, if there is one.
-    const std::optional<app::CaptureBudget>& capture_budget_of_technique() const {
+    const std::optional<session::CaptureBudget>& capture_budget_of_technique() const {
         return capture_budget_;
     }
 
     /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
-    void render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen);
+    void render_frame(const ViewState& state, uvec2 size, session::WindowOverlay overlay,
+                      bool is_seen);
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
     std::uint32_t mirror_number_at_pixel(uvec2 pixel);
     void discard_frame_history();
-    /// Audits the last frame if the audit selects this frame (app::PlanAudit::watch_frame).
-    app::AuditState audit_last_frame(app::PlanAudit& audit, double seconds);
+    /// Audits the last frame if the audit selects this frame (study::PlanAudit::watch_frame).
+    study::AuditState audit_last_frame(study::PlanAudit& audit, double seconds);
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
     void write_picture(const std::filesystem::path& file) const;
-    app::FrameSpec make_frame_spec() const { return spec_; }
+    session::FrameSpec make_frame_spec() const { return spec_; }
     std::size_t cut_count() const { return cuts_; }
     /// Collects the times of the oldest frames until at most `most` are in flight.
     void collect_finished_frames(std::size_t most);
@@ -60,24 +62,24 @@ private:
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
 
     struct FrameInFlight {
-        app::Frame frame;
+        session::Frame frame;
         TimeStatistics::FrameTimeSample sample;
     };
 
-    std::unique_ptr<app::Engine> engine_;
-    std::unique_ptr<app::WindowScreen> screen_;
-    std::unique_ptr<app::Session> session_;
+    std::unique_ptr<session::Engine> engine_;
+    std::unique_ptr<session::WindowScreen> screen_;
+    std::unique_ptr<session::Session> session_;
     std::deque<FrameInFlight> pending_;
-    std::optional<app::Frame> last_;
-    app::WindowPictures showing_; ///< what the last frame showed
-    app::FrameSpec spec_;
+    std::optional<session::Frame> last_;
+    session::WindowPictures showing_; ///< what the last frame showed
+    session::FrameSpec spec_;
     scene::Scene given_;        ///< the scene without changes of roughness
     MirrorRoughness roughness_; ///< roughness of mirrors that the session's scene shows
     TimeStatistics times_;
     ProgressiveReference reference_;
     std::optional<measure::Difference> error_;
     std::vector<require::CulledWork> left_out_;
-    std::optional<app::CaptureBudget> capture_budget_;
+    std::optional<session::CaptureBudget> capture_budget_;
     double budget_ms_ = 0;
     std::shared_ptr<const measure::Picture> made_; ///< picture made for `made_mode_`
     ViewMode made_mode_ = ViewMode::plan;

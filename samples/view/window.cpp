@@ -89,7 +89,7 @@ ViewWindow::~ViewWindow() {
     glfwTerminate();
 }
 
-void ViewWindow::add_window_hooks_to_engine(app::EngineHooks& hooks) const {
+void ViewWindow::add_window_hooks_to_engine(session::EngineHooks& hooks) const {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     hooks.instance_extensions.assign(names, names + count);

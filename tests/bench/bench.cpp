@@ -25,16 +25,16 @@ using namespace catoptric;
 /// One side of a compared pair: an engine and a technique.
 struct ComparedConfiguration {
     const char* name;
-    app::Engine& engine;
+    session::Engine& engine;
     std::string technique;
 };
 
-app::BenchmarkSubject make_frame_subject_of_side(const ComparedConfiguration& side,
-                                                 app::Request request, int rounds) {
+benchmark::BenchmarkSubject make_frame_subject_of_side(const ComparedConfiguration& side,
+                                                       session::Request request, int rounds) {
     request.techniques = {side.technique};
-    const auto session = std::make_shared<app::Session>(side.engine, request.scene);
-    app::BenchmarkSubject subject = app::make_frame_benchmark_subject(session, request,
-                                                                      rounds * request.frames);
+    const auto session = std::make_shared<session::Session>(side.engine, request.scene);
+    benchmark::BenchmarkSubject subject = benchmark::make_frame_benchmark_subject(
+        session, request, rounds * request.frames);
     subject.name = side.name; // two engines may draw the same technique
     subject.caller.clear();
     return subject;
@@ -53,10 +53,11 @@ struct PairedFrameTimes {
 };
 
 PairedFrameTimes measure_paired_frames(const ComparedConfiguration& a,
-                                       const ComparedConfiguration& b, const app::Request& base,
+                                       const ComparedConfiguration& b, const session::Request& base,
                                        int rounds) {
-    const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
-    const std::vector<measure::BenchmarkResult> found = app::measure_benchmarks_in_rounds(
+    const session::ProcessorUsageMeter meter(
+        session::ProcessorUsageMeter::CountedThreadChoice::process);
+    const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
         {make_frame_subject_of_side(a, base, rounds), make_frame_subject_of_side(b, base, rounds)},
         meter, {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
     const std::vector<double> a_ms = list_gpu_ms_of_rounds(found[0]),
@@ -68,7 +69,7 @@ PairedFrameTimes measure_paired_frames(const ComparedConfiguration& a,
 }
 
 void compare_two_configurations(const char* title, const ComparedConfiguration& a,
-                                const ComparedConfiguration& b, const app::Request& base,
+                                const ComparedConfiguration& b, const session::Request& base,
                                 int rounds) {
     const PairedFrameTimes pairs = measure_paired_frames(a, b, base, rounds);
     std::printf("%s\n  %-28s %8.2f ms\n  %-28s %8.2f ms\n  ratio %.3f [%.3f, %.3f] over %d pairs\n",
@@ -76,12 +77,12 @@ void compare_two_configurations(const char* title, const ComparedConfiguration& 
                 pairs.ratio.p05, pairs.ratio.p95, rounds);
 }
 
-void compare_tree_shapes(const app::Request& base, int rounds) {
+void compare_tree_shapes(const session::Request& base, int rounds) {
     const std::string device = test::read_wanted_device_name();
-    app::Engine plain({.device = device}),
-        naive_engine(app::Access::make_engine(
+    session::Engine plain({.device = device}),
+        naive_engine(session::Access::make_engine(
             {.device = device}, {.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}})),
-        faces_engine(app::Access::make_engine({.device = device}, {.layered = false}));
+        faces_engine(session::Access::make_engine({.device = device}, {.layered = false}));
     ComparedConfiguration fast{"default", plain, "raytrace:depth=4"},
         naive{"naive", naive_engine, "raytrace:depth=4"};
     std::printf("%s, %s\n", plain.device().name.c_str(), plain.device().driver.c_str());
@@ -99,38 +100,38 @@ void compare_tree_shapes(const app::Request& base, int rounds) {
 
 /// Measures the rules that run on the processor. They are always in use, so only their time is
 /// printed.
-void compare_processor_rules(const app::Request& base) {
+void compare_processor_rules(const session::Request& base) {
     constexpr int kRepetitions = 25;
     const render::SceneUnitTransform space = render::make_scene_units(base.scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(base.scene, space);
     render::NearestTriangleQuery nearest;
     nearest.set_geometry(geometry);
     volatile float kept = 0; // volatile, so that the compiler keeps the measured work
-    const std::vector<app::BenchmarkSubject> subjects{
-        app::make_benchmark_subject("near planes from the nearest gap | frame",
-                                    [&] {
-                                        // One search each for the camera, four captures and the
-                                        // light.
-                                        for (int i = 0; i < 6; ++i)
-                                            kept = nearest.distance_to_nearest_triangle(
-                                                geometry, dvec3(0.1 * i),
-                                                [](std::size_t, const render::ObjectDrawRange&) {
-                                                    return false;
-                                                });
-                                    }),
-        app::make_benchmark_subject("centre and scale in doubles, then floats | frame",
-                                    [&] {
-                                        kept = render::make_frame_geometry(
-                                                   base.scene, render::make_scene_units(base.scene))
-                                                   .vertices.front()
-                                                   .position.x;
-                                    }),
-        app::make_benchmark_subject("areas and normals of meshes | load", [&] {
+    const std::vector<benchmark::BenchmarkSubject> subjects{
+        benchmark::make_benchmark_subject(
+            "near planes from the nearest gap | frame",
+            [&] {
+                // One search each for the camera, four captures and the
+                // light.
+                for (int i = 0; i < 6; ++i)
+                    kept = nearest.distance_to_nearest_triangle(
+                        geometry, dvec3(0.1 * i),
+                        [](std::size_t, const render::ObjectDrawRange&) { return false; });
+            }),
+        benchmark::make_benchmark_subject(
+            "centre and scale in doubles, then floats | frame",
+            [&] {
+                kept = render::make_frame_geometry(base.scene, render::make_scene_units(base.scene))
+                           .vertices.front()
+                           .position.x;
+            }),
+        benchmark::make_benchmark_subject("areas and normals of meshes | load", [&] {
             for (scene::Mesh mesh : base.scene.meshes) scene::repair_mesh(mesh);
         })};
-    const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
+    const session::ProcessorUsageMeter meter(
+        session::ProcessorUsageMeter::CountedThreadChoice::process);
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
-    for (const measure::BenchmarkResult& found : app::measure_benchmarks_in_rounds(
+    for (const measure::BenchmarkResult& found : benchmark::measure_benchmarks_in_rounds(
              subjects, meter,
              {.iterations = kRepetitions, .rounds = kRepetitions, .watcher = {}})) {
         const double ms = measure::compute_percentile(
@@ -143,7 +144,7 @@ void compare_processor_rules(const app::Request& base) {
 
 /// Compares the device's time of a frame with and without each rule that a row can leave out. Then
 /// measures the rules on the processor, which are never left out.
-void compare_culling_rules(const app::Request& base, int rounds) {
+void compare_culling_rules(const session::Request& base, int rounds) {
     struct TimedCullingRule {
         const char* name;
         const char* with;
@@ -160,7 +161,7 @@ void compare_culling_rules(const app::Request& base, int rounds) {
         {"\"nothing there\" is asked for", "parallax", "parallax:without=void_test"},
         {"hit points in doubles (no rule)", "raytrace:hit=f64", "raytrace"},
         {"colour in floats (no rule)", "parallax:colour=float", "parallax"}};
-    app::Engine engine({.device = test::read_wanted_device_name()});
+    session::Engine engine({.device = test::read_wanted_device_name()});
     std::printf("%s, %s; 512x512, %d pairs\n\n", engine.device().name.c_str(),
                 engine.device().driver.c_str(), rounds);
     std::printf(
@@ -187,7 +188,7 @@ int main(int argc, char** argv) try {
     const bool rules = argc > 1 && std::string_view(argv[1]) == "rules";
     const int place = rules ? 2 : 1;
     const int rounds = argc > place ? std::max(1, std::atoi(argv[place])) : 7;
-    app::Request base;
+    session::Request base;
     base.scene = scene::make_cornell_mirrors();
     base.camera = base.scene.cameras.front();
     base.frames = 5;

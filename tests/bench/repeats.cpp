@@ -22,8 +22,8 @@ struct PairOutcomeCount {
 } // namespace
 
 void repeat_comparison_of_rows(int times, const std::vector<std::string>& rows) {
-    app::Engine engine({});
-    app::CompareRequest request;
+    session::Engine engine({});
+    study::CompareRequest request;
     request.base.scene = scene::make_cornell_mirrors();
     request.base.camera = request.base.scene.cameras.front();
     request.base.size = {128, 128};
@@ -31,7 +31,7 @@ void repeat_comparison_of_rows(int times, const std::vector<std::string>& rows) 
     std::map<std::pair<std::size_t, std::size_t>, PairOutcomeCount> pairs;
     int noisy = 0;
     for (int k = 0; k < times; ++k) {
-        const measure::Comparison found = app::compare(engine, request);
+        const measure::Comparison found = study::compare(engine, request);
         noisy += !measure::find_noisy_rows(found).empty();
         for (std::size_t b = 1; b < rows.size(); ++b)
             for (std::size_t a = 0; a < b; ++a) {

@@ -273,7 +273,7 @@ TEST_F(BenchAgainstProgramCliTest, ErrorNamesTheProgramThatFailed) {
 TEST_F(BenchAgainstProgramCliTest, SignalEndsTheRunningProgram) {
     const std::string slow = write_logging_program("slow", "exec sleep 600\n");
     const std::atomic<int> stop{15};
-    app::Watcher watcher;
+    session::Watcher watcher;
     watcher.stop = &stop;
     try {
         cli::bench_programs_in_turn({slow, slow}, {}, 6, watcher);

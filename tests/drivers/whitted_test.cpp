@@ -23,9 +23,11 @@ constexpr float kEqualRadianceTolerance = 1e-3F;
 /// double precision.
 constexpr std::size_t kMaxSensitivePixels = 4;
 
-app::TechniqueResult render_scene_picture(const scene::Scene& scene, const std::string& technique) {
-    const app::Request asked = test::make_test_request(scene, {technique}, kComparedPictureSize);
-    return std::move(app::run(test::get_test_engine(), asked).parts.front());
+session::TechniqueResult render_scene_picture(const scene::Scene& scene,
+                                              const std::string& technique) {
+    const session::Request asked = test::make_test_request(scene, {technique},
+                                                           kComparedPictureSize);
+    return std::move(session::run(test::get_test_engine(), asked).parts.front());
 }
 
 float largest_of_channels(const vec3& v) {
@@ -56,8 +58,9 @@ std::size_t count_differing_pixels(const measure::Picture& a,
 void expect_same_picture_as_peer(const scene::Scene& scene, int depth, bool exact) {
     const std::string technique = "raytrace:depth=" + std::to_string(depth) +
                                   (exact ? ",sphere=exact" : "");
-    const app::Request asked = test::make_test_request(scene, {technique}, kComparedPictureSize);
-    const app::TechniqueResult ours = render_scene_picture(scene, technique);
+    const session::Request asked = test::make_test_request(scene, {technique},
+                                                           kComparedPictureSize);
+    const session::TechniqueResult ours = render_scene_picture(scene, technique);
     const std::vector<float> sensitive = pixel_changes_by_double_precision(
         ours.hdr, render_scene_picture(scene, technique + ",hit=f64").hdr);
     EXPECT_LE(std::ranges::count_if(

@@ -97,16 +97,16 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
           std::pair{VK_ERROR_OUT_OF_DEVICE_MEMORY, Failure::exhausted}}) {
         const std::string said = test::run_in_forked_process([&] {
             FaultLayerInThisProcess here(folder / "calls");
-            catoptric::app::Request request;
+            catoptric::session::Request request;
             request.scene = catoptric::scene::load("cornell-mirrors");
             request.camera = request.scene.cameras.front();
             request.techniques = {"reuse:face=16,shadow_map=16"};
             request.size = {16, 16};
             request.frames = 1, request.warmup = 1;
             std::string wrong;
-            const auto failure_of = [&](catoptric::app::Engine& engine) {
+            const auto failure_of = [&](catoptric::session::Engine& engine) {
                 try {
-                    catoptric::app::run(engine, request);
+                    catoptric::session::run(engine, request);
                 } catch (const catoptric::Error& error) {
                     if (error.failure != failure) wrong += "another failure; ";
                     return std::string(error.what());
@@ -115,7 +115,7 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
             };
             const WatchedRun lost = here.run(
                 VulkanCallFault{"vkWaitSemaphores", 2, result},
-                [&](catoptric::app::Engine& engine) {
+                [&](catoptric::session::Engine& engine) {
                     if (!engine.usable()) wrong += "unusable from the start; ";
                     const std::string first = failure_of(engine), again = failure_of(engine);
                     if (first.find("passes 'shadow' ") == std::string::npos) wrong += first;
@@ -123,12 +123,14 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
                     if (engine.usable()) wrong += "usable though it is lost; ";
                 });
             wrong += lost.describe_objects_destroyed_after_loss();
-            if (!catoptric::app::has_abandoned_device()) wrong += "no device was abandoned; ";
+            if (!catoptric::session::has_abandoned_device()) wrong += "no device was abandoned; ";
             std::vector<catoptric::measure::Picture> pictures;
             for (int i = 0; i < 2; ++i) {
-                const WatchedRun next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
-                    pictures.push_back(catoptric::app::run(engine, request).parts.front().hdr);
-                });
+                const WatchedRun next = here.run(
+                    std::nullopt, [&](catoptric::session::Engine& engine) {
+                        pictures.push_back(
+                            catoptric::session::run(engine, request).parts.front().hdr);
+                    });
                 wrong += next.ended.err + next.describe_undestroyed_objects();
             }
             if (pictures.size() != 2 || pictures[0].pixels != pictures[1].pixels)

@@ -114,8 +114,9 @@ FaultLayerInThisProcess::FaultLayerInThisProcess(fs::path report) : report_(std:
         ::setenv(name.c_str(), value.c_str(), 1);
 }
 
-WatchedRun FaultLayerInThisProcess::run(const std::optional<VulkanCallFault>& fault,
-                                        const std::function<void(catoptric::app::Engine&)>& work) {
+WatchedRun
+FaultLayerInThisProcess::run(const std::optional<VulkanCallFault>& fault,
+                             const std::function<void(catoptric::session::Engine&)>& work) {
     fs::remove(report_);
     if (fault)
         ::setenv("CATOPTRIC_FAULT", describe_fault(*fault).c_str(), 1);
@@ -123,7 +124,7 @@ WatchedRun FaultLayerInThisProcess::run(const std::optional<VulkanCallFault>& fa
         ::unsetenv("CATOPTRIC_FAULT");
     WatchedRun watched{.ended = {.exit_code = 0}};
     try {
-        catoptric::app::Engine engine({});
+        catoptric::session::Engine engine({});
         work(engine);
     } catch (const catoptric::Error& error) {
         watched.ended.exit_code = static_cast<int>(error.failure);

@@ -59,11 +59,11 @@ public:
     /// Makes an engine and calls `work` with it. `ended` of the result has the exit code and
     /// message of the error that was thrown, or exit code 0.
     WatchedRun run(const std::optional<VulkanCallFault>& fault,
-                   const std::function<void(catoptric::app::Engine&)>& work);
+                   const std::function<void(catoptric::session::Engine&)>& work);
 
 private:
     std::filesystem::path report_;
-    catoptric::app::Engine keeps_driver_{{}};
+    catoptric::session::Engine keeps_driver_{{}};
 };
 
 /// Calls `run(i)` for each i below `count` on two threads, because a run of the program mostly uses

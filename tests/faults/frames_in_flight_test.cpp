@@ -33,7 +33,7 @@ TEST_F(DeviceLostInFlightTest, WaitReportsTheLostDevice) {
         FaultLayerInThisProcess here(folder / "calls");
         std::string wrong;
         const VulkanCallFault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
-        const WatchedRun watched = here.run(fault, [&](app::Engine&) {
+        const WatchedRun watched = here.run(fault, [&](session::Engine&) {
             gpu::GpuDevice device({});
             gpu::PipelineStore pipelines(device);
             graph::GraphRunner runner(device, pipelines, 3);

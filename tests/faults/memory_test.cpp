@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string compile_plan_text(catoptric::app::Engine& engine,
-                              const catoptric::app::Request& request) {
-    catoptric::app::Session session(engine, request.scene);
-    return catoptric::app::Access::format_frame_plan(session, request,
-                                                     catoptric::app::GraphPlanFormat::json);
+std::string compile_plan_text(catoptric::session::Engine& engine,
+                              const catoptric::session::Request& request) {
+    catoptric::session::Session session(engine, request.scene);
+    return catoptric::session::Access::format_frame_plan(session, request,
+                                                         catoptric::session::GraphPlanFormat::json);
 }
 
 /// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a
@@ -75,9 +75,9 @@ using catoptric::uvec2;
 class Memory : public Faults {
 protected:
     /// Returns a request for one frame of the built-in scene after `warmup` other frames.
-    static catoptric::app::Request make_one_frame_request(const std::string& technique, uvec2 size,
-                                                          int warmup) {
-        catoptric::app::Request request;
+    static catoptric::session::Request make_one_frame_request(const std::string& technique,
+                                                              uvec2 size, int warmup) {
+        catoptric::session::Request request;
         request.scene = catoptric::scene::load("cornell-mirrors");
         request.camera = request.scene.cameras.front();
         request.techniques = {technique};
@@ -131,10 +131,10 @@ protected:
 TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
     // The scene is small, because the whole run is repeated for each failing call: each of the
     // first four calls of a name, and every eighth call after these.
-    const catoptric::app::Request request = test::make_test_request(
+    const catoptric::session::Request request = test::make_test_request(
         test::make_lit_room(2, 1), {"hybrid:face=16,shadow_map=16"}, {16, 16});
-    const auto render = [&](catoptric::app::Engine& engine) {
-        catoptric::app::run(engine, request);
+    const auto render = [&](catoptric::session::Engine& engine) {
+        catoptric::session::run(engine, request);
     };
     const auto most = [](int calls) {
         std::vector<int> numbers;
@@ -229,13 +229,14 @@ TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
         for (const std::string technique :
              {"raytrace", "parallax:face=64", "reuse:face=32", "hybrid:face=32"}) {
             for (const uvec2 size : {uvec2(1, 1), uvec2(1, 2000), uvec2(1500, 1100)}) {
-                const catoptric::app::Request request = make_one_frame_request(technique, size, 1);
+                const catoptric::session::Request request = make_one_frame_request(technique, size,
+                                                                                   1);
                 std::uint64_t announced = 0;
                 const WatchedRun watched = here.run(
-                    std::nullopt, [&](catoptric::app::Engine& engine) {
+                    std::nullopt, [&](catoptric::session::Engine& engine) {
                         const std::string plan = compile_plan_text(engine, request);
                         announced = nlohmann::json::parse(plan).at("bytes").get<std::uint64_t>();
-                        catoptric::app::run(engine, request);
+                        catoptric::session::run(engine, request);
                     });
                 const std::uint64_t known = announced + std::uint64_t{16} * size.x * size.y;
                 const std::uint64_t rest = watched.most_bytes - known;

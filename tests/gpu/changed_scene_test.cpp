@@ -17,9 +17,9 @@ measure::Picture render_changed_scene(int lit_frames, int frames) {
     const auto lamp = std::ranges::find(scene.objects, "lamp1", &scene::Object::name);
     const scene::Edit put_out = scene::paint(static_cast<std::size_t>(lamp - scene.objects.begin()),
                                              out);
-    app::Session session(test::get_test_engine(), scene);
-    const app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"},
-                                                        kChangedScenePictureSize);
+    session::Session session(test::get_test_engine(), scene);
+    const session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"},
+                                                            kChangedScenePictureSize);
     measure::Picture last;
     for (int k = 1; k <= frames; ++k) {
         if (k == lit_frames + 1) session.change(put_out);

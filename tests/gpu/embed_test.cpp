@@ -93,17 +93,17 @@ private:
 };
 
 TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
-    app::Engine engine = embed::make_engine(list_handles_of_test_device());
-    app::Session session(engine, scene::make_cornell_mirrors(), 2);
-    const app::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
-                              .camera = session.scene().cameras.front(),
-                              .size = {32, 16}};
+    session::Engine engine = embed::make_engine(list_handles_of_test_device());
+    session::Session session(engine, scene::make_cornell_mirrors(), 2);
+    const session::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
+                                  .camera = session.scene().cameras.front(),
+                                  .size = {32, 16}};
     CallerOwnedImage own(spec.size);
     for (const VkImageLayout left_in :
          {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
           VK_IMAGE_LAYOUT_GENERAL}) {
-        const app::Frame frame = embed::render_frame_into(session, spec,
-                                                          {own.image_handle(), left_in});
+        const session::Frame frame = embed::render_frame_into(session, spec,
+                                                              {own.image_handle(), left_in});
         EXPECT_TRUE(own.read_image_content(left_in).pixels == frame.read().display.pixels)
             << left_in;
     }
@@ -122,8 +122,8 @@ TEST(Embed, MissingDeviceHandlesAreRefused) {
 }
 
 TEST(Embed, UnusableTargetIsRefused) {
-    app::Session session(test::get_test_engine(), scene::make_flat_mirror_room());
-    app::FrameSpec spec{
+    session::Session session(test::get_test_engine(), scene::make_flat_mirror_room());
+    session::FrameSpec spec{
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
     // The image is a placeholder, because the calls are refused before they use it.
     const auto image = reinterpret_cast<VkImage>(std::uintptr_t{1});
@@ -136,7 +136,7 @@ TEST(Embed, UnusableTargetIsRefused) {
     spec.techniques.push_back("parallax");
     EXPECT_THAT(usage_error_text([&] { embed::render_frame_into(session, spec, {image}); }),
                 HasSubstr("one technique, not 2"));
-    EXPECT_EQ(app::Access::session_counters(session).frames, 0u);
+    EXPECT_EQ(session::Access::session_counters(session).frames, 0u);
 }
 
 } // namespace

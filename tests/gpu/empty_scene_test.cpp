@@ -24,8 +24,9 @@ scene::Scene make_empty_scene() {
     return scene;
 }
 
-app::FrameSpec make_empty_scene_spec(const std::string& technique, app::RenderedWork model) {
-    app::FrameSpec spec{.techniques = {technique}, .size = kEmptyPictureSize, .ambient = 0};
+session::FrameSpec make_empty_scene_spec(const std::string& technique,
+                                         session::RenderedWork model) {
+    session::FrameSpec spec{.techniques = {technique}, .size = kEmptyPictureSize, .ambient = 0};
     spec.camera = {.eye = {0, 0, -3}, .target = {0, 1, 0}};
     spec.model = model;
     return spec;
@@ -33,7 +34,8 @@ app::FrameSpec make_empty_scene_spec(const std::string& technique, app::Rendered
 
 std::vector<std::string> list_techniques_and_auto() {
     std::vector<std::string> names{"auto"};
-    for (const app::TechniqueInfo& technique : app::techniques()) names.push_back(technique.name);
+    for (const session::TechniqueInfo& technique : session::techniques())
+        names.push_back(technique.name);
     return names;
 }
 
@@ -43,13 +45,13 @@ void expect_sky(const measure::Picture& picture, const std::string& what) {
 }
 
 TEST(EmptyScene, EveryTechniqueAndModelDrawsTheSky) {
-    app::Session session(test::get_test_engine(), make_empty_scene());
+    session::Session session(test::get_test_engine(), make_empty_scene());
     for (const std::string& technique : list_techniques_and_auto())
-        for (const app::RenderedWork model :
-             {app::RenderedWork::everything, app::RenderedWork::required})
+        for (const session::RenderedWork model :
+             {session::RenderedWork::everything, session::RenderedWork::required})
             for (int frame = 1; frame <= 2; ++frame)
                 expect_sky(session.frame(make_empty_scene_spec(technique, model)).hdr(),
-                           technique + " " + app::rendered_work_name(model));
+                           technique + " " + session::rendered_work_name(model));
 }
 
 TEST(EmptyScene, EveryTechniqueDrawsTheSkyAfterTheLastObjectIsRemoved) {
@@ -59,15 +61,15 @@ TEST(EmptyScene, EveryTechniqueDrawsTheSkyAfterTheLastObjectIsRemoved) {
     scene::add_ball(scene, "lamp", add_material(scene, {.name = "lamp", .emission = vec3(2)}),
                     {0, 3, 0}, .5, 1);
     for (const std::string& technique : list_techniques_and_auto()) {
-        app::Session session(test::get_test_engine(), scene);
-        for (const app::RenderedWork model :
-             {app::RenderedWork::required, app::RenderedWork::everything}) {
-            const app::FrameSpec spec = make_empty_scene_spec(technique, model);
+        session::Session session(test::get_test_engine(), scene);
+        for (const session::RenderedWork model :
+             {session::RenderedWork::required, session::RenderedWork::everything}) {
+            const session::FrameSpec spec = make_empty_scene_spec(technique, model);
             static_cast<void>(session.frame(spec).hdr());
             if (!session.scene().objects.empty()) {
                 session.change(scene::remove(0)); // the lamp moves up, and is no mirror
                 scene::Scene rest = session.scene();
-                app::Session fresh(test::get_test_engine(), rest);
+                session::Session fresh(test::get_test_engine(), rest);
                 EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(),
                                                          fresh.frame(spec).hdr()))
                     << technique;
@@ -99,10 +101,10 @@ TEST(EmptyScene, EveryTechniqueDrawsTheSkyAroundObjectsWithoutArea) {
         for (const std::size_t triangles : {0, 2}) {
             scene::Scene scene = make_scene_without_area(material, triangles);
             scene.objects[0].mirror = material.transmission > 0;
-            app::Session session(test::get_test_engine(), scene);
+            session::Session session(test::get_test_engine(), scene);
             for (const std::string& technique : list_techniques_and_auto())
-                for (const app::RenderedWork model :
-                     {app::RenderedWork::everything, app::RenderedWork::required})
+                for (const session::RenderedWork model :
+                     {session::RenderedWork::everything, session::RenderedWork::required})
                     expect_sky(session.frame(make_empty_scene_spec(technique, model)).hdr(),
                                material.name + " " + technique);
         }
@@ -112,14 +114,14 @@ TEST(EmptyScene, SessionsRefuseScenesThatAreWrong) {
     scene::Scene scene = test::make_furnace_scene(1);
     scene.meshes[0].normals.clear();
     const std::string text = test::catch_error_text(
-        Failure::bad_data, [&] { app::Session session(test::get_test_engine(), scene); });
+        Failure::bad_data, [&] { session::Session session(test::get_test_engine(), scene); });
     EXPECT_THAT(text, testing::HasSubstr("scene 'furnace': meshes[0] 'wall0': normals: wanted"));
 }
 
 TEST(EmptyScene, FramesRefuseNumbersThatAreWrong) {
-    app::Session session(test::get_test_engine(), make_empty_scene());
-    const auto refused = [&](const std::function<void(app::FrameSpec&)>& change) {
-        app::FrameSpec spec = make_empty_scene_spec("reuse", app::RenderedWork::everything);
+    session::Session session(test::get_test_engine(), make_empty_scene());
+    const auto refused = [&](const std::function<void(session::FrameSpec&)>& change) {
+        session::FrameSpec spec = make_empty_scene_spec("reuse", session::RenderedWork::everything);
         change(spec);
         return test::catch_error_text(Failure::usage,
                                       [&] { static_cast<void>(session.frame(spec)); });

@@ -17,13 +17,13 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
-                                                   {96, 96});
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
+                                                       {96, 96});
     request.frames = 3;
-    const app::TechniqueResult at_once = std::move(
-        app::run(test::get_test_engine(true), request).parts.front());
-    const app::TechniqueResult one_by_one = std::move(
-        app::run(test::get_test_engine(false), request).parts.front());
+    const session::TechniqueResult at_once = std::move(
+        session::run(test::get_test_engine(true), request).parts.front());
+    const session::TechniqueResult one_by_one = std::move(
+        session::run(test::get_test_engine(false), request).parts.front());
     EXPECT_TRUE(test::have_equal_pixel_bytes(at_once.hdr, one_by_one.hdr));
     EXPECT_TRUE(test::have_equal_pixel_bytes(at_once.display, one_by_one.display));
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);

@@ -82,8 +82,8 @@ TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
 }
 
 TEST(LoopLimit, SameSceneRendersWithLessDepth) {
-    const app::TechniqueResult part = test::render_technique(make_hall_of_facing_mirrors(3000),
-                                                             "raytrace:depth=4", {32, 32});
+    const session::TechniqueResult part = test::render_technique(make_hall_of_facing_mirrors(3000),
+                                                                 "raytrace:depth=4", {32, 32});
     ASSERT_TRUE(part.rays);
     std::cout << "[ MEASURED ] longest walk at depth 4: " << part.rays->longest_walk << " steps\n";
     EXPECT_GT(part.rays->longest_walk, 1000u);

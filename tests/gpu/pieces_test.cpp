@@ -20,7 +20,7 @@ using namespace catoptric;
 constexpr uvec2 kPiecesPictureSize{48, 40};
 constexpr std::uint64_t kUnlimitedRays = std::uint64_t{1} << 40;
 
-app::Request make_rough_request(const std::string& technique) {
+session::Request make_rough_request(const std::string& technique) {
     scene::Scene scene = scene::make_rough_cornell();
     scene::find_mirrors(scene);
     return test::make_test_request(std::move(scene), {technique}, kPiecesPictureSize);
@@ -29,16 +29,17 @@ app::Request make_rough_request(const std::string& technique) {
 /// Renders a frame and returns its picture. `told`: gets the arguments of each on_piece.
 measure::Picture render_in_pieces(const std::string& technique, std::uint64_t most_rays,
                                   std::vector<std::pair<std::uint64_t, std::uint64_t>>& told) {
-    const app::Request request = make_rough_request(technique);
-    app::Session session(test::get_test_engine(), request.scene);
+    const session::Request request = make_rough_request(technique);
+    session::Session session(test::get_test_engine(), request.scene);
     const WorkWatch watch{
         .on_piece = [&](std::uint64_t done, std::uint64_t all) { told.emplace_back(done, all); },
         .most_rays = most_rays};
     const WatchScope scope(&watch);
-    const app::Frame frame = session.frame(request);
-    EXPECT_EQ(frame.times().passes.size(),
-              static_cast<std::size_t>(std::ranges::count_if(
-                  frame.times().passes, [](const app::PassTime& pass) { return pass.ms() >= 0; })))
+    const session::Frame frame = session.frame(request);
+    EXPECT_EQ(
+        frame.times().passes.size(),
+        static_cast<std::size_t>(std::ranges::count_if(
+            frame.times().passes, [](const session::PassTime& pass) { return pass.ms() >= 0; })))
         << "the times of pieces must not overlap";
     return frame.hdr();
 }
@@ -83,9 +84,9 @@ TEST(FramePieces, HoldAtMost32768RaysOnAProcessor) {
 
 TEST(FramePieces, HoldUpTo262144RaysOnAProcessor) {
     if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                   {"raytrace:depth=1"}, {1024, 1024});
-    app::Session session(test::get_test_engine(), request.scene);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                       {"raytrace:depth=1"}, {1024, 1024});
+    session::Session session(test::get_test_engine(), request.scene);
     std::vector<std::uint64_t> largest;
     for (int frame = 0; frame < 8; ++frame) {
         std::uint64_t before = 0;
@@ -115,9 +116,9 @@ TEST(FramePieces, GrowWhereTheyAreShortAndShrinkWhereTheyAreLong) {
 }
 
 TEST(FramePieces, StopBetweenTwoPiecesLeavesASessionThatDrawsOn) {
-    const app::Request request = make_rough_request("raytrace:rays=6");
-    app::Request kept = make_rough_request("secant:face=16");
-    app::Session session(test::get_test_engine(), request.scene);
+    const session::Request request = make_rough_request("raytrace:rays=6");
+    session::Request kept = make_rough_request("secant:face=16");
+    session::Session session(test::get_test_engine(), request.scene);
     session.frame(kept), session.frame(kept);
     std::atomic<int> stop = 0;
     int pieces = 0;
@@ -130,7 +131,7 @@ TEST(FramePieces, StopBetweenTwoPiecesLeavesASessionThatDrawsOn) {
                            {"stopped by signal 15"});
     }
     EXPECT_EQ(pieces, 1);
-    app::Session fresh(test::get_test_engine(), request.scene);
+    session::Session fresh(test::get_test_engine(), request.scene);
     for (int k = 0; k < 2; ++k)
         EXPECT_TRUE(
             test::have_equal_pixel_bytes(session.frame(kept).hdr(), fresh.frame(kept).hdr()));
@@ -139,27 +140,27 @@ TEST(FramePieces, StopBetweenTwoPiecesLeavesASessionThatDrawsOn) {
 }
 
 TEST(FramePieces, RunStopsWithinAFrame) {
-    app::Request request = make_rough_request("raytrace:rays=40");
+    session::Request request = make_rough_request("raytrace:rays=40");
     request.warmup = 0, request.frames = 1;
-    app::Session session(test::get_test_engine(), request.scene);
+    session::Session session(test::get_test_engine(), request.scene);
     std::atomic<int> stop = 0;
     int frames = 0;
-    const app::Watcher watcher{.on_frame = [&](int, int) { ++frames; },
-                               .on_piece = [&](std::uint64_t, std::uint64_t) { stop = 2; },
-                               .stop = &stop};
+    const session::Watcher watcher{.on_frame = [&](int, int) { ++frames; },
+                                   .on_piece = [&](std::uint64_t, std::uint64_t) { stop = 2; },
+                                   .stop = &stop};
     if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
-    test::expect_error([&] { app::run(session, request, watcher); }, Failure::interrupted,
+    test::expect_error([&] { session::run(session, request, watcher); }, Failure::interrupted,
                        {"stopped by signal 2"});
     EXPECT_EQ(frames, 0);
 }
 
 TEST(FramePieces, CountTheSameWork) {
-    const app::Request request = make_rough_request("hybrid:face=32,rays=4,force=unknown");
+    const session::Request request = make_rough_request("hybrid:face=32,rays=4,force=unknown");
     const auto count = [&](std::uint64_t most_rays) {
-        app::Session session(test::get_test_engine(), request.scene);
+        session::Session session(test::get_test_engine(), request.scene);
         const WorkWatch watch{.most_rays = most_rays};
         const WatchScope scope(&watch);
-        std::vector<PassWorkCounts> passes = app::count_frame_work(session, request);
+        std::vector<PassWorkCounts> passes = session::count_frame_work(session, request);
         for (PassWorkCounts& pass : passes) // a piece has dispatches and work groups of its own
             for (const CountedWorkKind kind :
                  {CountedWorkKind::dispatches, CountedWorkKind::invocations})

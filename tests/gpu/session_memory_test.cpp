@@ -17,8 +17,9 @@ using namespace catoptric;
 
 TEST(Session, HostMemoryIsFlatOverManyFrames) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=8,shadow_map=8"}, {16, 16});
-    app::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=8,shadow_map=8"},
+                                                      {16, 16});
+    session::Session session(test::get_test_engine(), scene);
     constexpr int kMemoryTestFrames = 2000;
     // A leak grows from the first window to the second and from the second to the third. A block
     // that the driver takes once grows in one of these steps only. Each window counts its smallest

@@ -25,7 +25,7 @@ double milliseconds_since_begin(std::chrono::steady_clock::time_point begin) {
         .count();
 }
 
-app::FrameSpec make_frame_spec(const scene::Scene& scene, const std::string& technique) {
+session::FrameSpec make_frame_spec(const scene::Scene& scene, const std::string& technique) {
     return test::make_test_request(scene, {technique}, kSessionPictureSize);
 }
 
@@ -90,15 +90,15 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
                                            {"raytrace", true}}) {
         scene::Scene at_rest = test::make_lit_room(3, 2);
         if (moves) at_rest.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}};
-        app::Session session(test::get_test_engine(), at_rest);
-        app::FrameSpec spec = make_frame_spec(at_rest, technique);
+        session::Session session(test::get_test_engine(), at_rest);
+        session::FrameSpec spec = make_frame_spec(at_rest, technique);
         measure::Picture before = session.frame(spec).hdr();
         int seen = 0;
         for (int change = 0; change < 20; ++change) {
             session.change(draw.make_random_edit(session.scene()));
             if (change % 4 == 3) draw.change_camera_randomly(spec.camera);
             session.forget();
-            app::Session fresh(test::get_test_engine(), session.scene());
+            session::Session fresh(test::get_test_engine(), session.scene());
             for (int k = 1; k <= 2; ++k) {
                 const measure::Picture found = session.frame(spec).hdr();
                 ASSERT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr()))
@@ -113,8 +113,8 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
 
 TEST(Session, RaysHitEachObjectWhereItWasMoved) {
     const scene::Scene at_rest = test::make_lit_room(3, 2);
-    const app::FrameSpec spec = make_frame_spec(at_rest, "raytrace");
-    app::Session session(test::get_test_engine(), at_rest);
+    const session::FrameSpec spec = make_frame_spec(at_rest, "raytrace");
+    session::Session session(test::get_test_engine(), at_rest);
     measure::Picture before = session.frame(spec).hdr();
     for (const std::size_t back : {1, 2, 3, 2}) {
         const std::size_t object = at_rest.objects.size() - back;
@@ -123,7 +123,7 @@ TEST(Session, RaysHitEachObjectWhereItWasMoved) {
         session.change(scene::move(object, place));
         const measure::Picture found = session.frame(spec).hdr();
         EXPECT_FALSE(test::have_equal_pixel_bytes(found, before)) << "it is in sight";
-        app::Session fresh(test::get_test_engine(), session.scene());
+        session::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr())) << object;
         before = found;
     }
@@ -131,8 +131,8 @@ TEST(Session, RaysHitEachObjectWhereItWasMoved) {
 
 TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
-    app::Session session(test::get_test_engine(), scene);
+    const session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::Session session(test::get_test_engine(), scene);
     const measure::Picture first = session.frame(spec).hdr(), second = session.frame(spec).hdr();
     EXPECT_FALSE(test::have_equal_pixel_bytes(first, second))
         << "mirrors in mirrors are black at first";
@@ -148,47 +148,47 @@ TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
 /// as when it runs alone.
 TEST(Session, ResumedSequenceContinues) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    app::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
+    session::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
     const std::string techniques[] = {"reuse:face=16", "reuse:face=auto", "raytrace"};
-    std::vector<app::FrameSequence> aside;
+    std::vector<session::FrameSequence> aside;
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
-            const app::FrameSpec spec = make_frame_spec(scene, techniques[i]);
-            if (k > 1) app::Access::resume_frame_sequence(session, std::move(aside[i]));
+            const session::FrameSpec spec = make_frame_spec(scene, techniques[i]);
+            if (k > 1) session::Access::resume_frame_sequence(session, std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
-                aside[i] = app::Access::suspend_sequence(session);
+                aside[i] = session::Access::suspend_sequence(session);
             else
-                aside.push_back(app::Access::suspend_sequence(session));
+                aside.push_back(session::Access::suspend_sequence(session));
             alone.forget();
             measure::Picture wanted;
             for (int frame = 1; frame <= k; ++frame) wanted = alone.frame(spec).hdr();
             EXPECT_TRUE(test::have_equal_pixel_bytes(found, wanted))
                 << techniques[i] << ", frame " << k;
         }
-    const app::FrameSpec spec = make_frame_spec(scene, techniques[0]);
+    const session::FrameSpec spec = make_frame_spec(scene, techniques[0]);
     alone.forget();
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), alone.frame(spec).hdr()))
         << "without one that goes on, a frame begins without history";
 }
 
 TEST(Session, WatcherIsToldOfEveryFrameAndCanStop) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {"reuse:face=16"},
-                                                   kSessionPictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                       {"reuse:face=16"}, kSessionPictureSize);
     request.warmup = 2, request.frames = 3;
-    app::Session session(test::get_test_engine(), request.scene);
+    session::Session session(test::get_test_engine(), request.scene);
     std::vector<std::pair<int, int>> told;
     std::atomic<int> stop = 0;
-    const app::Watcher watcher{
+    const session::Watcher watcher{
         .on_frame = [&](int number, int count) { told.emplace_back(number, count); },
         .stop = &stop};
-    app::run(session, request, watcher);
+    session::run(session, request, watcher);
     EXPECT_EQ(told, (std::vector<std::pair<int, int>>{{1, 5}, {2, 5}, {3, 5}, {4, 5}, {5, 5}}));
     for (const auto& [signal, failure] :
          {std::pair(1, Failure::hangup), {2, Failure::interrupted}, {15, Failure::terminated}}) {
         stop = signal;
         told.clear();
-        test::expect_error([&] { app::run(session, request, watcher); }, failure,
+        test::expect_error([&] { session::run(session, request, watcher); }, failure,
                            {"stopped by signal " + std::to_string(signal)});
         EXPECT_TRUE(told.empty());
     }
@@ -197,24 +197,24 @@ TEST(Session, WatcherIsToldOfEveryFrameAndCanStop) {
 /// A capture in other scene units cannot serve as history.
 TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
-    app::Session session(test::get_test_engine(), scene);
+    const session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::Session session(test::get_test_engine(), scene);
     session.frame(spec), session.frame(spec);
-    app::FrameSequence sequence = app::Access::suspend_sequence(session);
+    session::FrameSequence sequence = session::Access::suspend_sequence(session);
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
-    app::Access::resume_frame_sequence(session, std::move(sequence));
-    app::Session fresh(test::get_test_engine(), session.scene());
+    session::Access::resume_frame_sequence(session, std::move(sequence));
+    session::Session fresh(test::get_test_engine(), session.scene());
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }
 
 TEST(Session, FrameOfAnotherTechniqueDropsHistoryUnlessMarkedToKeepIt) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
-    app::FrameSpec aside = make_frame_spec(scene, "raytrace");
+    const session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::FrameSpec aside = make_frame_spec(scene, "raytrace");
     aside.keeps_history = true;
-    app::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
+    session::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
     const measure::Picture first = alone.frame(spec).hdr(), second = alone.frame(spec).hdr();
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first));
     session.frame(aside);
@@ -227,21 +227,21 @@ TEST(Session, FrameOfAnotherTechniqueDropsHistoryUnlessMarkedToKeepIt) {
 
 TEST(Session, StillFramesWriteNothing) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
-    app::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::Session session(test::get_test_engine(), scene);
     for (int k = 0; k < 5; ++k) session.frame(spec);
-    EXPECT_EQ(app::Access::session_counters(session).frames, 5u);
-    EXPECT_EQ(app::Access::session_counters(session).updates, 1u);
+    EXPECT_EQ(session::Access::session_counters(session).frames, 5u);
+    EXPECT_EQ(session::Access::session_counters(session).updates, 1u);
     spec.camera.eye.x += .1;
     session.frame(spec);
-    EXPECT_EQ(app::Access::session_counters(session).updates, 2u);
+    EXPECT_EQ(session::Access::session_counters(session).updates, 2u);
 }
 
 TEST(Session, FrameCanBeReadUntilTheNextFrame) {
     const scene::Scene scene = test::make_lit_room(1, 1);
-    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
-    app::Session session(test::get_test_engine(), scene);
-    const app::Frame old = session.frame(spec);
+    const session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::Session session(test::get_test_engine(), scene);
+    const session::Frame old = session.frame(spec);
     old.hdr(), old.times();
     session.frame(spec);
     EXPECT_GT(old.times().gpu_ms, 0) << "times stay";
@@ -250,8 +250,8 @@ TEST(Session, FrameCanBeReadUntilTheNextFrame) {
 
 TEST(Session, InvalidEditsAndFramesAreRefused) {
     const scene::Scene scene = test::make_lit_room(1, 1);
-    app::Session session(test::get_test_engine(), scene);
-    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::Session session(test::get_test_engine(), scene);
+    const session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
     const std::string objects = std::to_string(scene.objects.size());
     test::expect_error([&] { session.change(scene::move(999, dmat4(1))); }, Failure::usage,
                        {"object 999", objects});
@@ -259,12 +259,12 @@ TEST(Session, InvalidEditsAndFramesAreRefused) {
                        {"material 999", std::to_string(scene.materials.size())});
     test::expect_error([&] { session.change(scene::move(0, dmat4(0))); }, Failure::usage,
                        {scene.objects[0].name, "affine transform with an inverse"});
-    app::FrameSpec none = spec;
+    session::FrameSpec none = spec;
     none.size = {0, 4};
     test::expect_error([&] { session.frame(none); }, Failure::usage, {"at least 1x1", "0x4"});
     none = spec, none.techniques = {};
     test::expect_error([&] { session.frame(none); }, Failure::usage, {"no technique"});
-    app::Session untouched(test::get_test_engine(), scene);
+    session::Session untouched(test::get_test_engine(), scene);
     EXPECT_TRUE(
         test::have_equal_pixel_bytes(session.frame(spec).hdr(), untouched.frame(spec).hdr()));
 }
@@ -273,11 +273,11 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     std::vector<std::vector<measure::Picture>> seen;
     for (const std::uint32_t in_flight : {1u, 2u, 3u}) {
-        app::Session session(test::get_test_engine(), scene, in_flight);
-        std::vector<app::Frame> frames;
+        session::Session session(test::get_test_engine(), scene, in_flight);
+        std::vector<session::Frame> frames;
         std::vector<measure::Picture>& pictures = seen.emplace_back();
         for (int k = 0; k < 9; ++k) {
-            app::FrameSpec spec = make_frame_spec(scene, "parallax:face=16");
+            session::FrameSpec spec = make_frame_spec(scene, "parallax:face=16");
             spec.time = .1 * k;
             spec.camera.eye.x += .02 * (k / 2);
             frames.push_back(session.frame(spec));
@@ -285,24 +285,24 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
             pictures.push_back(frames.front().hdr()); // the oldest frame that can still be read
             frames.erase(frames.begin());
         }
-        for (const app::Frame& frame : frames) pictures.push_back(frame.hdr());
+        for (const session::Frame& frame : frames) pictures.push_back(frame.hdr());
     }
     ASSERT_EQ(seen[0].size(), 9u);
     for (std::size_t k = 0; k < 9; ++k)
         for (std::size_t i : {1, 2})
             EXPECT_TRUE(test::have_equal_pixel_bytes(seen[i][k], seen[0][k])) << k;
-    test::expect_error([&] { app::Session(test::get_test_engine(), scene, 4); }, Failure::usage,
+    test::expect_error([&] { session::Session(test::get_test_engine(), scene, 4); }, Failure::usage,
                        {"1 to 3", "4"});
 }
 
 TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Session session(test::get_test_engine(), scene);
+    session::Session session(test::get_test_engine(), scene);
     std::uint64_t uploads = 0;
     for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
         session.forget();
         for (int k = 0; k < 3; ++k) session.frame(make_frame_spec(scene, technique));
-        const app::SessionCounters counts = app::Access::session_counters(session);
+        const session::SessionCounters counts = session::Access::session_counters(session);
         EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
         EXPECT_EQ(counts.hierarchies_refitted, 0u);
         if (technique == "hybrid:face=16") {
@@ -315,13 +315,13 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
 TEST(Session, OnlyTracingTechniquesRefitTrees) {
     const scene::Scene scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     for (const std::string technique : {"parallax:face=16", "raytrace"}) {
-        app::Session session(test::get_test_engine(), scene);
+        session::Session session(test::get_test_engine(), scene);
         for (int k = 0; k < 5; ++k) {
-            app::FrameSpec spec = make_frame_spec(scene, technique);
+            session::FrameSpec spec = make_frame_spec(scene, technique);
             spec.time = .1 * k;
             session.frame(spec);
         }
-        const app::SessionCounters counts = app::Access::session_counters(session);
+        const session::SessionCounters counts = session::Access::session_counters(session);
         const bool traces = technique == "raytrace";
         EXPECT_EQ(counts.hierarchies_built, traces ? 1u : 0u);
         EXPECT_EQ(counts.hierarchies_refitted, traces ? 4u : 0u);
@@ -332,13 +332,13 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
 /// of both may not exceed the whole frame's duration.
 TEST(Session, WaitingTimeIsNotHostWork) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
     spec.size = {256, 256};
     for (int k = 0; k < 4; ++k) {
         spec.time = .1 * k;
         const auto begin = std::chrono::steady_clock::now();
-        const app::FrameTimes times = session.frame(spec).times();
+        const session::FrameTimes times = session.frame(spec).times();
         const double all = milliseconds_since_begin(begin);
         EXPECT_GT(times.host.sum(), 0);
         EXPECT_LE(times.host.sum() + times.wall_ms, all);
@@ -353,17 +353,17 @@ TEST(Session, WaitingTimeIsNotHostWork) {
 /// for an older frame if all slots are in use.
 TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::FrameSpec spec = make_frame_spec(scene, "raytrace");
+    session::FrameSpec spec = make_frame_spec(scene, "raytrace");
     spec.size = {256, 256};
-    app::Session two(test::get_test_engine(), scene, 2), one(test::get_test_engine(), scene);
+    session::Session two(test::get_test_engine(), scene, 2), one(test::get_test_engine(), scene);
     int ended = 0, taken = 0;
     // Try several times, because other processes may use the processor at any time.
     for (int k = 0; k < 5; ++k) {
-        const app::Frame first = two.frame(spec), second = two.frame(spec);
+        const session::Frame first = two.frame(spec), second = two.frame(spec);
         second.times();
         ended += first.times().wait_ms < first.times().gpu_ms;
         one.frame(spec);
-        const app::FrameTimes times = one.frame(spec).times();
+        const session::FrameTimes times = one.frame(spec).times();
         taken += times.wait_ms > times.wall_ms;
         EXPECT_LT(times.host.sum(), times.wait_ms);
     }
@@ -374,15 +374,15 @@ TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
 TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     const scene::Scene scene = test::make_lit_room(2, 1);
     const auto begin = std::chrono::steady_clock::now();
-    app::Session session(test::get_test_engine(), scene);
-    EXPECT_EQ(app::Access::setup_times(session).upload_ms, 0)
+    session::Session session(test::get_test_engine(), scene);
+    EXPECT_EQ(session::Access::setup_times(session).upload_ms, 0)
         << "nothing is written before the first frame";
     session.frame(make_frame_spec(scene, "reuse:face=16"));
-    const app::SetupTimes raster = app::Access::setup_times(session);
+    const session::SetupTimes raster = session::Access::setup_times(session);
     EXPECT_GT(raster.upload_ms, 0);
     EXPECT_EQ(raster.hierarchy_ms, 0) << "nobody has traced";
     session.frame(make_frame_spec(scene, "raytrace"));
-    const app::SetupTimes traced = app::Access::setup_times(session);
+    const session::SetupTimes traced = session::Access::setup_times(session);
     EXPECT_GT(traced.hierarchy_ms, 0);
     EXPECT_GT(traced.upload_ms, raster.upload_ms) << "the trees' way to the device";
     EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since_begin(begin));
@@ -390,61 +390,62 @@ TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     dmat4 place = scene.objects[ball].world_from_object;
     place[3].x += .1;
     session.change(scene::move(ball, place));
-    app::FrameSpec spec = make_frame_spec(scene, "raytrace");
+    session::FrameSpec spec = make_frame_spec(scene, "raytrace");
     spec.camera.eye.x += .1;
     session.frame(spec);
-    EXPECT_EQ(app::Access::setup_times(session).upload_ms, traced.upload_ms) << "once";
-    EXPECT_EQ(app::Access::setup_times(session).hierarchy_ms, traced.hierarchy_ms);
+    EXPECT_EQ(session::Access::setup_times(session).upload_ms, traced.upload_ms) << "once";
+    EXPECT_EQ(session::Access::setup_times(session).hierarchy_ms, traced.hierarchy_ms);
 }
 
 TEST(Session, EngineCompilesEachPipelineOnce) {
     const scene::Scene scene = test::make_lit_room(1, 1);
     const auto begin = std::chrono::steady_clock::now();
-    app::Engine engine({.device = test::read_wanted_device_name()});
-    EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, 0u);
-    EXPECT_EQ(app::Access::pipeline_cache_state_of_engine(engine), app::PipelineCacheState::none);
-    const app::FrameSpec spec = make_frame_spec(scene, "raytrace:depth=1");
-    app::Session(engine, scene).frame(spec).times();
-    const app::CompiledPipelines once = app::Access::compiled_pipelines(engine);
+    session::Engine engine({.device = test::read_wanted_device_name()});
+    EXPECT_EQ(session::Access::compiled_pipelines(engine).pipelines, 0u);
+    EXPECT_EQ(session::Access::pipeline_cache_state_of_engine(engine),
+              session::PipelineCacheState::none);
+    const session::FrameSpec spec = make_frame_spec(scene, "raytrace:depth=1");
+    session::Session(engine, scene).frame(spec).times();
+    const session::CompiledPipelines once = session::Access::compiled_pipelines(engine);
     EXPECT_GT(once.pipelines, 0u);
     EXPECT_GT(once.ms, 0);
     EXPECT_LE(once.ms, milliseconds_since_begin(begin));
-    app::Session(engine, scene).frame(spec).times();
-    EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, once.pipelines);
-    EXPECT_EQ(app::Access::compiled_pipelines(engine).ms, once.ms);
-    app::Session(engine, scene).frame(make_frame_spec(scene, "naive:bounces=0")).times();
-    EXPECT_GT(app::Access::compiled_pipelines(engine).pipelines, once.pipelines);
-    EXPECT_GT(app::Access::compiled_pipelines(engine).ms, once.ms);
+    session::Session(engine, scene).frame(spec).times();
+    EXPECT_EQ(session::Access::compiled_pipelines(engine).pipelines, once.pipelines);
+    EXPECT_EQ(session::Access::compiled_pipelines(engine).ms, once.ms);
+    session::Session(engine, scene).frame(make_frame_spec(scene, "naive:bounces=0")).times();
+    EXPECT_GT(session::Access::compiled_pipelines(engine).pipelines, once.pipelines);
+    EXPECT_GT(session::Access::compiled_pipelines(engine).ms, once.ms);
 }
 
 TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
     scene::Scene scene = test::make_lit_room(2, 1);
-    app::Session session(test::get_test_engine(), scene, 3);
-    app::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
+    session::Session session(test::get_test_engine(), scene, 3);
+    session::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
     spec.size = {128, 128};
     for (int k = 0; k < 4; ++k) { // move the ball so far away that the scene units change
         dmat4 place = session.scene().objects.back().world_from_object;
         place[3] += dvec4(20 + 100 * k, 0, 0, 0);
-        const app::Frame before = session.frame(spec);
+        const session::Frame before = session.frame(spec);
         session.change(scene::move(scene.objects.size() - 1, place));
         const measure::Picture found = session.frame(spec).hdr();
-        app::Session fresh(test::get_test_engine(), session.scene());
+        session::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr())) << k;
     }
 }
 
 TEST(Session, GraphOfAShapeIsPlannedOnce) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
     for (int k = 0; k < 6; ++k) {
         spec.camera.eye.x += .01;
         session.frame(spec);
     }
-    EXPECT_EQ(app::Access::session_counters(session).plans, 1u) << "with history and without";
+    EXPECT_EQ(session::Access::session_counters(session).plans, 1u) << "with history and without";
     spec.size.x += 8;
     session.frame(spec);
-    EXPECT_EQ(app::Access::session_counters(session).plans, 2u);
+    EXPECT_EQ(session::Access::session_counters(session).plans, 2u);
 }
 
 } // namespace

@@ -11,8 +11,8 @@ namespace {
 
 using namespace catoptric;
 
-measure::Picture render_on_engine(app::Engine& engine, const scene::Scene& scene) {
-    app::Session session(engine, scene);
+measure::Picture render_on_engine(session::Engine& engine, const scene::Scene& scene) {
+    session::Session session(engine, scene);
     measure::Picture last;
     for (const char* technique : {"parallax:face=64", "secant:face=64", "parallax:face=64"})
         last = session
@@ -25,7 +25,7 @@ measure::Picture render_on_engine(app::Engine& engine, const scene::Scene& scene
 
 TEST(Threads, TwoEnginesInTwoThreadsRenderTheSame) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Engine one({}), other({});
+    session::Engine one({}), other({});
     const measure::Picture truth = render_on_engine(one, scene);
     for (int round = 0; round < 3; ++round) {
         measure::Picture here, there;

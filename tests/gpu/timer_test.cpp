@@ -17,10 +17,10 @@ namespace {
 
 using namespace catoptric;
 
-void expect_passes_in_order(const app::FrameTimes& frame) {
+void expect_passes_in_order(const session::FrameTimes& frame) {
     ASSERT_FALSE(frame.passes.empty());
     double last = 0;
-    for (const app::PassTime& pass : frame.passes) {
+    for (const session::PassTime& pass : frame.passes) {
         EXPECT_GE(pass.begin_ms, last) << pass.name;
         EXPECT_GE(pass.end_ms, pass.begin_ms) << pass.name;
         last = pass.begin_ms;
@@ -36,16 +36,16 @@ INSTANTIATE_TEST_SUITE_P(Frames, SessionClosingTest, testing::Values("raytrace",
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(SessionClosingTest, IsolatedPassesAddUpToTheFrame) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
-                                                   {512, 512});
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
+                                                       {512, 512});
     request.warmup = 2, request.frames = 7;
-    const app::RunResult result = app::run(test::get_test_engine(), request);
+    const session::RunResult result = session::run(test::get_test_engine(), request);
     const bool cpu = test::get_test_engine().device().type == "cpu";
     std::vector<double> shares, walls;
-    for (const app::FrameTimes& frame : result.frames) {
+    for (const session::FrameTimes& frame : result.frames) {
         expect_passes_in_order(frame);
         double sum = 0;
-        for (const app::PassTime& pass : frame.passes) sum += pass.ms();
+        for (const session::PassTime& pass : frame.passes) sum += pass.ms();
         shares.push_back(sum / (cpu ? frame.wall_ms : frame.gpu_ms));
         walls.push_back(frame.wall_ms);
     }
@@ -63,11 +63,12 @@ TEST_P(SessionClosingTest, IsolatedPassesAddUpToTheFrame) {
 }
 
 TEST(Timing, PipelinedPassesLieWithinTheFrame) {
-    app::Request request = test::make_test_request(test::make_lit_room(2, 1), {"reuse"}, {64, 64});
-    request.timing = app::PassTimingMode::pipelined;
+    session::Request request = test::make_test_request(test::make_lit_room(2, 1), {"reuse"},
+                                                       {64, 64});
+    request.timing = session::PassTimingMode::pipelined;
     request.frames = 3;
-    for (const app::FrameTimes& frame : app::run(test::get_test_engine(), request).frames)
-        for (const app::PassTime& pass : frame.passes) {
+    for (const session::FrameTimes& frame : session::run(test::get_test_engine(), request).frames)
+        for (const session::PassTime& pass : frame.passes) {
             EXPECT_GE(pass.begin_ms, 0) << pass.name;
             EXPECT_GE(pass.ms(), 0) << pass.name;
             EXPECT_LE(pass.end_ms, frame.gpu_ms) << pass.name;
@@ -75,51 +76,52 @@ TEST(Timing, PipelinedPassesLieWithinTheFrame) {
 }
 
 TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
-    app::Request request = test::make_test_request(test::make_lit_room(2, 1),
-                                                   {"reuse:face=8,shadow_map=8"}, {8, 8});
-    request.warmup = 0, request.frames = static_cast<int>(app::kMaxDetailedFrames) + 2;
-    const std::vector<app::FrameTimes> frames = app::run(test::get_test_engine(), request).frames;
-    ASSERT_EQ(frames.size(), app::kMaxDetailedFrames + 2);
+    session::Request request = test::make_test_request(test::make_lit_room(2, 1),
+                                                       {"reuse:face=8,shadow_map=8"}, {8, 8});
+    request.warmup = 0, request.frames = static_cast<int>(session::kMaxDetailedFrames) + 2;
+    const std::vector<session::FrameTimes> frames =
+        session::run(test::get_test_engine(), request).frames;
+    ASSERT_EQ(frames.size(), session::kMaxDetailedFrames + 2);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         EXPECT_EQ(frames[i].passes.capacity() == 0, i < 2) << i;
         EXPECT_GT(frames[i].passes_ms, 0) << i;
     }
     double sum = 0;
-    for (const app::PassTime& pass : frames.back().passes) sum += pass.ms();
+    for (const session::PassTime& pass : frames.back().passes) sum += pass.ms();
     EXPECT_DOUBLE_EQ(frames.back().passes_ms, sum);
     const report::Row row = [&] {
         report::Row filled;
-        app::fill_row_times(filled, {{frames}}, "", true);
+        study::fill_row_times(filled, {{frames}}, "", true);
         return filled;
     }();
     EXPECT_EQ(row.gpu_ms.samples.size(), frames.size());
     ASSERT_FALSE(row.passes.empty());
-    EXPECT_EQ(row.passes.front().gpu_ms.samples.size(), app::kMaxDetailedFrames);
+    EXPECT_EQ(row.passes.front().gpu_ms.samples.size(), session::kMaxDetailedFrames);
     EXPECT_GT(row.passes.front().gpu_ms.median, 0);
 }
 
 TEST(Timing, FirstRoundIsReplacedByLaterFrames) {
-    app::Request request = test::make_test_request(test::make_lit_room(2, 1),
-                                                   {"reuse:face=8,shadow_map=8"}, {8, 8});
+    session::Request request = test::make_test_request(test::make_lit_room(2, 1),
+                                                       {"reuse:face=8,shadow_map=8"}, {8, 8});
     request.warmup = 1, request.frames = 5;
-    app::Session session(test::get_test_engine(), request.scene);
-    const app::Watcher watcher;
-    app::RowMeasurement row(session, request, watcher, 3);
+    session::Session session(test::get_test_engine(), request.scene);
+    const session::Watcher watcher;
+    study::RowMeasurement row(session, request, watcher, 3);
     for (const int frames : {3, 2}) row.measure_one_round_of_frames(frames);
     EXPECT_EQ(row.rendered_frame_count(), 6);
-    const std::vector<std::vector<app::FrameTimes>> before = row.list_rounds();
+    const std::vector<std::vector<session::FrameTimes>> before = row.list_rounds();
     row.measure_first_round_again();
     EXPECT_EQ(row.rendered_frame_count(), 9);
     EXPECT_EQ(row.list_rounds()[0].front().wall_ms, before[0].front().wall_ms) << "not yet";
     row.replace_first_round();
-    const std::vector<std::vector<app::FrameTimes>>& after = row.list_rounds();
+    const std::vector<std::vector<session::FrameTimes>>& after = row.list_rounds();
     ASSERT_EQ(after.size(), 2u);
     ASSERT_EQ(after[0].size(), 3u);
     ASSERT_EQ(after[1].size(), 2u);
     EXPECT_NE(after[0].front().wall_ms, before[0].front().wall_ms);
     EXPECT_EQ(after[1].front().wall_ms, before[1].front().wall_ms);
-    EXPECT_TRUE(app::must_repeat_first_round("discrete"));
-    EXPECT_FALSE(app::must_repeat_first_round("cpu"));
+    EXPECT_TRUE(study::must_repeat_first_round("discrete"));
+    EXPECT_FALSE(study::must_repeat_first_round("cpu"));
 }
 
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {

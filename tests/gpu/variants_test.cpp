@@ -48,20 +48,21 @@ TEST(Variants, UnusedNodeBuffersAreNotBound) {
 }
 
 /// Returns the linear picture of a technique under some variants.
-std::vector<vec3> render_with_variants(const char* technique, const app::VariantNames& variants) {
-    app::Engine engine(
+std::vector<vec3> render_with_variants(const char* technique,
+                                       const session::VariantNames& variants) {
+    session::Engine engine(
         {.device = test::read_wanted_device_name(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
-    app::Session session(engine,
-                         test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors()));
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {technique},
-                                                   {61, 53});
+    session::Session session(engine,
+                             test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors()));
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {technique},
+                                                       {61, 53});
     // Render a brighter picture first. If a variant leaves out a pixel, the old value stays in
     // memory and the comparison fails.
     request.ambient += .5, request.frames = 3;
-    app::run(session, request);
+    session::run(session, request);
     request.ambient -= .5, request.frames = 1;
-    std::vector<vec3> pixels = app::run(session, request).parts.front().hdr.pixels;
+    std::vector<vec3> pixels = session::run(session, request).parts.front().hdr.pixels;
     engine.check_validation();
     return pixels;
 }
@@ -82,7 +83,7 @@ TEST(Variants, EachVariantRendersTheSameBytes) {
 
 /// Tests all variants together in `hybrid`, which traces only a list of pixels.
 TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
-    app::VariantNames all;
+    session::VariantNames all;
     for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
         all.emplace_back(variant.name, variant.choices[1]);
     expect_same_bytes(render_with_variants("hybrid:face=16", {}),

@@ -14,9 +14,10 @@ using namespace catoptric;
 
 constexpr int kFramesOfLoop = 2000, kFramesOfTurn = 25;
 
-app::FrameSpec make_spec_of_loop_frame(const scene::Scene& scene, int k, uvec2 size) {
-    app::FrameSpec spec = test::make_test_request(scene, {"parallax:face=64,shadow_map=64"}, size);
-    spec.model = app::RenderedWork::required;
+session::FrameSpec make_spec_of_loop_frame(const scene::Scene& scene, int k, uvec2 size) {
+    session::FrameSpec spec = test::make_test_request(scene, {"parallax:face=64,shadow_map=64"},
+                                                      size);
+    spec.model = session::RenderedWork::required;
     spec.camera.eye += dvec3(.3 * std::sin(.11 * k), .2 * std::sin(.07 * k),
                              .1 + .1 * std::cos(.09 * k));
     return spec;
@@ -26,14 +27,14 @@ app::FrameSpec make_spec_of_loop_frame(const scene::Scene& scene, int k, uvec2 s
 /// both.
 void run_audited_loop(uvec2 size) {
     const scene::Scene scene = test::replace_balls_by_coarse_balls(test::make_lit_room(2, 1));
-    app::Session audited(test::get_test_engine(), scene), plain(test::get_test_engine(), scene);
-    for (app::Session* session : {&audited, &plain}) // the first frames compile shaders
+    session::Session audited(test::get_test_engine(), scene), plain(test::get_test_engine(), scene);
+    for (session::Session* session : {&audited, &plain}) // the first frames compile shaders
         for (int k = 0; k < 16; ++k)
             static_cast<void>(session->frame(make_spec_of_loop_frame(scene, k, size)).times());
-    app::PlanAuditRequest request;
+    study::PlanAuditRequest request;
     request.plans = {"parallax:face=64,shadow_map=64"};
     request.max_error = .08;
-    app::RunningPlanAudit audit(request);
+    study::RunningPlanAudit audit(request);
     audit.prepare(audited, make_spec_of_loop_frame(scene, 0, size));
     double with = 0, without = 0, cpu_with = 0, cpu_without = 0; // seconds
     for (int begin = 0; begin < kFramesOfLoop; begin += kFramesOfTurn)
@@ -42,9 +43,9 @@ void run_audited_loop(uvec2 size) {
             // Processor time of all threads, including the driver's.
             const std::clock_t cpu_start = std::clock();
             for (int k = begin; k < begin + kFramesOfTurn; ++k) {
-                const app::FrameSpec spec = make_spec_of_loop_frame(scene, k, size);
-                app::Session& session = is_audited ? audited : plain;
-                const app::Frame frame = session.frame(spec);
+                const session::FrameSpec spec = make_spec_of_loop_frame(scene, k, size);
+                session::Session& session = is_audited ? audited : plain;
+                const session::Frame frame = session.frame(spec);
                 static_cast<void>(frame.times());
                 if (is_audited) {
                     EXPECT_FALSE(audit.watch_frame(audited, frame, spec, k / 60.).is_alarm) << k;

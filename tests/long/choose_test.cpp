@@ -119,16 +119,16 @@ ViewBank record_view_bank(const char* name) {
     const int views = size.instants * size.cameras_per_instant;
     ViewBank bank{
         .size = size, .plans = list_bank_plans(scene), .comparison = {}, .views = {}, .flips = {}};
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base = test::make_test_request(scene, bank.plans, kTimedSize);
     request.base.warmup = 2;
     request.studies = {{"work"}};
-    bank.comparison = app::compare(test::get_test_engine(), request);
+    bank.comparison = study::compare(test::get_test_engine(), request);
     EXPECT_FALSE(bank.comparison.stopped);
     request.base.size = uvec2(static_cast<unsigned>(size.side));
     request.studies = {{"views", views}};
     request.cameras_per_instant = size.cameras_per_instant;
-    measure::Comparison drawn = app::compare(test::get_test_engine(), request);
+    measure::Comparison drawn = study::compare(test::get_test_engine(), request);
     EXPECT_FALSE(drawn.stopped);
     for (std::size_t i = 0; i < bank.plans.size(); ++i) {
         measure::Row& row = bank.comparison.rows.at(i);
@@ -136,7 +136,7 @@ ViewBank record_view_bank(const char* name) {
         EXPECT_EQ(bank.views[i].size(), std::size_t(views)) << row.label;
         std::vector<double>& flips = bank.flips.emplace_back();
         for (const measure::Errors& view : bank.views[i])
-            flips.push_back(app::mirror_error_of_view(app::ErrorQuantity::flip, view.error));
+            flips.push_back(study::mirror_error_of_view(study::ErrorQuantity::flip, view.error));
         row.hdr = {}, row.display = {}, row.flip_map = {}; // not used, and large to copy
     }
     return bank;
@@ -184,14 +184,14 @@ measure::Comparison draw_views_from_bank(const ViewBank& bank,
 /// Returns the chosen plan; empty if none was proved. `number` gives the seeds.
 std::string choose_from_bank(const ViewBank& bank, const std::string& costs, int proof_views,
                              double limit, int number) {
-    app::ChooseRequest request;
+    study::ChooseRequest request;
     request.base.techniques = bank.plans;
     request.base.seed = 2 * static_cast<std::uint64_t>(number) + 1;
     request.proof_seed = request.base.seed + 1;
     request.max_error = limit;
     request.costs = costs;
     request.proof_views = proof_views;
-    const app::PlanChoice choice = app::choose_plan(
+    const study::PlanChoice choice = study::choose_plan(
         request, [&](const std::vector<std::string>& plans, int views, std::uint64_t seed,
                      int cameras_per_instant) {
             return draw_views_from_bank(bank, plans, views, seed, cameras_per_instant);

@@ -20,9 +20,9 @@ TEST(OutsideFigures, MeansAndErrorsOfEachDepthEqualTheFigures) {
                                                 {2, .120575, .049228, .0129, .05},
                                                 {3, 0, 0, .0044, .05},
                                                 {4, .120648, .049291, .0007, .30}};
-    const app::TechniqueResult deep = trace_cornell_mirrors(8, 400);
+    const session::TechniqueResult deep = trace_cornell_mirrors(8, 400);
     const measure::Mask mirrors = measure::mask_mirror_pixels(trace_cornell_mirrors(0, 1).hits);
-    const auto mean = [](const app::TechniqueResult& part, measure::ValueRange range) {
+    const auto mean = [](const session::TechniqueResult& part, measure::ValueRange range) {
         return measure::mean_of(part.hdr, range).all;
     };
     expect_share_of_pixels_within("mean at depth 8", mean(deep, measure::ValueRange::unclamped),
@@ -30,7 +30,7 @@ TEST(OutsideFigures, MeansAndErrorsOfEachDepthEqualTheFigures) {
     expect_share_of_pixels_within("clamped mean at depth 8",
                                   mean(deep, measure::ValueRange::clamped), .049292, .003);
     for (const auto& [depth, wanted, clamped, rmse, rmse_share] : figures) {
-        const app::TechniqueResult part = trace_cornell_mirrors(depth, 400);
+        const session::TechniqueResult part = trace_cornell_mirrors(depth, 400);
         const std::string at = " at depth " + std::to_string(depth);
         if (wanted > 0)
             expect_share_of_pixels_within("mean" + at, mean(part, measure::ValueRange::unclamped),

@@ -13,11 +13,11 @@ using namespace catoptric::shared;
 
 constexpr uvec2 kAblationPictureSize{48, 48};
 
-std::vector<measure::Picture> render_with_ablation_masks(const app::Request& request,
+std::vector<measure::Picture> render_with_ablation_masks(const session::Request& request,
                                                          const std::vector<std::uint32_t>& masks) {
     std::vector<measure::Picture> pictures;
-    app::Session session(test::get_test_engine(), request.scene);
-    app::render_ablated_pictures(
+    session::Session session(test::get_test_engine(), request.scene);
+    study::render_ablated_pictures(
         session, request, masks,
         [&](std::size_t, const measure::Picture& picture) { pictures.push_back(picture); });
     return pictures;
@@ -30,9 +30,9 @@ std::vector<test::PixelComparison> compare_with_causes_removed(const scene::Scen
                                                                std::vector<std::uint32_t> masks,
                                                                const std::string& shadow = "none",
                                                                int frames = 1) {
-    const app::TechniqueResult truth = test::render_technique(
+    const session::TechniqueResult truth = test::render_technique(
         scene, "raytrace:depth=16,shadow=" + shadow, kAblationPictureSize);
-    app::Request request = test::make_test_request(scene, {technique}, kAblationPictureSize);
+    session::Request request = test::make_test_request(scene, {technique}, kAblationPictureSize);
     request.warmup = frames - 1;
     masks.insert(masks.begin(), 0);
     std::vector<test::PixelComparison> result;
@@ -64,13 +64,13 @@ TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
 
 // With these causes removed, neither distances nor colours come from the captures.
 TEST(Mended, PicturesDoNotDependOnTheCaptureEdge) {
-    const app::TechniqueResult truth = test::render_technique(
+    const session::TechniqueResult truth = test::render_technique(
         test::make_coloured_box({}), "raytrace:shadow=none", kAblationPictureSize);
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
-        app::Request request = test::make_test_request(test::make_coloured_box({}),
-                                                       {"parallax:shadow=none,face=" + face},
-                                                       kAblationPictureSize);
+        session::Request request = test::make_test_request(test::make_coloured_box({}),
+                                                           {"parallax:shadow=none,face=" + face},
+                                                           kAblationPictureSize);
         pictures.push_back(
             render_with_ablation_masks(request, {kAblateDistance | kAblateTexelColour}).front());
         // Parallax takes one step to the surface, which is not exact.

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(RasterTracerAgreementTest, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
     for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(2, 2)}) {
-        const app::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
+        const session::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
         const double error = test::rmse_of_pictures(
             test::render_technique(scene, raster, {512, 512}).hdr, truth.hdr,
             measure::mask_non_mirror_pixels(truth.hits));
@@ -45,9 +45,9 @@ TEST_P(RasterTracerAgreementTest, RasterisationEqualsRayTracingBesideMirrors) {
 /// else in the scene is as bright.
 std::pair<std::size_t, std::size_t> count_lamp_pixels(const scene::Scene& scene,
                                                       const std::string& technique) {
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
-                                                              {128, 128});
-    const app::TechniqueResult part = test::render_technique(scene, technique, {128, 128}, 3);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                                  {128, 128});
+    const session::TechniqueResult part = test::render_technique(scene, technique, {128, 128}, 3);
     std::pair<std::size_t, std::size_t> found{0, 0};
     for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
         if (part.hdr.pixels[i].x > 4)
@@ -71,7 +71,7 @@ TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
                   << direct << " beside them\n";
         EXPECT_EQ(mirrored > 0, !faces_eye);
         EXPECT_EQ(direct > 0, faces_eye);
-        for (const app::TechniqueInfo& technique : app::techniques()) {
+        for (const session::TechniqueInfo& technique : session::techniques()) {
             SCOPED_TRACE(technique.name);
             const auto found = count_lamp_pixels(scene, technique.name);
             EXPECT_NEAR(double(found.second), double(direct), .02 * double(direct));
@@ -99,8 +99,8 @@ scene::Camera draw_random_camera_of_kind(test::RandomNumbers& random, int kind) 
 }
 
 /// Returns the share of pixels outside mirrors in which the pictures differ by more than .02.
-double share_of_differing_pixels_outside_mirrors(const app::TechniqueResult& raster,
-                                                 const app::TechniqueResult& traced) {
+double share_of_differing_pixels_outside_mirrors(const session::TechniqueResult& raster,
+                                                 const session::TechniqueResult& traced) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -120,7 +120,7 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
     test::RandomNumbers random(20);
     double worst = 0, sum = 0;
     for (int i = 0; i < kRandomCameraCount; ++i) {
-        app::Request request = test::make_test_request(
+        session::Request request = test::make_test_request(
             scene::make_cornell_mirrors(), {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
             {256, 256});
         request.camera = i == 0   ? scene::Camera{.eye = {540, 12, -60},
@@ -131,7 +131,7 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
                                                   .vertical_fov_degrees = 50}
                                   : draw_random_camera_of_kind(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
-        const app::RunResult result = app::run(test::get_test_engine(), request);
+        const session::RunResult result = session::run(test::get_test_engine(), request);
         const double off = share_of_differing_pixels_outside_mirrors(result.parts[0],
                                                                      result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
@@ -146,8 +146,8 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
 // not be larger than needed. A coarse map shows an excess, because the offset grows with the size
 // of a texel.
 TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
-    const app::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
-                                                              "raytrace:depth=16", {256, 256});
+    const session::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
+                                                                  "raytrace:depth=16", {256, 256});
     const double error = test::rmse_of_pictures(
         test::render_technique(scene::make_cornell_mirrors(), "naive:bounces=0,shadow_map=64",
                                {256, 256})

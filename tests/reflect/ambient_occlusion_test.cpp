@@ -168,10 +168,10 @@ TEST(AmbientOcclusion, LightProbesKnowOpenFloorsAndClosedBoxes) {
                 EXPECT_LT(pixel.y / kDarkAlbedo, .01) << technique << ' ' << target.x;
     scene.environment = nullptr; // ambient light is hidden by near surfaces only
     scene.cameras = {camera};
-    app::Request asked = test::make_test_request(scene, {"reuse:ao=captures"}, {12, 12});
+    session::Request asked = test::make_test_request(scene, {"reuse:ao=captures"}, {12, 12});
     asked.ambient = 1;
     double sum = 0;
-    for (const vec3& pixel : app::run(test::get_test_engine(), asked).parts.front().hdr.pixels)
+    for (const vec3& pixel : session::run(test::get_test_engine(), asked).parts.front().hdr.pixels)
         sum += pixel.y / kDarkAlbedo / 144;
     EXPECT_GT(sum, .5);
     EXPECT_LT(sum, 1.001);
@@ -222,9 +222,9 @@ TEST(AmbientOcclusion, HidesAmbientLightAndNoDirectLight) {
     test::add_mesh(scene, scene::box("wall", {-.2, 0, -8}, {0, .5, 8}), 0);
     scene.cameras.push_back({.eye = {3, 2.5, 0}, .target = {.4, 0, 0}});
     const auto render = [&](const char* technique, double ambient) {
-        app::Request asked = test::make_test_request(scene, {technique}, {32, 32});
+        session::Request asked = test::make_test_request(scene, {technique}, {32, 32});
         asked.ambient = ambient;
-        return app::run(test::get_test_engine(), asked).parts.front().hdr;
+        return session::run(test::get_test_engine(), asked).parts.front().hdr;
     };
     const measure::Picture below_sky = render("reuse:ao=screen", 0);
     const measure::Picture whole = render("reuse", 0);
@@ -280,7 +280,7 @@ TEST(AmbientOcclusion, CapturesAreRefusedWithLightProbesAndPlansGetNotes) {
           {"ao=captures", "ao=screen,indirect=captures", "hide the light of light probes"}}) {
         const std::string plan = fmt::format("1=secant:{},face=16 *=secant:{},face=16", first,
                                              second);
-        const app::TechniqueResult mixed = test::render_technique(room, plan, {8, 8});
+        const session::TechniqueResult mixed = test::render_technique(room, plan, {8, 8});
         EXPECT_TRUE(std::ranges::any_of(mixed.notes, [&](const std::string& note) {
             return note.find(wanted) != std::string::npos;
         })) << wanted;

@@ -18,17 +18,17 @@ std::string suggest_plan(const scene::Scene& rest) {
     const scene::Scene now = scene::scene_at_time(rest, 0);
     return require::suggest_technique_plan(
                {.now = now, .camera = now.cameras.front(), .size = kAutoPictureSize},
-               *app::find_unit_costs_of_device(test::get_test_engine().device()).costs)
+               *session::find_unit_costs_of_device(test::get_test_engine().device()).costs)
         .plan;
 }
 
 /// If one technique suits all mirrors, the picture must equal that of a request for this technique.
 TEST(Auto, PictureIsThatOfTheSuggestedPlanAndEachMirrorHasAReason) {
     for (const scene::Scene& scene : {test::make_mirror_hall(), scene::make_cornell_mirrors()}) {
-        const app::TechniqueResult part = test::render_technique(scene, "auto", kAutoPictureSize,
-                                                                 3),
-                                   plan = test::render_technique(scene, suggest_plan(scene),
-                                                                 kAutoPictureSize, 3);
+        const session::TechniqueResult part = test::render_technique(scene, "auto",
+                                                                     kAutoPictureSize, 3),
+                                       plan = test::render_technique(scene, suggest_plan(scene),
+                                                                     kAutoPictureSize, 3);
         EXPECT_TRUE(test::have_equal_pixel_bytes(part.hdr, plan.hdr));
         ASSERT_EQ(part.plan.size(), scene::mirrors(scene).size());
         for (std::size_t i = 0; i < part.plan.size(); ++i) {
@@ -43,8 +43,8 @@ TEST(Auto, PictureIsThatOfTheSuggestedPlanAndEachMirrorHasAReason) {
 /// A plan belongs to a scene and a sequence. After an edit or a cut, `auto` must choose again.
 TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
     scene::Scene hall = test::make_mirror_hall();
-    app::Session session(test::get_test_engine(), hall);
-    app::FrameSpec frame_spec{
+    session::Session session(test::get_test_engine(), hall);
+    session::FrameSpec frame_spec{
         .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
     EXPECT_EQ(session.frame(frame_spec).read().plan.size(), 3u);
     const std::size_t block = scene::mirrors(hall).at(1);
@@ -53,7 +53,7 @@ TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
     session.change(scene::paint(block, 0));
     const std::vector<PlanEntry> plan = session.frame(frame_spec).read().plan;
     ASSERT_EQ(plan.size(), 2u);
-    app::FrameSpec away = frame_spec; // this view shows a corner of the panel and no ball
+    session::FrameSpec away = frame_spec; // this view shows a corner of the panel and no ball
     away.camera.eye = {.9, .9, 1.2}, away.camera.target = {.9, 1, 1.9};
     away.camera.vertical_fov_degrees = 10;
     EXPECT_EQ(session.frame(away).read().plan[0].why, plan[0].why)
@@ -67,16 +67,16 @@ TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
 /// must stay, so that `auto` does not choose again in each round.
 TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     const scene::Scene hall = test::make_mirror_hall();
-    app::Session session(test::get_test_engine(), hall);
-    app::FrameSpec frame_spec{
+    session::Session session(test::get_test_engine(), hall);
+    session::FrameSpec frame_spec{
         .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
     const std::string why = session.frame(frame_spec).read().plan[0].why;
-    app::FrameSequence sequence = app::Access::suspend_sequence(session);
-    app::FrameSpec other = frame_spec;
+    session::FrameSequence sequence = session::Access::suspend_sequence(session);
+    session::FrameSpec other = frame_spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);
-    app::Access::suspend_sequence(session);
-    app::Access::resume_frame_sequence(session, std::move(sequence));
+    session::Access::suspend_sequence(session);
+    session::Access::resume_frame_sequence(session, std::move(sequence));
     // This view does not show the ball.
     frame_spec.camera.eye = {.9, .9, 1.2}, frame_spec.camera.target = {.9, 1, 1.9};
     frame_spec.camera.vertical_fov_degrees = 10;

@@ -120,7 +120,7 @@ TEST(Blending, RasterShowsWhatRaysShow) {
 TEST(Blending, CapturesShowVeils) {
     const uvec2 size{64, 48};
     const scene::Scene scene = make_room_with_transparent_sheets(5, true);
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
     const measure::Picture found = test::render_technique(scene, "pyramid", size, 6).hdr;
     int off = 0, mirrors = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
@@ -165,7 +165,7 @@ TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
     veil.dielectric_f0 = vec3(.04f), veil.dielectric_f90 = vec3(1), veil.roughness = .8f;
     test::add_quad(scene, "veil", test::add_material(scene, veil), {-1.5, -1.8, -1.2},
                    {1.5, -1.8, -1.2}, {1.5, .6, -1.2}, {-1.5, .6, -1.2});
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=4", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=4", size);
     std::size_t mirrors = 0;
     for (const std::uint32_t hit : traced.hits)
         mirrors += bool(measure::first_mirror_of_hit_word(hit));
@@ -212,7 +212,7 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
                        {1.5, -1.5, z}, {1.5, .9, z}, {-.3, .9, z});
     }
     const uvec2 size{64, 64};
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
     scene::Scene without = scene;
     for (scene::Material& material : without.materials) material.alpha = material.blended ? 0 : 1;
     const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);

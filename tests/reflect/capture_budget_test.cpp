@@ -26,9 +26,9 @@ std::uint32_t count_frames_per_turn(std::uint32_t mirrors, std::uint32_t most) {
 }
 
 /// Returns the numbers of the mirrors whose captures the frame's passes drew.
-std::set<int> list_drawn_mirrors(const app::FrameTimes& times) {
+std::set<int> list_drawn_mirrors(const session::FrameTimes& times) {
     std::set<int> mirrors;
-    for (const app::PassTime& pass : times.passes)
+    for (const session::PassTime& pass : times.passes)
         if (pass.name.starts_with("capture/") && !pass.name.ends_with(".clear"))
             mirrors.insert(std::stoi(pass.name.substr(8)));
     return mirrors;
@@ -38,19 +38,19 @@ scene::Scene make_coarse_room() {
     return test::replace_balls_by_coarse_balls(test::make_lit_room(3, 1));
 }
 
-app::FrameSpec
+session::FrameSpec
 make_spec_with_capture_budget(const scene::Scene& scene, std::uint32_t most,
                               const std::string& technique = "parallax:face=32,shadow_map=64") {
-    app::FrameSpec spec = test::make_test_request(scene, {technique}, kSlicesPictureSize);
-    spec.model = app::RenderedWork::required;
+    session::FrameSpec spec = test::make_test_request(scene, {technique}, kSlicesPictureSize);
+    spec.model = session::RenderedWork::required;
     spec.most_captures = most;
     return spec;
 }
 
 /// Expects that the budget a frame reports agrees with its passes.
-void expect_reported_budget(const app::Frame& frame, std::uint32_t most) {
+void expect_reported_budget(const session::Frame& frame, std::uint32_t most) {
     ASSERT_TRUE(frame.capture_budget());
-    const app::CaptureBudget& capture_budget = *frame.capture_budget();
+    const session::CaptureBudget& capture_budget = *frame.capture_budget();
     EXPECT_EQ(list_drawn_mirrors(frame.times()).size(), capture_budget.drawn);
     EXPECT_EQ(capture_budget.most, std::min(most, capture_budget.mirrors));
     EXPECT_LT(capture_budget.longest, capture_budget.frames_per_cycle());
@@ -88,16 +88,16 @@ scene::Scene make_balls_in_cells() {
 // its capture was drawn.
 TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
     for (const std::uint32_t most : {1u, 2u, 3u}) {
-        app::Session session(test::get_test_engine(), make_balls_in_cells());
-        const app::FrameSpec spec = make_spec_with_capture_budget(session.scene(), most,
-                                                                  "parallax:face=32,shadow=none");
+        session::Session session(test::get_test_engine(), make_balls_in_cells());
+        const session::FrameSpec spec = make_spec_with_capture_budget(
+            session.scene(), most, "parallax:face=32,shadow=none");
         const int round = static_cast<int>(count_frames_per_turn(kBallCellCount, most));
         std::vector<int> oldest(kBallCellCount, 0);
         for (int k = 1; k <= 4 * round; ++k) {
             scene::Material hot = session.scene().materials[0];
             hot.emission = vec3(static_cast<float>(k));
             session.change(scene::set_material(0, hot));
-            const app::Frame frame = session.frame(spec);
+            const session::Frame frame = session.frame(spec);
             expect_reported_budget(frame, most);
             const measure::Picture picture = frame.hdr();
             for (int i = 0; i < kBallCellCount; ++i) {
@@ -118,28 +118,28 @@ TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
 TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
     for (const std::uint32_t most : {1u, 2u}) {
         const scene::Scene scene = make_coarse_room();
-        app::Session all(test::get_test_engine(), scene), few(test::get_test_engine(), scene);
-        const app::FrameSpec spec = make_spec_with_capture_budget(scene, most);
-        app::FrameSpec everything = spec;
-        everything.model = app::RenderedWork::everything, everything.most_captures = 0;
+        session::Session all(test::get_test_engine(), scene), few(test::get_test_engine(), scene);
+        const session::FrameSpec spec = make_spec_with_capture_budget(scene, most);
+        session::FrameSpec everything = spec;
+        everything.model = session::RenderedWork::everything, everything.most_captures = 0;
         const auto settle = [&] {
             std::vector<std::byte> state,
-                next = app::Access::read_next_frame_state(all.frame(everything));
+                next = session::Access::read_next_frame_state(all.frame(everything));
             int bounces = 0;
             for (; state != next; ++bounces)
                 state = std::move(next),
-                next = app::Access::read_next_frame_state(all.frame(everything));
+                next = session::Access::read_next_frame_state(all.frame(everything));
             return bounces;
         };
         const auto follow = [&] {
             const int frames = settle() * static_cast<int>(count_frames_per_turn(3, most));
             for (int k = 1; k <= frames; ++k) {
-                const app::Frame frame = few.frame(spec);
+                const session::Frame frame = few.frame(spec);
                 expect_reported_budget(frame, most);
                 EXPECT_LE(list_drawn_mirrors(frame.times()).size(),
-                          app::Access::session_counters(few).frames == 1 ? 3 : most);
+                          session::Access::session_counters(few).frames == 1 ? 3 : most);
             }
-            const app::Frame last = few.frame(spec);
+            const session::Frame last = few.frame(spec);
             EXPECT_EQ(list_drawn_mirrors(last.times()), std::set<int>()) << "at rest";
             EXPECT_EQ(last.waiting(), 0u);
             EXPECT_TRUE(test::have_equal_pixel_bytes(last.hdr(), all.frame(everything).hdr()));
@@ -161,9 +161,9 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
 TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
     for (const std::uint64_t seed : {3, 11}) {
         const scene::Scene hall = test::make_random_hall(seed, 4);
-        app::Session all(test::get_test_engine(), hall), few(test::get_test_engine(), hall);
-        app::FrameSpec spec = make_spec_with_capture_budget(hall, 1,
-                                                            "parallax:face=16,shadow_map=64");
+        session::Session all(test::get_test_engine(), hall), few(test::get_test_engine(), hall);
+        session::FrameSpec spec = make_spec_with_capture_budget(hall, 1,
+                                                                "parallax:face=16,shadow_map=64");
         test::RandomNumbers numbers(seed);
         const std::vector<std::size_t> mirrors = scene::mirrors(hall);
         for (int k = 0; k < 24; ++k) {
@@ -175,16 +175,16 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
             const std::size_t moved = numbers.random_integer_below(hall.objects.size());
             dmat4 to = hall.objects[moved].world_from_object;
             to[3] += dvec4(dvec3(numbers.random_point_in_cube()) * .3, 0);
-            for (app::Session* session : {&all, &few}) session->change(scene::move(moved, to));
+            for (session::Session* session : {&all, &few}) session->change(scene::move(moved, to));
             expect_reported_budget(few.frame(spec), 1);
         }
         constexpr int kBudgetRounds = 12;
         for (int k = 0; k < kBudgetRounds * 4; ++k) few.frame(spec);
-        spec.model = app::RenderedWork::everything, spec.most_captures = 0;
+        spec.model = session::RenderedWork::everything, spec.most_captures = 0;
         for (int k = 0; k < kBudgetRounds; ++k) all.frame(spec);
         const measure::Picture wanted = all.frame(spec).hdr();
-        spec.model = app::RenderedWork::required, spec.most_captures = 1;
-        const app::Frame last = few.frame(spec);
+        spec.model = session::RenderedWork::required, spec.most_captures = 1;
+        const session::Frame last = few.frame(spec);
         EXPECT_TRUE(test::have_equal_pixel_bytes(last.hdr(), wanted)) << seed;
         EXPECT_EQ(list_drawn_mirrors(last.times()), std::set<int>()) << seed;
     }
@@ -193,11 +193,11 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
 // Something moves in every frame, so every capture always waits to be drawn.
 TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
     const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors());
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
     std::vector<int> since(4, 0);
     for (int k = 1; k <= 14; ++k) {
-        const app::Frame frame = session.frame(spec);
+        const session::Frame frame = session.frame(spec);
         expect_reported_budget(frame, 1);
         for (int& frames : since) ++frames;
         for (const int mirror : list_drawn_mirrors(frame.times()))
@@ -209,12 +209,12 @@ TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
 
 TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
     const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors());
-    app::Session one(test::get_test_engine(), scene), other(test::get_test_engine(), scene);
+    session::Session one(test::get_test_engine(), scene), other(test::get_test_engine(), scene);
     for (int k = 0; k < 6; ++k) {
-        app::FrameSpec spec = make_spec_with_capture_budget(scene, 4),
-                       whole = make_spec_with_capture_budget(scene, 0);
+        session::FrameSpec spec = make_spec_with_capture_budget(scene, 4),
+                           whole = make_spec_with_capture_budget(scene, 0);
         spec.time = whole.time = k < 4 ? k / 20.0 : .2;
-        const app::Frame found = one.frame(spec), wanted = other.frame(whole);
+        const session::Frame found = one.frame(spec), wanted = other.frame(whole);
         EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
         EXPECT_EQ(list_drawn_mirrors(found.times()), list_drawn_mirrors(wanted.times())) << k;
         EXPECT_FALSE(wanted.capture_budget());
@@ -225,21 +225,21 @@ TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
 // frame, and very much time draws all mirrors.
 TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
     const scene::Scene scene = make_coarse_room();
-    app::Session little(test::get_test_engine(), scene), much(test::get_test_engine(), scene);
-    app::FrameSpec spec = make_spec_with_capture_budget(scene, 0);
+    session::Session little(test::get_test_engine(), scene), much(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_spec_with_capture_budget(scene, 0);
     for (int k = 1; k <= 5; ++k) {
         spec.ambient = .05 * k; // a change of the ambient light, so all captures must be drawn
         spec.budget_ms = 1e-6;
-        const app::Frame frame = little.frame(spec);
+        const session::Frame frame = little.frame(spec);
         expect_reported_budget(frame, k == 1 ? 3 : 1);
         EXPECT_EQ(frame.capture_budget()->drawn, k == 1 ? 3u : 1u);
-        app::FrameSpec aside = spec;
+        session::FrameSpec aside = spec;
         aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).capture_budget()) << "beside the sequence all are drawn";
         if (k == 3) { // the times measured before and after this other sequence still count
-            app::FrameSequence sequence = app::Access::suspend_sequence(little);
+            session::FrameSequence sequence = session::Access::suspend_sequence(little);
             EXPECT_EQ(little.frame(spec).capture_budget()->drawn, 3u) << "the first of its own";
-            app::Access::resume_frame_sequence(little, std::move(sequence));
+            session::Access::resume_frame_sequence(little, std::move(sequence));
         }
         spec.budget_ms = 1e9;
         EXPECT_EQ(much.frame(spec).capture_budget()->drawn, 3u);
@@ -248,16 +248,16 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
 
 TEST(CaptureBudget, PicturesDoNotDependOnFramesInFlight) {
     const scene::Scene scene = make_coarse_room();
-    app::Session one(test::get_test_engine(), scene), more(test::get_test_engine(), scene, 3);
+    session::Session one(test::get_test_engine(), scene), more(test::get_test_engine(), scene, 3);
     for (int k = 0; k < 8; ++k) {
-        app::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
+        session::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
         spec.ambient = k < 3 ? .05 * (k + 1) : .2;
-        const app::Frame wanted = one.frame(spec), found = more.frame(spec);
+        const session::Frame wanted = one.frame(spec), found = more.frame(spec);
         EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
     }
     // Without a budget, the captures that were put off are drawn.
-    app::FrameSpec whole = make_spec_with_capture_budget(scene, 0);
-    std::optional<app::Frame> wanted, found;
+    session::FrameSpec whole = make_spec_with_capture_budget(scene, 0);
+    std::optional<session::Frame> wanted, found;
     for (int k = 0; k < 40; ++k) wanted = one.frame(whole), found = more.frame(whole);
     EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
     EXPECT_EQ(list_drawn_mirrors(found->times()), std::set<int>());
@@ -271,30 +271,30 @@ TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
     shell.name = "shell", shell.material = 0, shell.sphere.reset();
     shell.world_from_object = shell.world_from_object * glm::scale(dmat4(1), dvec3(1.05));
     scene.objects.push_back(shell);
-    app::Request request = test::make_test_request(scene, {"parallax:face=32,shadow_map=64"},
-                                                   kSlicesPictureSize);
-    request.model = app::RenderedWork::required;
+    session::Request request = test::make_test_request(scene, {"parallax:face=32,shadow_map=64"},
+                                                       kSlicesPictureSize);
+    request.model = session::RenderedWork::required;
     request.frames = 28, request.until_settled = true;
-    app::Session session(test::get_test_engine(), scene);
-    const app::RunResult whole = app::run(session, request);
+    session::Session session(test::get_test_engine(), scene);
+    const session::RunResult whole = session::run(session, request);
     request.most_captures = 1;
-    const app::RunResult sliced = app::run(session, request);
+    const session::RunResult sliced = session::run(session, request);
     EXPECT_TRUE(whole.settled && sliced.settled);
     EXPECT_GT(sliced.frames.size(), whole.frames.size());
     EXPECT_TRUE(test::have_equal_pixel_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
     EXPECT_EQ(sliced.parts.front().capture_budget->waiting, 0u);
     request.frames = 1; // under a budget, one frame counts as a round of three
-    EXPECT_EQ(app::run(session, request).frames.size(), 3u);
+    EXPECT_EQ(session::run(session, request).frames.size(), 3u);
 }
 
 TEST(CaptureBudget, InvalidBudgetsAreRefused) {
     const scene::Scene scene = make_coarse_room();
-    app::Session session(test::get_test_engine(), scene);
-    const auto refused = [&](app::FrameSpec spec, const std::string& text) {
+    session::Session session(test::get_test_engine(), scene);
+    const auto refused = [&](session::FrameSpec spec, const std::string& text) {
         test::expect_error([&] { session.frame(spec); }, Failure::usage, {text});
     };
-    app::FrameSpec spec = make_spec_with_capture_budget(scene, 2);
-    spec.model = app::RenderedWork::everything;
+    session::FrameSpec spec = make_spec_with_capture_budget(scene, 2);
+    spec.model = session::RenderedWork::everything;
     refused(spec, "limits of captures (most_captures, budget_ms): wanted the model required");
     spec = make_spec_with_capture_budget(scene, 2);
     spec.budget_ms = 4;

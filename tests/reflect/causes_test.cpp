@@ -38,23 +38,24 @@ struct ErrorCauseSplit {
     }
 };
 
-ErrorCauseSplit split_error_by_causes(const app::Request& request, const std::string& technique) {
-    app::Request reference = request;
-    reference.techniques = {app::kReference};
+ErrorCauseSplit split_error_by_causes(const session::Request& request,
+                                      const std::string& technique) {
+    session::Request reference = request;
+    reference.techniques = {study::kReference};
     if (request.animate)
         reference.time = request.instant(request.total()), reference.animate = false;
-    const app::TechniqueResult truth = std::move(
-        app::run(test::get_test_engine(), reference).parts.front());
-    app::Session session(test::get_test_engine(), request.scene);
-    return {app::ErrorCauseFinder(session, request, truth.hdr, truth.hits).find(technique),
+    const session::TechniqueResult truth = std::move(
+        session::run(test::get_test_engine(), reference).parts.front());
+    session::Session session(test::get_test_engine(), request.scene);
+    return {study::ErrorCauseFinder(session, request, truth.hdr, truth.hits).find(technique),
             truth.hits};
 }
 
 /// Returns a request for a settled picture. Its 16 warm-up frames let one sequence of frames serve
 /// all pictures.
-app::Request make_request_of_settled_picture(const scene::Scene& scene,
-                                             const std::string& technique, uvec2 size) {
-    app::Request request = test::make_test_request(scene, {technique}, size);
+session::Request make_request_of_settled_picture(const scene::Scene& scene,
+                                                 const std::string& technique, uvec2 size) {
+    session::Request request = test::make_test_request(scene, {technique}, size);
     request.warmup = 16;
     return request;
 }
@@ -68,11 +69,12 @@ ErrorCauseSplit split_error_by_causes(const scene::Scene& scene, const std::stri
 /// Returns the mean squared error over all mirrors, as `split_error_by_causes` reports it, without
 /// splitting it.
 double mean_squared_mirror_error(const scene::Scene& scene, const std::string& technique) {
-    const app::TechniqueResult truth = test::render_technique(scene, app::kReference,
-                                                              kCausesPictureSize);
-    app::Request request = make_request_of_settled_picture(scene, technique, kCausesPictureSize);
+    const session::TechniqueResult truth = test::render_technique(scene, study::kReference,
+                                                                  kCausesPictureSize);
+    session::Request request = make_request_of_settled_picture(scene, technique,
+                                                               kCausesPictureSize);
     request.until_settled = true;
-    const app::RunResult row = app::run(test::get_test_engine(), request);
+    const session::RunResult row = session::run(test::get_test_engine(), request);
     return std::pow(test::rmse_of_pictures(row.parts.front().hdr, truth.hdr,
                                            measure::mask_mirror_pixels(truth.hits)),
                     2);
@@ -94,16 +96,16 @@ void expect_cause_shares_add_up(const ErrorCauseSplit& found) {
 }
 
 /// Returns the techniques that draw captures, which are those with a knob `face`.
-std::vector<app::TechniqueInfo> list_capturing_techniques() {
-    std::vector<app::TechniqueInfo> list = app::techniques();
-    std::erase_if(list, [](const app::TechniqueInfo& technique) {
-        return std::ranges::find(technique.knobs, "face", &app::KnobInfo::name) ==
+std::vector<session::TechniqueInfo> list_capturing_techniques() {
+    std::vector<session::TechniqueInfo> list = session::techniques();
+    std::erase_if(list, [](const session::TechniqueInfo& technique) {
+        return std::ranges::find(technique.knobs, "face", &session::KnobInfo::name) ==
                technique.knobs.end();
     });
     return list;
 }
 
-class EveryErrorCauseTest : public testing::TestWithParam<app::TechniqueInfo> {};
+class EveryErrorCauseTest : public testing::TestWithParam<session::TechniqueInfo> {};
 INSTANTIATE_TEST_SUITE_P(Table, EveryErrorCauseTest, testing::ValuesIn(list_capturing_techniques()),
                          [](const auto& instance) { return instance.param.name; });
 
@@ -191,12 +193,12 @@ TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
 }
 
 TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                   {"parallax:face=32"}, kCausesPictureSize);
-    const app::TechniqueResult truth = test::render_technique(request.scene, app::kReference,
-                                                              kCausesPictureSize);
-    const app::TechniqueResult row = test::render_technique(request.scene, "parallax:face=32",
-                                                            kCausesPictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                       {"parallax:face=32"}, kCausesPictureSize);
+    const session::TechniqueResult truth = test::render_technique(request.scene, study::kReference,
+                                                                  kCausesPictureSize);
+    const session::TechniqueResult row = test::render_technique(request.scene, "parallax:face=32",
+                                                                kCausesPictureSize);
     const ErrorCauseSplit found = split_error_by_causes(request, "parallax:face=32");
     const auto squared = [&](const measure::Mask& mask) {
         return std::pow(test::rmse_of_pictures(row.hdr, truth.hdr, mask), 2);
@@ -356,8 +358,8 @@ TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
 }
 
 TEST(Causes, OnlyMovingScenesHaveLag) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {},
-                                                   kCausesPictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {},
+                                                       kCausesPictureSize);
     request.warmup = 7;
     const ErrorCauseSplit still = split_error_by_causes(request, "reuse:face=64");
     EXPECT_EQ(still.error_share_of_cause("last frame"), 0.0);

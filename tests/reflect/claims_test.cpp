@@ -38,9 +38,8 @@ struct WrongPixelsByReflectedObject {
     test::PixelComparison board, ball;
 };
 
-WrongPixelsByReflectedObject
-count_wrong_pixels_by_reflected_object(const scene::Scene& scene, const app::TechniqueResult& truth,
-                                       const std::string& search) {
+WrongPixelsByReflectedObject count_wrong_pixels_by_reflected_object(
+    const scene::Scene& scene, const session::TechniqueResult& truth, const std::string& search) {
     const measure::Picture picture = test::render_technique(
                                          scene, search + ":face=128,shadow=none,continue=8",
                                          kClaimsPictureSize)
@@ -59,7 +58,7 @@ count_wrong_pixels_by_reflected_object(const scene::Scene& scene, const app::Tec
     return found;
 }
 
-app::TechniqueResult ray_trace_scene_for_claims(const scene::Scene& scene, bool exact) {
+session::TechniqueResult ray_trace_scene_for_claims(const scene::Scene& scene, bool exact) {
     return test::render_technique(
         scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
         kClaimsPictureSize);
@@ -69,7 +68,7 @@ TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
     for (const bool exact : {true, false})
         for (const std::size_t seen : {0u, 1u}) {
             const scene::Scene scene = make_two_ball_scene(seen, {.02, .1, .05}, .6, exact);
-            const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
+            const session::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const WrongPixelsByReflectedObject found = count_wrong_pixels_by_reflected_object(
                     scene, truth, search);
@@ -85,7 +84,7 @@ TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
             // Selects the ball that has the board behind the other ball, as seen from the camera.
             const std::size_t seen = board.x > 0 ? 0 : 1;
             const scene::Scene scene = make_two_ball_scene(seen, board, .35, exact);
-            const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
+            const session::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const WrongPixelsByReflectedObject found = count_wrong_pixels_by_reflected_object(
                     scene, truth, search);
@@ -114,7 +113,7 @@ scene::Scene make_row_of_balls(bool near_first) {
 TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
     for (const bool near_first : {true, false}) {
         const scene::Scene scene = make_row_of_balls(near_first);
-        const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
+        const session::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
             const test::PixelComparison found =
                 count_wrong_pixels_by_reflected_object(scene, truth, search).ball;
@@ -142,7 +141,7 @@ scene::Scene make_flat_mirrors_beside_ball() {
 
 TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
     const scene::Scene scene = make_flat_mirrors_beside_ball();
-    const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
+    const session::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
     const measure::Picture picture = test::render_technique(
                                          scene, "layered:face=128,shadow=none,continue=8",
                                          kClaimsPictureSize)
@@ -188,14 +187,14 @@ struct CaptureAnswerCounts {
 
 CaptureAnswerCounts count_capture_answers(const scene::Scene& scene, const std::string& search,
                                           const std::string& hops) {
-    const app::TechniqueResult truth = test::render_technique(
+    const session::TechniqueResult truth = test::render_technique(
         scene, "raytrace:shadow=none,sphere=exact,depth=" + std::string(hops == "0" ? "1" : "9"),
         kClaimsPictureSize);
     const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
-    app::Request request = test::make_test_request(scene, {technique + "own", technique + "all"},
-                                                   kClaimsPictureSize);
+    session::Request request = test::make_test_request(
+        scene, {technique + "own", technique + "all"}, kClaimsPictureSize);
     request.with_lookup = true;
-    const app::RunResult result = app::run(test::get_test_engine(), request);
+    const session::RunResult result = session::run(test::get_test_engine(), request);
     const auto is_unknown = [&](std::size_t part, std::size_t i) {
         return ((static_cast<int>(result.parts[part].lookup[i].w) - 1) & 3) == 1;
     };

@@ -193,9 +193,9 @@ TEST(ClearCoat, CapturesShowBothLayers) {
                                                           .roughness = .4f,
                                                           .clearcoat = clearcoat};
         scene::find_mirrors(scene);
-        app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
+        session::Request asked = test::make_test_request(scene, {technique}, {64, 48});
         asked.warmup = warmup;
-        return app::run(test::get_test_engine(), asked).parts.front().hdr;
+        return session::run(test::get_test_engine(), asked).parts.front().hdr;
     };
     const auto add_by_coat = [&](const char* technique, int warmup) {
         measure::Picture added = draw(1, technique, warmup);
@@ -268,14 +268,14 @@ TEST(ClearCoat, RequiredWorkDrawsThePictureOfAllWork) {
         ASSERT_EQ(scene::mirrors(room).size(), 2u);
         for (const char* technique : {"secant:face=32", "hybrid:face=32,rough=mips"})
             for (const int warmup : {1, 2, 4}) {
-                app::Request asked = test::make_test_request(room, {technique}, {48, 36});
+                session::Request asked = test::make_test_request(room, {technique}, {48, 36});
                 asked.warmup = warmup;
-                asked.model = app::RenderedWork::everything;
+                asked.model = session::RenderedWork::everything;
                 const measure::Picture all =
-                    app::run(test::get_test_engine(), asked).parts.front().hdr;
-                asked.model = app::RenderedWork::required;
+                    session::run(test::get_test_engine(), asked).parts.front().hdr;
+                asked.model = session::RenderedWork::required;
                 EXPECT_TRUE(test::have_equal_pixel_bytes(
-                    all, app::run(test::get_test_engine(), asked).parts.front().hdr))
+                    all, session::run(test::get_test_engine(), asked).parts.front().hdr))
                     << technique << ", coat " << coat << ", frame " << warmup + 1;
             }
     }

@@ -21,11 +21,11 @@ struct ColourError {
 
 ColourError measure_continued_search_error(const scene::Scene& scene,
                                            const std::string& technique) {
-    static std::map<std::string, app::TechniqueResult> truths; // cached by the scene's name
+    static std::map<std::string, session::TechniqueResult> truths; // cached by the scene's name
     if (!truths.contains(scene.name))
         truths.emplace(scene.name,
-                       test::render_technique(scene, app::kReference, kContinuePictureSize));
-    const app::TechniqueResult& truth = truths.at(scene.name);
+                       test::render_technique(scene, study::kReference, kContinuePictureSize));
+    const session::TechniqueResult& truth = truths.at(scene.name);
     const measure::Picture picture =
         test::render_last_frame(test::make_test_request(scene, {technique}, kContinuePictureSize),
                                 kContinueWarmupFrames)
@@ -124,15 +124,15 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
         for (int face = 0; face < 6; ++face)
             test::add_mesh(scene, test::make_box_wall(face, shut - half, shut + half), grey);
     for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
-        app::Request request = test::make_test_request(
+        session::Request request = test::make_test_request(
             scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"},
             kContinuePictureSize);
         request.with_lookup = true;
-        const app::RunResult result = app::run(test::get_test_engine(), request);
-        const app::TechniqueResult &own = result.parts[0], &all = result.parts[1];
+        const session::RunResult result = session::run(test::get_test_engine(), request);
+        const session::TechniqueResult &own = result.parts[0], &all = result.parts[1];
         std::size_t unknown = 0, changed = 0;
         for (std::size_t i = 0; i < own.lookup.size(); ++i) {
-            const auto state = [&](const app::TechniqueResult& part) {
+            const auto state = [&](const session::TechniqueResult& part) {
                 return (static_cast<int>(part.lookup[i].w) - 1) & 3;
             };
             if (!(own.lookup[i].w > 0) || state(own) != 1 || state(all) != 1) continue;
@@ -166,12 +166,12 @@ TEST(Mirrors, CapturesMayLeaveOutMirrorsWhereRaysAreFollowed) {
 }
 
 TEST(Show, SearchStateAndResidualArePainted) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                   {"pyramid:face=64,captures=own,show=state"},
-                                                   kContinuePictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                       {"pyramid:face=64,captures=own,show=state"},
+                                                       kContinuePictureSize);
     request.with_lookup = true;
-    const app::TechniqueResult part = std::move(
-        app::run(test::get_test_engine(), request).parts.front());
+    const session::TechniqueResult part = std::move(
+        session::run(test::get_test_engine(), request).parts.front());
     const std::array<vec3, 3> paint{
         {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // colours of hit, unknown and miss
     std::array<std::size_t, 3> count{};
@@ -183,8 +183,8 @@ TEST(Show, SearchStateAndResidualArePainted) {
     }
     for (const std::size_t pixels : count) EXPECT_GT(pixels, 10u);
     request.techniques = {"pyramid:face=64,show=residual"};
-    const app::TechniqueResult residual = std::move(
-        app::run(test::get_test_engine(), request).parts.front());
+    const session::TechniqueResult residual = std::move(
+        session::run(test::get_test_engine(), request).parts.front());
     for (std::size_t i = 0; i < residual.lookup.size(); ++i) {
         const float code = residual.lookup[i].w;
         if (!(code > 0)) continue;

@@ -52,9 +52,9 @@ double needed_face_edge_of_mesh(const scene::Mesh& mesh, double eye,
     scene.objects.back().world_from_object = world_from_object;
     scene.cameras.push_back(
         {.eye = {0, 0, eye}, .target = {0, 0, 0}, .vertical_fov_degrees = kFieldOfViewDegrees});
-    app::Request request = test::make_test_request(scene, {"reuse:face=auto,shadow=none"},
-                                                   {kPictureHeightPixels, kPictureHeightPixels});
-    return app::run(test::get_test_engine(), request).parts.front().auto_face->needs.front();
+    session::Request request = test::make_test_request(
+        scene, {"reuse:face=auto,shadow=none"}, {kPictureHeightPixels, kPictureHeightPixels});
+    return session::run(test::get_test_engine(), request).parts.front().auto_face->needs.front();
 }
 
 /// Returns the edge in texels by the mirror equation. Two neighbouring pixels look in directions

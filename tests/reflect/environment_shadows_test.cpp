@@ -211,13 +211,13 @@ TEST(EnvironmentShadows, ReferenceOfAComparisonHasHalvesAndAFloor) {
     test::add_ball(scene, "ball", mirror, {0, .3, 0}, .3);
     scene.cameras.front() = {.eye = {1.5, .5, 0}, .target = {0, .3, 0}, .vertical_fov_degrees = 40};
     scene::find_mirrors(scene);
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base = test::make_test_request(scene, {"naive:face=16"}, {24, 24});
     request.base.ambient = 0;
     request.reference_seconds = 0;
-    const measure::Comparison found = app::compare(test::get_test_engine(), request);
+    const measure::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_TRUE(found.noise);
-    EXPECT_EQ(found.reference_label, app::kReference);
+    EXPECT_EQ(found.reference_label, study::kReference);
     EXPECT_GT(found.noise->flip_floor, 0);
     EXPECT_EQ(found.noise->frames, 1);
 }

@@ -226,10 +226,10 @@ TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
 /// picture by more than .02.
 double share_of_mirror_pixels_off(const scene::Scene& scene, const std::string& technique) {
     constexpr uvec2 kEnvironmentPictureSize{96, 96};
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace",
-                                                              kEnvironmentPictureSize),
-                               part = test::render_technique(scene, technique,
-                                                             kEnvironmentPictureSize, 3);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace",
+                                                                  kEnvironmentPictureSize),
+                                   part = test::render_technique(scene, technique,
+                                                                 kEnvironmentPictureSize, 3);
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
@@ -255,7 +255,7 @@ TEST(Environment, MirrorsShowTheEnvironmentInEveryTechnique) {
                    {0, 0, 0}, 1);
     scene.environment = make_dusk_environment();
     scene.cameras.push_back({.eye = {0, .5, 3}, .target = {0, 0, 0}, .vertical_fov_degrees = 45});
-    for (const app::TechniqueInfo& technique : app::techniques())
+    for (const session::TechniqueInfo& technique : session::techniques())
         EXPECT_LE(share_of_mirror_pixels_off(scene, technique.name), .002) << technique.name;
 }
 
@@ -304,17 +304,17 @@ TEST(Environment, MirrorsShowObjectsBeforeTheEnvironment) {
 TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
     scene::Scene scene = make_yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
-    app::Request asked = test::make_test_request(scene, {"parallax"}, {64, 64});
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", {64, 64});
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = asked;
+    session::Request asked = test::make_test_request(scene, {"parallax"}, {64, 64});
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace", {64, 64});
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = asked;
     session.frame(spec);
     const std::uint32_t causes = shared::kAblateDistance | shared::kAblateDirection |
                                  shared::kAblateHiddenPoints | shared::kAblateTexelColour |
                                  shared::kAblateMirrorReflections | shared::kAblateSelfReflection |
                                  shared::kAblateShadows;
     const measure::Picture ablated =
-        app::Access::render_frame(session, spec, {.ablated = causes}).read().hdr;
+        session::Access::render_frame(session, spec, {.ablated = causes}).read().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;

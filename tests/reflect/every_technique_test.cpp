@@ -18,7 +18,7 @@ using namespace catoptric;
 
 constexpr uvec2 kEveryTechniquePictureSize{48, 48};
 
-class EveryTechniqueTest : public testing::TestWithParam<app::TechniqueInfo> {
+class EveryTechniqueTest : public testing::TestWithParam<session::TechniqueInfo> {
 protected:
     /// Returns the technique with small captures and small shadow maps, if it has these knobs, and
     /// with `settings`.
@@ -32,7 +32,7 @@ protected:
         return test::technique_with_knobs(GetParam(), settings);
     }
 };
-INSTANTIATE_TEST_SUITE_P(Table, EveryTechniqueTest, testing::ValuesIn(app::techniques()),
+INSTANTIATE_TEST_SUITE_P(Table, EveryTechniqueTest, testing::ValuesIn(session::techniques()),
                          [](const auto& instance) { return instance.param.name; });
 
 /// Relative error allowed in pictures of a furnace, a box that emits the same light everywhere. Its
@@ -65,10 +65,10 @@ double dark_pixel_share(const measure::Picture& picture, const std::string& what
 }
 
 TEST_P(EveryTechniqueTest, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
-    app::Request request = test::make_test_request(test::make_furnace_scene(2), {},
-                                                   kEveryTechniquePictureSize);
+    session::Request request = test::make_test_request(test::make_furnace_scene(2), {},
+                                                       kEveryTechniquePictureSize);
     request.ambient = 0;
-    app::Session session(test::get_test_engine(), request.scene);
+    session::Session session(test::get_test_engine(), request.scene);
     /// Renders the next frame of the session.
     const auto render = [&](const std::string& technique) {
         request.techniques = {technique};
@@ -87,7 +87,7 @@ TEST_P(EveryTechniqueTest, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
     };
     expect_falling_share("frame", [&](int) { return render(technique_with_small_captures()); });
     for (const std::string knob : {"bounces", "depth"})
-        if (std::ranges::find(GetParam().knobs, knob, &app::KnobInfo::name) !=
+        if (std::ranges::find(GetParam().knobs, knob, &session::KnobInfo::name) !=
             GetParam().knobs.end())
             expect_falling_share(knob, [&](int i) {
                 session.forget();
@@ -97,10 +97,10 @@ TEST_P(EveryTechniqueTest, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
 
 TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}}) {
-        app::Request asked = test::make_test_request(test::make_lit_room(mirrors, lights), {},
-                                                     {16, 16});
-        app::Session session(test::get_test_engine(), asked.scene);
-        for (const app::KnobInfo& knob : GetParam().knobs) {
+        session::Request asked = test::make_test_request(test::make_lit_room(mirrors, lights), {},
+                                                         {16, 16});
+        session::Session session(test::get_test_engine(), asked.scene);
+        for (const session::KnobInfo& knob : GetParam().knobs) {
             // Test each choice of a knob, and a number between its limits, because the number of
             // scene passes may depend on any of them.
             std::vector<std::string> values = knob.choices;
@@ -124,8 +124,8 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                         std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
                 asked.techniques = {text};
-                const auto plan = nlohmann::json::parse(
-                    app::Access::format_frame_plan(session, asked, app::GraphPlanFormat::json));
+                const auto plan = nlohmann::json::parse(session::Access::format_frame_plan(
+                    session, asked, session::GraphPlanFormat::json));
                 EXPECT_EQ(plan.at("scene_passes"),
                           choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
@@ -136,7 +136,7 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
 
 /// Returns the lowest and highest value of a knob, or smaller ones if these would take too much
 /// memory or time.
-std::vector<std::string> list_extreme_knob_values(const app::KnobInfo& knob) {
+std::vector<std::string> list_extreme_knob_values(const session::KnobInfo& knob) {
     if (!knob.choices.empty()) return knob.choices;
     double high = knob.high;
     // A face or shadow map of 16384 texels an edge would take gigabytes of memory.
@@ -153,7 +153,7 @@ std::vector<std::string> list_extreme_knob_values(const app::KnobInfo& knob) {
 
 TEST_P(EveryTechniqueTest, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
     const scene::Scene room = test::make_lit_room(2, 1);
-    for (const app::KnobInfo& knob : GetParam().knobs)
+    for (const session::KnobInfo& knob : GetParam().knobs)
         for (const std::string& value : list_extreme_knob_values(knob)) {
             if (value == "float" && !test::has_float_colour()) continue;
             std::vector<std::pair<std::string, std::string>> settings{{knob.name, value}};
@@ -161,7 +161,7 @@ TEST_P(EveryTechniqueTest, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
                 // `range` has an effect only on unorm8 distances.
                 settings.push_back({"distance", "unorm8"});
             const std::string text = technique_with_small_captures(settings);
-            const app::TechniqueResult part = test::render_technique(room, text, {32, 24}, 3);
+            const session::TechniqueResult part = test::render_technique(room, text, {32, 24}, 3);
             EXPECT_EQ(test::count_nonfinite_pixels(part.hdr), 0u) << text;
             EXPECT_EQ(
                 std::ranges::count_if(part.hdr.pixels,
@@ -172,16 +172,16 @@ TEST_P(EveryTechniqueTest, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
 }
 
 TEST_P(EveryTechniqueTest, TwoRunsRenderTheSameBytes) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                   {technique_with_small_captures()},
-                                                   kEveryTechniquePictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                       {technique_with_small_captures()},
+                                                       kEveryTechniquePictureSize);
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;
-        const app::TechniqueResult first = std::move(
-            app::run(test::get_test_engine(), request).parts.front());
-        const app::TechniqueResult second = std::move(
-            app::run(test::get_test_engine(), request).parts.front());
+        const session::TechniqueResult first = std::move(
+            session::run(test::get_test_engine(), request).parts.front());
+        const session::TechniqueResult second = std::move(
+            session::run(test::get_test_engine(), request).parts.front());
         EXPECT_TRUE(test::have_equal_pixel_bytes(first.hdr, second.hdr));
         EXPECT_TRUE(test::have_equal_pixel_bytes(first.display, second.display));
         EXPECT_EQ(first.hits, second.hits);
@@ -192,26 +192,26 @@ TEST_P(EveryTechniqueTest, TwoRunsRenderTheSameBytes) {
 /// mirrors seen in mirrors start black.
 TEST_P(EveryTechniqueTest, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
     const std::string text = technique_with_small_captures({{"continue", "0"}});
-    const app::TechniqueResult first = test::render_technique(test::make_lit_room(3, 1), text,
-                                                              kEveryTechniquePictureSize),
-                               second = test::render_technique(test::make_lit_room(3, 1), text,
-                                                               kEveryTechniquePictureSize, 2);
+    const session::TechniqueResult first = test::render_technique(test::make_lit_room(3, 1), text,
+                                                                  kEveryTechniquePictureSize),
+                                   second = test::render_technique(test::make_lit_room(3, 1), text,
+                                                                   kEveryTechniquePictureSize, 2);
     EXPECT_EQ(first.remembers, second.remembers);
     EXPECT_EQ(test::have_equal_pixel_bytes(first.hdr, second.hdr), !first.remembers);
 }
 
 TEST_P(EveryTechniqueTest, EachPlannedPassHasOneTime) {
-    app::Request request = test::make_test_request(
+    session::Request request = test::make_test_request(
         test::make_lit_room(2, 2), {technique_with_small_captures()}, kEveryTechniquePictureSize);
     request.frames = 3;
-    app::Session session(test::get_test_engine(), request.scene);
+    session::Session session(test::get_test_engine(), request.scene);
     const auto plan = nlohmann::json::parse(
-        app::Access::format_frame_plan(session, request, app::GraphPlanFormat::json));
-    for (const app::FrameTimes& frame : app::run(test::get_test_engine(), request).frames) {
+        session::Access::format_frame_plan(session, request, session::GraphPlanFormat::json));
+    for (const session::FrameTimes& frame : session::run(test::get_test_engine(), request).frames) {
         ASSERT_EQ(frame.passes.size(), plan["passes"].size());
         double time = 0;
         for (std::size_t i = 0; i < frame.passes.size(); ++i) {
-            const app::PassTime& pass = frame.passes[i];
+            const session::PassTime& pass = frame.passes[i];
             EXPECT_EQ(pass.name, plan["passes"][i]["name"]);
             EXPECT_EQ(pass.begin_ms, time) << pass.name << " begins where the one before it ended";
             EXPECT_GE(pass.end_ms, pass.begin_ms) << pass.name;
@@ -223,7 +223,7 @@ TEST_P(EveryTechniqueTest, EachPlannedPassHasOneTime) {
 
 TEST_P(EveryTechniqueTest, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
-        const app::TechniqueResult part = test::render_technique(
+        const session::TechniqueResult part = test::render_technique(
             test::make_lit_room(mirrors, lights), technique_with_small_captures(), {24, 24}, 2);
         EXPECT_EQ(test::count_nonfinite_pixels(part.hdr), 0u);
         EXPECT_GT(measure::mean_of(part.hdr, measure::ValueRange::unclamped).all, 0.0)
@@ -242,7 +242,7 @@ TEST(Table, EveryTechniqueInTheSourceFolderIsRegistered) {
         rows += static_cast<std::size_t>(
             std::distance(std::sregex_iterator(text.begin(), text.end(), row), {}));
     }
-    EXPECT_EQ(app::techniques().size(), rows);
+    EXPECT_EQ(session::techniques().size(), rows);
     EXPECT_GE(rows, 4u);
 }
 

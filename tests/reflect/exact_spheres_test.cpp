@@ -24,7 +24,7 @@ measure::Picture render_exact_sphere_picture(const scene::Scene& scene,
 /// new session.
 TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
     scene::Scene scene = test::make_lit_room(3, 1);
-    app::Session session(test::get_test_engine(), scene);
+    session::Session session(test::get_test_engine(), scene);
     const auto ball = [&](int number) { return scene.objects.size() - std::size_t(number); };
     for (int step = 0; step < 4; ++step) {
         if (step > 0) { // move a ball, then a wall, then two balls

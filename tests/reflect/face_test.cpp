@@ -15,8 +15,8 @@ using namespace catoptric;
 
 TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult chosen = test::render_technique(scene, "secant:face=auto",
-                                                               test::kSearchTestPictureSize, 2);
+    const session::TechniqueResult chosen = test::render_technique(scene, "secant:face=auto",
+                                                                   test::kSearchTestPictureSize, 2);
     ASSERT_TRUE(chosen.auto_face.has_value());
     ASSERT_EQ(chosen.auto_face->needs.size(), 4u);
     // Expected edge: (pi/2) / (p cos^2 (1 + 2 z / r)), for a pixel of size p at the ball's nearest
@@ -36,8 +36,8 @@ TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
         EXPECT_LE(chosen.auto_face->needs[i], 1.01 * next) << "ball " << i + 1;
     }
     EXPECT_EQ(chosen.auto_face->edge, 64u);
-    const app::TechniqueResult named = test::render_technique(scene, "secant:face=64",
-                                                              test::kSearchTestPictureSize, 2);
+    const session::TechniqueResult named = test::render_technique(scene, "secant:face=64",
+                                                                  test::kSearchTestPictureSize, 2);
     EXPECT_FALSE(named.auto_face.has_value());
     EXPECT_TRUE(test::have_equal_pixel_bytes(chosen.hdr, named.hdr));
 }
@@ -45,7 +45,8 @@ TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
 TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
     scene::Scene away = test::make_lit_room(2, 1);
     away.cameras = {{.name = "away", .eye = {0, 0, -2}, .target = {0, 0, -4}}};
-    const app::TechniqueResult part = test::render_technique(away, "parallax:face=auto", {32, 32});
+    const session::TechniqueResult part = test::render_technique(away, "parallax:face=auto",
+                                                                 {32, 32});
     ASSERT_TRUE(part.auto_face.has_value());
     EXPECT_EQ(part.auto_face->needs, std::vector<double>(2, 0));
     EXPECT_EQ(part.auto_face->edge, 16u);
@@ -54,16 +55,16 @@ TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
 /// An edit that makes a mirror, or ends one, changes the list of edges as a new session would.
 TEST(AutoFace, EditsOfMirrorsAreFollowed) {
     const scene::Scene room = test::make_lit_room(2, 1);
-    const app::FrameSpec spec = test::make_test_request(room, {"reuse:face=auto"}, {32, 32});
-    app::Session session(test::get_test_engine(), room);
+    const session::FrameSpec spec = test::make_test_request(room, {"reuse:face=auto"}, {32, 32});
+    session::Session session(test::get_test_engine(), room);
     ASSERT_EQ(session.frame(spec).read().auto_face->needs.size(), 2u);
     const std::size_t mirror = scene::mirrors(room).front();
     std::size_t diffuse = 0;
     while (room.materials[diffuse].mirror) ++diffuse;
     for (const std::size_t material : {diffuse, room.objects[mirror].material}) {
         session.change(scene::paint(mirror, material));
-        const app::TechniqueResult edited = session.frame(spec).read();
-        app::Session fresh(test::get_test_engine(), session.scene());
+        const session::TechniqueResult edited = session.frame(spec).read();
+        session::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_EQ(edited.auto_face->needs, fresh.frame(spec).read().auto_face->needs);
     }
 }
@@ -106,23 +107,23 @@ TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
 }
 
 TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
-    app::Request asked = test::make_test_request(scene::make_cornell_mirrors(),
-                                                 {"secant:face=auto"}, {64, 64});
+    session::Request asked = test::make_test_request(scene::make_cornell_mirrors(),
+                                                     {"secant:face=auto"}, {64, 64});
     asked.animate = true;
     asked.frames = 3;
-    const app::TechniqueResult moving = std::move(
-        app::run(test::get_test_engine(), asked).parts.front());
+    const session::TechniqueResult moving = std::move(
+        session::run(test::get_test_engine(), asked).parts.front());
     asked.techniques = {"secant:face=" + std::to_string(moving.auto_face->edge)};
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        moving.hdr, app::run(test::get_test_engine(), asked).parts.front().hdr));
+        moving.hdr, session::run(test::get_test_engine(), asked).parts.front().hdr));
 }
 
 std::uint32_t find_automatic_face_edge(const test::SearchTestView& look) {
-    app::Request asked = test::make_test_request(
+    session::Request asked = test::make_test_request(
         scene::make_cornell_mirrors(), {"secant:face=auto"}, test::kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    return app::run(test::get_test_engine(), asked).parts.front().auto_face->edge;
+    return session::run(test::get_test_engine(), asked).parts.front().auto_face->edge;
 }
 
 std::vector<std::string> list_rows_with_faces(const std::vector<std::uint32_t>& faces) {

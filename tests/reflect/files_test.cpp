@@ -28,13 +28,13 @@ TEST_P(ShippedSceneFileTest, FileRendersAsTheBuiltInScene) {
     const scene::Scene loaded = scene::load(path_of_shipped_file(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {
-            app::Request request = test::make_test_request(built_in, {technique}, {256, 256});
+            session::Request request = test::make_test_request(built_in, {technique}, {256, 256});
             request.time = time, request.frames = 3;
             const measure::Picture wanted =
-                app::run(test::get_test_engine(), request).parts.front().hdr;
+                session::run(test::get_test_engine(), request).parts.front().hdr;
             request.scene = loaded, request.camera = loaded.cameras.at(0);
             const double error = test::rmse_of_pictures(
-                app::run(test::get_test_engine(), request).parts.front().hdr, wanted);
+                session::run(test::get_test_engine(), request).parts.front().hdr, wanted);
             std::cout << "[ MEASURED ] ." << GetParam() << ", " << technique << " at " << time
                       << " s: rmse " << error << "\n";
             EXPECT_LE(error, 1e-3);
@@ -93,9 +93,9 @@ TEST_F(NestedGltfNodesTest, SceneBelowAThousandNodesRendersTheSame) {
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {
             const auto display = [&](const scene::Scene& scene) {
-                app::Request request = test::make_test_request(scene, {technique}, {256, 256});
+                session::Request request = test::make_test_request(scene, {technique}, {256, 256});
                 request.time = time, request.frames = 3;
-                return app::run(test::get_test_engine(), request).parts.front().display;
+                return session::run(test::get_test_engine(), request).parts.front().display;
             };
             const double flip = measure::flip_mean(measure::flip(display(nested), display(flat)));
             std::cout << "[ MEASURED ] 1000 nodes, " << technique << " at " << time << " s: FLIP "

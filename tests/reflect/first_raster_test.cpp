@@ -30,10 +30,11 @@ std::size_t count_pixels_off(const measure::Picture& a, const measure::Picture& 
 /// % of the pixels.
 void expect_same_as_traced(const scene::Scene& scene, const std::string& what,
                            std::size_t most_off) {
-    const app::TechniqueResult wanted = test::render_technique(scene, "raytrace:depth=4",
-                                                               kFirstRasterPictureSize),
-                               found = test::render_technique(
-                                   scene, "raytrace:depth=4,first=raster", kFirstRasterPictureSize);
+    const session::TechniqueResult wanted = test::render_technique(scene, "raytrace:depth=4",
+                                                                   kFirstRasterPictureSize),
+                                   found = test::render_technique(scene,
+                                                                  "raytrace:depth=4,first=raster",
+                                                                  kFirstRasterPictureSize);
     ASSERT_TRUE(found.rays && wanted.rays) << what;
     const std::size_t off = count_pixels_off(found.hdr, wanted.hdr);
     std::cout << "[ MEASURED ] " << what << ": " << off << " pixels off, rays "
@@ -106,9 +107,9 @@ TEST(FirstRaster, OrthographicPictureIsTheTracedOne) {
 /// After an object has moved, its triangles have other positions in the hierarchy.
 TEST(FirstRaster, PictureFollowsMovedObjects) {
     for (scene::Scene scene : {test::make_mirror_hall(), make_room_without_mirrors()}) {
-        app::Session session(test::get_test_engine(), scene);
-        app::FrameSpec spec = test::make_test_request(scene, {"raytrace:first=raster"},
-                                                      kFirstRasterPictureSize);
+        session::Session session(test::get_test_engine(), scene);
+        session::FrameSpec spec = test::make_test_request(scene, {"raytrace:first=raster"},
+                                                          kFirstRasterPictureSize);
         (void)session.frame(spec).read_all();
         for (const std::size_t object : {scene.objects.size() - 1, scene.objects.size() - 2}) {
             dmat4 place = scene.objects[object].world_from_object;
@@ -116,7 +117,7 @@ TEST(FirstRaster, PictureFollowsMovedObjects) {
             session.change(scene::move(object, place));
             scene::apply_edit(scene, scene::move(object, place));
         }
-        const std::vector<app::TechniqueResult> moved = session.frame(spec).read_all();
+        const std::vector<session::TechniqueResult> moved = session.frame(spec).read_all();
         EXPECT_LE(count_pixels_off(
                       moved.front().hdr,
                       test::render_technique(scene, "raytrace", kFirstRasterPictureSize).hdr),
@@ -127,7 +128,7 @@ TEST(FirstRaster, PictureFollowsMovedObjects) {
 
 TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
     const scene::Scene scene = test::make_mirror_hall();
-    const app::TechniqueResult part = test::render_technique(
+    const session::TechniqueResult part = test::render_technique(
         scene, "raytrace:first=raster,shadow=map", kFirstRasterPictureSize);
     EXPECT_LE(
         count_pixels_off(
@@ -135,7 +136,7 @@ TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
             test::render_technique(scene, "raytrace:shadow=map", kFirstRasterPictureSize).hdr),
         8u);
     EXPECT_EQ(part.rays->shadow, 0u);
-    const app::TechniqueResult lit = test::render_technique(
+    const session::TechniqueResult lit = test::render_technique(
         scene, "raytrace:first=raster,shadow=none", kFirstRasterPictureSize);
     EXPECT_LE(
         count_pixels_off(
@@ -150,8 +151,8 @@ TEST(FirstRaster, TracedPixelsOfOtherTechniquesStartAtTheirTriangle) {
     const scene::Scene scene = test::make_mirror_hall();
     const measure::Picture wanted =
         test::render_technique(scene, "raytrace:depth=16", kFirstRasterPictureSize).hdr;
-    const app::TechniqueResult all = test::render_technique(scene, "hybrid:force=unknown",
-                                                            kFirstRasterPictureSize);
+    const session::TechniqueResult all = test::render_technique(scene, "hybrid:force=unknown",
+                                                                kFirstRasterPictureSize);
     EXPECT_GT(all.rays->mirror, 1000u);
     EXPECT_LE(all.rays->primary, kFirstRasterPixelCount / 100);
     EXPECT_LE(count_pixels_off(all.hdr, wanted), kFirstRasterPixelCount / 100)

@@ -17,17 +17,17 @@
 namespace {
 
 using namespace catoptric;
-using app::ReflectionTier;
+using session::ReflectionTier;
 
 constexpr int kFirstSurfaceEdge = 96;
 constexpr uvec2 kFirstSurfaceSize{kFirstSurfaceEdge, kFirstSurfaceEdge};
 
-app::FirstSurfaces trace_first_surfaces_of(const app::Request& request) {
-    app::Session session(test::get_test_engine(), request.scene);
-    return app::Access::trace_first_surfaces(session, request);
+session::FirstSurfaces trace_first_surfaces_of(const session::Request& request) {
+    session::Session session(test::get_test_engine(), request.scene);
+    return session::Access::trace_first_surfaces(session, request);
 }
 
-app::FirstSurfaces trace_first_surfaces_of(const scene::Scene& scene) {
+session::FirstSurfaces trace_first_surfaces_of(const scene::Scene& scene) {
     return trace_first_surfaces_of(test::make_test_request(scene, {"raytrace"}, kFirstSurfaceSize));
 }
 
@@ -79,9 +79,9 @@ TEST(FirstSurface, EachTierHasItsName) {
                                                       {ReflectionTier::unknown, "unknown"},
                                                       {ReflectionTier::traced, "traced"},
                                                       {ReflectionTier::mirrored, "mirrored"}};
-    ASSERT_EQ(app::list_reflection_tiers().size(), names.size());
+    ASSERT_EQ(session::list_reflection_tiers().size(), names.size());
     for (const auto& [tier, name] : names)
-        EXPECT_EQ(app::list_reflection_tiers().at(static_cast<std::size_t>(tier)).name, name);
+        EXPECT_EQ(session::list_reflection_tiers().at(static_cast<std::size_t>(tier)).name, name);
 }
 
 /// Balls are meshes with corners on the sphere, so their surface lies below the sphere by up to the
@@ -90,7 +90,7 @@ TEST(FirstSurface, DrawnPixelsOfARoomHaveTheDistanceNormalAndNumbersOfAFormula) 
     scene::Scene scene = test::make_lit_room(3, 0);
     for (const scene::Object& object : scene.objects)
         if (object.sphere) scene.meshes[object.mesh] = scene::ball("ball", 7);
-    const app::FirstSurfaces found = trace_first_surfaces_of(scene);
+    const session::FirstSurfaces found = trace_first_surfaces_of(scene);
     const scene::Camera& camera = scene.cameras.front();
     std::mt19937 random(7);
     int balls = 0, walls = 0;
@@ -142,8 +142,8 @@ TEST(FirstSurface, DistanceIsInUnitsOfTheSceneAtAnyScale) {
                                           4096.0 * object.sphere->radius};
     }
     large.cameras.front().eye *= 4096, large.cameras.front().target *= 4096;
-    const app::FirstSurfaces found = trace_first_surfaces_of(scene),
-                             scaled = trace_first_surfaces_of(large);
+    const session::FirstSurfaces found = trace_first_surfaces_of(scene),
+                                 scaled = trace_first_surfaces_of(large);
     ASSERT_EQ(found.object, scaled.object);
     for (std::size_t i = 0; i < found.distance.size(); ++i)
         EXPECT_EQ(4096 * found.distance[i], scaled.distance[i]) << i;
@@ -154,13 +154,13 @@ TEST(FirstSurface, DistanceIsInUnitsOfTheSceneAtAnyScale) {
 /// everywhere, and a perspective camera the length of the ray.
 TEST(FirstSurface, DistanceStartsAtThePlaneOfAnOrthographicCamera) {
     const scene::Scene scene = test::make_lit_room(0, 0);
-    app::Request request = test::make_test_request(scene, {"raytrace"}, {32, 16});
+    session::Request request = test::make_test_request(scene, {"raytrace"}, {32, 16});
     request.camera = {.eye = {.25, .5, -1}, .target = {.25, .5, 0}, .orthographic_height = 1};
-    const app::FirstSurfaces flat = trace_first_surfaces_of(request);
+    const session::FirstSurfaces flat = trace_first_surfaces_of(request);
     for (const float distance : flat.distance) EXPECT_NEAR(distance, 3, 1e-6);
     for (const vec3& normal : flat.normal) EXPECT_EQ(normal, vec3(0, 0, -1));
     request.camera.orthographic_height = 0, request.camera.vertical_fov_degrees = 30;
-    const app::FirstSurfaces deep = trace_first_surfaces_of(request);
+    const session::FirstSurfaces deep = trace_first_surfaces_of(request);
     const double y = std::tan(glm::radians(15.0)) * (1 - 1. / 16),
                  x = 2 * y / (1 - 1. / 16) * (1 - 1. / 32);
     EXPECT_NEAR(deep.distance.front(), 3 * std::sqrt(1 + x * x + y * y), 1e-6);
@@ -169,9 +169,9 @@ TEST(FirstSurface, DistanceStartsAtThePlaneOfAnOrthographicCamera) {
 
 TEST(FirstSurface, RayThatMeetsNothingHasInfiniteDistanceAndNoNumber) {
     scene::Scene scene = test::make_lit_room(1, 1);
-    app::Request request = test::make_test_request(scene, {"raytrace"}, {8, 8});
+    session::Request request = test::make_test_request(scene, {"raytrace"}, {8, 8});
     request.camera = {.eye = {0, 0, 20}, .target = {0, 0, 30}};
-    const app::FirstSurfaces found = trace_first_surfaces_of(request);
+    const session::FirstSurfaces found = trace_first_surfaces_of(request);
     for (std::size_t i = 0; i < 64; ++i) {
         EXPECT_EQ(found.distance[i], std::numeric_limits<float>::infinity());
         EXPECT_EQ(found.normal[i], vec3(0));
@@ -183,10 +183,11 @@ TEST(FirstSurface, RayThatMeetsNothingHasInfiniteDistanceAndNoNumber) {
 /// The processor finds the objects by another search, without the device.
 TEST(FirstSurface, ObjectsOfBuiltInScenesAreThoseThatTheProcessorFinds) {
     for (const char* name : {"cornell-mirrors", "flat", "room", "gallery"}) {
-        app::Request request = test::make_test_request(scene::load(name), {"raytrace"}, {80, 60});
+        session::Request request = test::make_test_request(scene::load(name), {"raytrace"},
+                                                           {80, 60});
         request.time = .4;
-        const app::FirstSurfaces found = trace_first_surfaces_of(request);
-        const std::vector<int> wanted = app::find_visible_objects(request, request.size);
+        const session::FirstSurfaces found = trace_first_surfaces_of(request);
+        const std::vector<int> wanted = session::find_visible_objects(request, request.size);
         std::size_t different = 0, mirrors = 0;
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             different += static_cast<int>(found.object[i]) != wanted[i] + 1;
@@ -219,7 +220,7 @@ TEST(FirstSurface, RoughnessIsThatOfTheMaterialWithItsTexture) {
                                               .wrap_v = scene::Texture::Wrap::clamp,
                                               .nearest = true};
     const std::uint32_t textured = add_panel(varied, -.4);
-    const app::FirstSurfaces found = trace_first_surfaces_of(scene);
+    const session::FirstSurfaces found = trace_first_surfaces_of(scene);
     int seen_plain = 0, upper = 0, lower = 0;
     for (std::size_t i = 0; i < found.object.size(); ++i) {
         if (found.object[i] == plain) {
@@ -259,7 +260,7 @@ TEST(FirstSurface, MaterialsDecideWhatIsMetFirst) {
                         one_sided = add_panel({.name = "one", .albedo = vec3(.5f)}, .1),
                         hidden = add_panel({.name = "hidden", .albedo = vec3(.5f)}, 1.1);
     scene.objects.back().seen_by_camera = false;
-    const app::FirstSurfaces found = trace_first_surfaces_of(scene);
+    const session::FirstSurfaces found = trace_first_surfaces_of(scene);
     const scene::Camera& camera = scene.cameras.front();
     std::array<int, 3> counts{};
     std::array<int, 2> right_halves{};
@@ -289,14 +290,14 @@ TEST(FirstSurface, MaterialsDecideWhatIsMetFirst) {
 /// A frame between two frames of a moving scene changes no byte of the second.
 TEST(FirstSurface, TracingLeavesTheHistoryAsItIs) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
-    spec.model = app::RenderedWork::required;
-    app::Session plain(test::get_test_engine(), scene), traced(test::get_test_engine(), scene);
+    session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
+    spec.model = session::RenderedWork::required;
+    session::Session plain(test::get_test_engine(), scene), traced(test::get_test_engine(), scene);
     for (int frame = 0; frame < 5; ++frame) {
         spec.time = frame / 60.;
         const measure::Picture wanted = plain.frame(spec).hdr(), found = traced.frame(spec).hdr();
         EXPECT_TRUE(test::have_equal_pixel_bytes(wanted, found)) << frame;
-        app::Access::trace_first_surfaces(traced, spec);
+        session::Access::trace_first_surfaces(traced, spec);
     }
 }
 
@@ -305,22 +306,23 @@ TEST(FirstSurface, TracingLeavesTheHistoryAsItIs) {
 /// pixel that shows an older capture still has the tier of a capture.
 TEST(FirstSurface, LayersLeaveTheOrderOfLimitedCapturesAsItIs) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
-    spec.model = app::RenderedWork::required, spec.most_captures = 1;
-    app::FrameSpec layered = spec;
+    session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
+    spec.model = session::RenderedWork::required, spec.most_captures = 1;
+    session::FrameSpec layered = spec;
     layered.with_lookup = true;
-    app::Session plain(test::get_test_engine(), scene), traced(test::get_test_engine(), scene);
+    session::Session plain(test::get_test_engine(), scene), traced(test::get_test_engine(), scene);
     std::uint32_t waited = 0;
     for (int frame = 0; frame < 9; ++frame) {
         spec.time = layered.time = frame / 60.;
-        const app::Frame wanted = plain.frame(spec), found = traced.frame(layered);
+        const session::Frame wanted = plain.frame(spec), found = traced.frame(layered);
         EXPECT_TRUE(test::have_equal_pixel_bytes(wanted.hdr(), found.hdr())) << frame;
         ASSERT_TRUE(wanted.capture_budget() && found.capture_budget());
         EXPECT_EQ(found.capture_budget()->drawn, wanted.capture_budget()->drawn) << frame;
         EXPECT_EQ(found.capture_budget()->longest, wanted.capture_budget()->longest) << frame;
         waited = std::max(waited, found.capture_budget()->waiting);
-        const app::ReflectionTiers tiers = app::Access::read_reflection_tiers(found);
-        const app::FirstSurfaces surfaces = app::Access::trace_first_surfaces(traced, layered);
+        const session::ReflectionTiers tiers = session::Access::read_reflection_tiers(found);
+        const session::FirstSurfaces surfaces = session::Access::trace_first_surfaces(traced,
+                                                                                      layered);
         std::size_t mirrored = 0, captured = 0;
         for (std::size_t i = 0; i < surfaces.mirror.size(); ++i) {
             mirrored += surfaces.mirror[i] > 0;
@@ -333,21 +335,21 @@ TEST(FirstSurface, LayersLeaveTheOrderOfLimitedCapturesAsItIs) {
 }
 
 struct TierPictures {
-    app::TechniqueResult result;
+    session::TechniqueResult result;
     std::vector<ReflectionTier> tiers;
-    app::FirstSurfaces surfaces;
+    session::FirstSurfaces surfaces;
 };
 
 /// Renders the settled picture of a scene, with the tier of each pixel.
 TierPictures render_tiers(const scene::Scene& scene, const std::string& technique) {
-    app::FrameSpec spec = test::make_test_request(scene, {technique}, kFirstSurfaceSize);
+    session::FrameSpec spec = test::make_test_request(scene, {technique}, kFirstSurfaceSize);
     spec.with_lookup = true;
-    app::Session session(test::get_test_engine(), scene);
+    session::Session session(test::get_test_engine(), scene);
     for (int k = 0; k < 3; ++k) session.frame(spec);
-    const app::Frame frame = session.frame(spec);
+    const session::Frame frame = session.frame(spec);
     TierPictures pictures{frame.read(), {}, {}};
-    const app::ReflectionTiers tiers = app::Access::read_reflection_tiers(frame);
-    pictures.surfaces = app::Access::trace_first_surfaces(session, spec);
+    const session::ReflectionTiers tiers = session::Access::read_reflection_tiers(frame);
+    pictures.surfaces = session::Access::trace_first_surfaces(session, spec);
     for (std::size_t i = 0; i < pictures.surfaces.mirror.size(); ++i)
         pictures.tiers.push_back(tiers.tier_at(i, pictures.surfaces.mirror[i]));
     return pictures;
@@ -422,8 +424,8 @@ TEST(ReflectionTiers, LookUpsChangeNoPixel) {
     const scene::Scene scene = test::make_mirror_hall();
     for (const char* technique : {"secant:face=64", "hybrid:face=64", "raytrace:first=raster",
                                   "planar", "1=raytrace *=reuse:face=64"}) {
-        app::FrameSpec spec = test::make_test_request(scene, {technique}, {64, 64});
-        app::Session session(test::get_test_engine(), scene);
+        session::FrameSpec spec = test::make_test_request(scene, {technique}, {64, 64});
+        session::Session session(test::get_test_engine(), scene);
         const measure::Picture plain = session.frame(spec).hdr();
         session.forget();
         spec.with_lookup = true;

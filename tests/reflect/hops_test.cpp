@@ -11,7 +11,7 @@ using namespace catoptric;
 
 constexpr uvec2 kHopsPictureSize{64, 64};
 
-app::TechniqueResult trace_to_depth(const scene::Scene& scene, int depth) {
+session::TechniqueResult trace_to_depth(const scene::Scene& scene, int depth) {
     return test::render_technique(
         scene, "raytrace:shadow=none,sphere=exact,depth=" + std::to_string(depth),
         kHopsPictureSize);
@@ -32,7 +32,7 @@ struct WrongPixelsByMirrorCount {
 
 WrongPixelsByMirrorCount count_wrong_pixels_by_mirrors(const std::string& what,
                                                        const measure::Picture& picture,
-                                                       const app::TechniqueResult& truth) {
+                                                       const session::TechniqueResult& truth) {
     const auto share_of_wrong_pixels_where = [&](const auto& holds) {
         return test::compare_pixels_of_mirrors(
             picture, truth, [&](std::uint32_t, const vec3& colour) {
@@ -70,7 +70,8 @@ scene::Scene make_bright_mirror_hall() {
 // followed through is black. Ray tracing with the same depth gives the same result.
 TEST(Hops, EachSphereOnTheWayReflectsItsOwnShare) {
     for (const int hops : {0, 1, 2}) {
-        const app::TechniqueResult truth = trace_to_depth(test::make_three_ball_scene(), hops + 1);
+        const session::TechniqueResult truth = trace_to_depth(test::make_three_ball_scene(),
+                                                              hops + 1);
         for (const std::string search : {"secant", "march", "pyramid", "layered", "proxy"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
@@ -93,7 +94,7 @@ TEST(Hops, EachSphereOnTheWayReflectsItsOwnShare) {
 
 TEST(Hops, EachMirrorOfAnyShapeOnTheWayReflectsItsOwnShare) {
     for (const int hops : {1, 2}) {
-        const app::TechniqueResult truth = trace_to_depth(make_bright_mirror_hall(), hops + 1);
+        const session::TechniqueResult truth = trace_to_depth(make_bright_mirror_hall(), hops + 1);
         for (const std::string search : {"march", "pyramid", "layered"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
@@ -118,7 +119,7 @@ std::size_t count_pixels_of_two_mirrors(const measure::Picture& picture) {
 // If rays are not followed, the captured colours of a mirror must include that mirror's
 // reflectance. The captures show such colours in about as many pixels as ray tracing.
 TEST(Hops, CapturedMirrorsHaveTheirOwnReflectance) {
-    const app::TechniqueResult truth = trace_to_depth(test::make_three_ball_scene(), 8);
+    const session::TechniqueResult truth = trace_to_depth(test::make_three_ball_scene(), 8);
     const double wanted = static_cast<double>(count_pixels_of_two_mirrors(truth.hdr));
     ASSERT_GT(wanted, 100);
     for (const std::string technique : {"naive:bounces=4,face=128", "reuse:face=128",

@@ -13,11 +13,11 @@ constexpr uvec2 kHybridPictureSize{512, 512};
 constexpr std::uint32_t kUnknownLookupState = 1;
 
 /// Renders one frame and records where mirrors looked.
-app::TechniqueResult render_hybrid_with_lookups(const scene::Scene& scene,
-                                                const std::string& technique, uvec2 size) {
-    app::Request request = test::make_test_request(scene, {technique}, size);
+session::TechniqueResult render_hybrid_with_lookups(const scene::Scene& scene,
+                                                    const std::string& technique, uvec2 size) {
+    session::Request request = test::make_test_request(scene, {technique}, size);
     request.with_lookup = true;
-    return std::move(app::run(test::get_test_engine(), request).parts.front());
+    return std::move(session::run(test::get_test_engine(), request).parts.front());
 }
 
 struct CountedLookups {
@@ -35,7 +35,7 @@ CountedLookups count_lookups(const std::vector<vec4>& lookup) {
 
 /// Expects that the number of traced pixels equals the number of pixels that the search calls
 /// unknown, or of all mirror pixels with `every_mirror`.
-void expect_traced_pixel_count(const app::TechniqueResult& part, bool every_mirror) {
+void expect_traced_pixel_count(const session::TechniqueResult& part, bool every_mirror) {
     ASSERT_TRUE(part.rays.has_value());
     const CountedLookups counted = count_lookups(part.lookup);
     const std::size_t wanted = every_mirror ? counted.mirror : counted.unknown;
@@ -55,8 +55,8 @@ void expect_traced_pixel_count(const app::TechniqueResult& part, bool every_mirr
 /// bytes as ray tracing wherever both see a mirror.
 void expect_forced_hybrid_is_traced(const scene::Scene& scene, const std::string& settings,
                                     const std::string& reference, uvec2 size) {
-    const app::TechniqueResult traced = test::render_technique(scene, reference, size);
-    const app::TechniqueResult part = render_hybrid_with_lookups(
+    const session::TechniqueResult traced = test::render_technique(scene, reference, size);
+    const session::TechniqueResult part = render_hybrid_with_lookups(
         scene, "hybrid:force=unknown" + settings, size);
     expect_traced_pixel_count(part, true);
     const measure::Mask mirrors = measure::mask_mirror_pixels(traced.hits);
@@ -84,8 +84,8 @@ TEST(Hybrid, AllUnknownEqualsRayTracing) {
 }
 
 TEST(Hybrid, LookupsAreReturnedOnlyIfTheyAreAskedFor) {
-    const app::TechniqueResult part = test::render_technique(scene::make_cornell_mirrors(),
-                                                             "hybrid:face=32", {32, 32});
+    const session::TechniqueResult part = test::render_technique(scene::make_cornell_mirrors(),
+                                                                 "hybrid:face=32", {32, 32});
     EXPECT_TRUE(part.lookup.empty());
 }
 
@@ -126,8 +126,8 @@ TEST(Hybrid, OnlyTracedPixelsDifferFromTheSearch) {
         test::render_technique(scene, "pyramid:face=64,captures=all", kOddPictureSize).hdr;
     const measure::Picture traced =
         test::render_technique(scene, "raytrace:depth=16", kOddPictureSize).hdr;
-    const app::TechniqueResult part = render_hybrid_with_lookups(scene, "hybrid:face=64",
-                                                                 kOddPictureSize);
+    const session::TechniqueResult part = render_hybrid_with_lookups(scene, "hybrid:face=64",
+                                                                     kOddPictureSize);
     ASSERT_GT(count_lookups(part.lookup).unknown, 64u) << "more than one work group";
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
         const auto code = static_cast<std::uint32_t>(part.lookup[i].w);
@@ -138,7 +138,7 @@ TEST(Hybrid, OnlyTracedPixelsDifferFromTheSearch) {
 }
 
 TEST(Hybrid, EmptyListOfPixelsTracesNothing) {
-    const app::TechniqueResult one = render_hybrid_with_lookups(
+    const session::TechniqueResult one = render_hybrid_with_lookups(
         test::make_furnace_scene(1), "hybrid:face=32",
         {48, 48}); // no object hides another, so no pixel is unknown
     EXPECT_EQ(one.rays->primary, 0u);
@@ -146,7 +146,7 @@ TEST(Hybrid, EmptyListOfPixelsTracesNothing) {
     scene::Scene away = test::make_furnace_scene(1);
     std::swap(away.cameras.front().eye.z, away.cameras.front().target.z);
     away.cameras.front().eye.z = 4.5, away.cameras.front().target.z = 9;
-    const app::TechniqueResult none = render_hybrid_with_lookups(
+    const session::TechniqueResult none = render_hybrid_with_lookups(
         away, "hybrid:face=32,force=unknown", {48, 48});
     EXPECT_EQ(none.rays->primary, 0u);
     EXPECT_FALSE(none.traced_fraction.has_value()) << "of no mirror pixels at all";

@@ -21,20 +21,20 @@ using measure::Difference;
 constexpr uvec2 kLagPictureSize{64, 64};
 constexpr auto kFlipMetric = &Difference::flip, kRmseMember = &Difference::rmse;
 
-app::LagRequest make_lag_request(const scene::Scene& scene,
-                                 const std::vector<std::string>& techniques,
-                                 const std::vector<double>& speeds, int most_instants = 30) {
+study::LagRequest make_lag_request(const scene::Scene& scene,
+                                   const std::vector<std::string>& techniques,
+                                   const std::vector<double>& speeds, int most_instants = 30) {
     return {.base = test::make_test_request(scene, techniques, kLagPictureSize),
             .speeds = speeds,
             .most_instants = most_instants};
 }
 
-void measure_lag_of_request(const app::LagRequest& request, report::LagResults& lag) {
-    app::Session session(test::get_test_engine(), request.base.scene);
-    app::measure_lag(session, request, lag);
+void measure_lag_of_request(const study::LagRequest& request, report::LagResults& lag) {
+    session::Session session(test::get_test_engine(), request.base.scene);
+    study::measure_lag(session, request, lag);
 }
 
-report::LagResults measure_lag_results(const app::LagRequest& request) {
+report::LagResults measure_lag_results(const study::LagRequest& request) {
     report::LagResults lag;
     measure_lag_of_request(request, lag);
     return lag;
@@ -84,8 +84,8 @@ TEST(Lag, NoisyReferenceStatesItsFloorAndAddsNoLag) {
     const auto measure_floor = [](const std::string& reference) {
         scene::Scene room = test::make_lit_room(2, 1);
         test::make_mirrors_rough(room, .3F);
-        app::LagRequest request = make_lag_request(room, {"secant:face=32,rough=rays,rays=2"},
-                                                   {1, 8});
+        study::LagRequest request = make_lag_request(room, {"secant:face=32,rough=rays,rays=2"},
+                                                     {1, 8});
         request.reference = reference;
         const report::LagResults lag = measure_lag_results(request);
         expect_no_lag(lag, 1, 2);
@@ -96,7 +96,7 @@ TEST(Lag, NoisyReferenceStatesItsFloorAndAddsNoLag) {
     EXPECT_GT(few, 0);
     EXPECT_LT(many, few / 2) << "16 times the rays have a quarter of the noise";
     EXPECT_TRUE(std::isnan(measure_floor("raytrace:depth=4")));
-    app::LagRequest sharp = make_lag_request(test::make_lit_room(2, 1), {"reuse:face=32"}, {1});
+    study::LagRequest sharp = make_lag_request(test::make_lit_room(2, 1), {"reuse:face=32"}, {1});
     sharp.reference = "raytrace:depth=4,rays=4";
     EXPECT_TRUE(std::isnan(measure_lag_results(sharp).reference_flip_floor)) << "no rough surface";
 }
@@ -105,7 +105,7 @@ TEST(Lag, ReferenceHasAsManyRaysAsFitIntoItsSeconds) {
     const auto measure_rays = [](double seconds) {
         scene::Scene room = test::make_lit_room(2, 1);
         test::make_mirrors_rough(room, .3F);
-        app::LagRequest request = make_lag_request(room, {"reuse:face=16"}, {8}, 1);
+        study::LagRequest request = make_lag_request(room, {"reuse:face=16"}, {8}, 1);
         request.reference = "raytrace:depth=2,rays=256";
         request.reference_seconds = seconds;
         const report::LagResults lag = measure_lag_results(request);
@@ -145,7 +145,7 @@ TEST(Lag, LagGrowsWithSpeed) {
     scene::Scene scene = test::make_lit_room(2, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, .3, 0}, .period = 4};
     for (scene::Material& material : scene.materials) material.emission /= 9.0f;
-    app::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {2, 4, 8}, 10);
+    study::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {2, 4, 8}, 10);
     request.base.ambient = .5;
     const report::LagResults lag = measure_lag_results(request);
     ASSERT_EQ(lag.seconds.size(), 10u);
@@ -183,10 +183,10 @@ TEST(Lag, LagGrowsWithSpeed) {
             .flip;
     };
     EXPECT_NEAR(flip_from(worst.still), largest, 1e-6);
-    app::Request traced = request.base;
+    session::Request traced = request.base;
     traced.techniques = {request.reference}, traced.time = instant;
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        worst.reference, app::run(test::get_test_engine(), traced).parts.front().hdr));
+        worst.reference, session::run(test::get_test_engine(), traced).parts.front().hdr));
 }
 
 /// Checks the lag by another computation: the last frame of an animation against a still picture
@@ -194,23 +194,24 @@ TEST(Lag, LagGrowsWithSpeed) {
 TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
     scene::Scene scene = scene::make_cornell_mirrors();
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, 50, 0}, .period = .5};
-    app::LagRequest request = make_lag_request(scene, {"reuse:face=32"}, {1}, 4);
+    study::LagRequest request = make_lag_request(scene, {"reuse:face=32"}, {1}, 4);
     request.base.time = .25;
     const report::LagResults lag = measure_lag_results(request);
     ASSERT_EQ(lag.seconds.size(), 4u);
     const double instant = .25 + 8 / 60.0; // 30 frames give four instants, 8 frames apart
     ASSERT_DOUBLE_EQ(lag.seconds[1], instant);
 
-    app::Request moving = test::make_test_request(scene, {"reuse:face=32"}, kLagPictureSize);
+    session::Request moving = test::make_test_request(scene, {"reuse:face=32"}, kLagPictureSize);
     moving.animate = true, moving.warmup = 20, moving.time = instant - 20 / 60.0;
-    app::Request still = test::make_test_request(scene, {"naive:face=32,bounces=8"},
-                                                 kLagPictureSize),
-                 traced = test::make_test_request(scene, {"raytrace"}, kLagPictureSize);
+    session::Request still = test::make_test_request(scene, {"naive:face=32,bounces=8"},
+                                                     kLagPictureSize),
+                     traced = test::make_test_request(scene, {"raytrace"}, kLagPictureSize);
     still.time = traced.time = instant;
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        app::run(test::get_test_engine(), traced).parts.front().hits);
-    const app::TechniqueResult at_speed = app::run(test::get_test_engine(), moving).parts.front(),
-                               at_rest = app::run(test::get_test_engine(), still).parts.front();
+        session::run(test::get_test_engine(), traced).parts.front().hits);
+    const session::TechniqueResult
+        at_speed = session::run(test::get_test_engine(), moving).parts.front(),
+        at_rest = session::run(test::get_test_engine(), still).parts.front();
     const Difference wanted = measure::difference(
         at_speed.hdr, at_rest.hdr, mirrors,
         measure::flip(measure::to_unrounded_display(at_speed.hdr),
@@ -227,7 +228,7 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
 /// a black start the picture therefore settles after as many frames as bounces are needed.
 TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {8}, 1);
+    study::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {8}, 1);
     request.base.size = {128, 128};
     const report::LagResults lag = measure_lag_results(request);
     ASSERT_EQ(lag.rows.size(), 1u);
@@ -268,7 +269,8 @@ TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
 }
 
 TEST(Lag, InvalidRequestsAreRefused) {
-    const auto refused = [](const app::LagRequest& request, const std::vector<std::string>& words) {
+    const auto refused = [](const study::LagRequest& request,
+                            const std::vector<std::string>& words) {
         test::expect_error([&] { measure_lag_results(request); }, Failure::usage, words);
     };
     const scene::Scene scene = test::make_lit_room(1, 1);
@@ -284,8 +286,8 @@ TEST(Lag, InvalidRequestsAreRefused) {
 }
 
 TEST(Lag, FinishedRowsAreKeptWhenStopped) {
-    app::LagRequest request = make_lag_request(test::make_lit_room(2, 1),
-                                               {"reuse:face=32", "parallax:face=32"}, {1, 2});
+    study::LagRequest request = make_lag_request(test::make_lit_room(2, 1),
+                                                 {"reuse:face=32", "parallax:face=32"}, {1, 2});
     std::atomic<int> signal{0};
     request.watcher.stop = &signal;
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t count) {

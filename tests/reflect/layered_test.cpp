@@ -113,11 +113,12 @@ TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
     test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras.push_back(
         {.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60});
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16", {96, 96});
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                                  {96, 96});
     const measure::Mask seen = measure::mask_mirror_in_mirror(truth.hits);
     const double wanted = measure::mean_of(truth.hdr, measure::ValueRange::unclamped, seen).all;
     const auto judged = [&](const std::string& technique) {
-        const app::TechniqueResult part = test::render_technique(
+        const session::TechniqueResult part = test::render_technique(
             scene, technique + ":continue=8,face=128", {96, 96}, 4);
         const double found = measure::mean_of(part.hdr, measure::ValueRange::unclamped, seen).all;
         std::cout << "[ MEASURED ] " << technique << ": " << found << " where rays say " << wanted
@@ -153,12 +154,12 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
     constexpr uvec2 kLayeredPictureSize{256, 256};
     const scene::Scene scene = make_hidden_wall_scene();
     const auto render = [&](const std::string& technique) {
-        app::Request request = test::make_test_request(scene, {technique}, kLayeredPictureSize);
+        session::Request request = test::make_test_request(scene, {technique}, kLayeredPictureSize);
         request.warmup = 1;
         request.ambient = 0;
-        return std::move(app::run(test::get_test_engine(), request).parts.front());
+        return std::move(session::run(test::get_test_engine(), request).parts.front());
     };
-    const app::TechniqueResult truth = render("raytrace:depth=4");
+    const session::TechniqueResult truth = render("raytrace:depth=4");
     const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
                            layered = render("layered").hdr;
     // Classify each pixel as a wall, 0 to 5, or the ball, 6, by the nearest colour, because lookups
@@ -193,8 +194,8 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
 // The distance by which the second layer must lie behind the first covers the rounding of eight
 // bits. It must not depend on the number that is given as range.
 TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
-    const app::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
-                                                              "raytrace:depth=16", {256, 256});
+    const session::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
+                                                                  "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
         return test::rmse_of_pictures(
             test::render_technique(scene::make_cornell_mirrors(),
@@ -211,7 +212,7 @@ TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
 }
 
 TEST(Layered, SceneIsRenderedTwicePerMirror) {
-    const app::TechniqueResult part = test::render_technique(
+    const session::TechniqueResult part = test::render_technique(
         scene::make_cornell_mirrors(), "layered:face=16,shadow_map=16", {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }

@@ -104,13 +104,13 @@ TEST(LightProbes, ClosedRoomIsNearerToPathsThanWithAnyAmbientLight) {
     const measure::Picture truth =
         test::render_without_ambient(room, "raytrace:indirect=paths,rays=1024,depth=12", size).hdr;
     double best = 1e9;
-    app::Request asked = test::make_test_request(room, {"secant"}, size);
+    session::Request asked = test::make_test_request(room, {"secant"}, size);
     asked.warmup = 3;
     for (const double ambient : {0., .02, .04, .06, .08, .1, .14, .2, .3}) {
         asked.ambient = ambient;
         best = std::min(
             best,
-            rms_difference(app::run(test::get_test_engine(), asked).parts.front().hdr, truth));
+            rms_difference(session::run(test::get_test_engine(), asked).parts.front().hdr, truth));
     }
     const measure::Picture probes = render_by_probes(room, "secant:indirect=captures", size);
     const double found = rms_difference(probes, truth);
@@ -161,14 +161,14 @@ TEST(LightProbes, TracedPixelsAreLitByProbesToo) {
 TEST(LightProbes, RequiredWorkDrawsThePictureOfAllWork) {
     scene::Scene room = test::make_lit_room(2, 1);
     scene::find_mirrors(room);
-    app::Request asked = test::make_test_request(room, {"secant:indirect=captures,face=32"},
-                                                 {48, 36});
+    session::Request asked = test::make_test_request(room, {"secant:indirect=captures,face=32"},
+                                                     {48, 36});
     asked.warmup = 4;
-    asked.model = app::RenderedWork::everything;
-    const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
-    asked.model = app::RenderedWork::required;
+    asked.model = session::RenderedWork::everything;
+    const measure::Picture all = session::run(test::get_test_engine(), asked).parts.front().hdr;
+    asked.model = session::RenderedWork::required;
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        all, app::run(test::get_test_engine(), asked).parts.front().hdr));
+        all, session::run(test::get_test_engine(), asked).parts.front().hdr));
 }
 
 /// In a room with an environment, light probes inside the room must light it, although other probes
@@ -189,12 +189,12 @@ TEST(LightProbes, AmbientLightIsNotAdded) {
     scene::Scene room = test::make_lit_room(1, 1);
     room.materials[room.objects.back().material] = {
         .name = "rough", .albedo = {.9f, .7f, .5f}, .metallic = 1, .roughness = .9f};
-    app::Request asked = test::make_test_request(room, {"reuse:indirect=captures"}, {24, 18});
+    session::Request asked = test::make_test_request(room, {"reuse:indirect=captures"}, {24, 18});
     asked.warmup = 3;
     std::vector<measure::Picture> pictures;
     for (const double ambient : {0., .5}) {
         asked.ambient = ambient;
-        pictures.push_back(app::run(test::get_test_engine(), asked).parts.front().hdr);
+        pictures.push_back(session::run(test::get_test_engine(), asked).parts.front().hdr);
     }
     EXPECT_TRUE(test::have_equal_pixel_bytes(pictures[0], pictures[1]));
 }

@@ -140,11 +140,11 @@ TEST(LobeIntegral, TwoHundredPixelsAgreeWithAnotherIntegrator) {
         const dvec3 irradiance = c[0] + c[1] - c[6] - c[8];
         std::vector<measure::Picture> pictures;
         for (int seed = 1; seed <= kSeedCount; ++seed) {
-            app::Request asked = test::make_test_request(
+            session::Request asked = test::make_test_request(
                 scene, {"raytrace:rays=1024,depth=4,seed=" + std::to_string(seed)},
                 {kIntegralPictureEdge, kIntegralPictureEdge});
             asked.ambient = 0;
-            pictures.push_back(app::run(test::get_test_engine(), asked).parts.front().hdr);
+            pictures.push_back(session::run(test::get_test_engine(), asked).parts.front().hdr);
         }
         test::RandomNumbers numbers(17);
         std::set<std::pair<int, int>> drawn;

@@ -134,11 +134,11 @@ TEST(NearPlane, ViewShowsBoardsInItsCorners) {
                              glm::normalize(dvec3(3.8 * x * tangent, .95 * y * tangent, 1)), .03,
                              .004)
                     .add_board_quad_to_scene(scene, add_glowing_material(scene));
-        const app::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
-                                                                  kNearPlanePictureSize),
-                                   drawn = test::render_technique(
-                                       scene, "naive:shadow=none,face=1,bounces=1",
-                                       kNearPlanePictureSize);
+        const session::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
+                                                                      kNearPlanePictureSize),
+                                       drawn = test::render_technique(
+                                           scene, "naive:shadow=none,face=1,bounces=1",
+                                           kNearPlanePictureSize);
         std::size_t shown = 0, off = 0;
         for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
             shown += truth.hdr.pixels[i] == kGlowColour;
@@ -166,13 +166,13 @@ TEST(NearPlane, ShadowMapsHoldBoardsInTheCornersOfFaces) {
     scene.cameras.push_back(
         {.eye = {0, 1.5, 0}, .target = {0, -2, 0}, .up = {0, 0, 1}, .vertical_fov_degrees = 130});
     constexpr uvec2 kSquarePictureSize{48, 48};
-    const app::TechniqueResult lit = test::render_technique(scene, "raytrace:shadow=none",
-                                                            kSquarePictureSize),
-                               truth = test::render_technique(scene, "raytrace:shadow=ray",
-                                                              kSquarePictureSize),
-                               drawn = test::render_technique(
-                                   scene, "naive:face=1,bounces=1,shadow_map=512",
-                                   kSquarePictureSize);
+    const session::TechniqueResult lit = test::render_technique(scene, "raytrace:shadow=none",
+                                                                kSquarePictureSize),
+                                   truth = test::render_technique(scene, "raytrace:shadow=ray",
+                                                                  kSquarePictureSize),
+                                   drawn = test::render_technique(
+                                       scene, "naive:face=1,bounces=1,shadow_map=512",
+                                       kSquarePictureSize);
     std::size_t dark = 0, off = 0;
     for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
         dark += test::do_pixel_channels_differ(lit.hdr.pixels[i], truth.hdr.pixels[i]);

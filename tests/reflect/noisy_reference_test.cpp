@@ -60,8 +60,8 @@ public:
     }
 
 private:
-    app::Session traced_session_;
-    app::FrameSpec spec_;
+    session::Session traced_session_;
+    session::FrameSpec spec_;
 };
 
 TEST(NoisyReference, SeedsGiveIndependentPicturesOfTheSameMean) {
@@ -132,8 +132,9 @@ TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     EXPECT_LT(width, truth) << "an interval that wide says nothing";
 }
 
-app::CompareRequest make_rough_floor_request(const std::vector<std::string>& rows, double seconds) {
-    app::CompareRequest request;
+study::CompareRequest make_rough_floor_request(const std::vector<std::string>& rows,
+                                               double seconds) {
+    study::CompareRequest request;
     request.base = test::make_test_request(make_metal_floor_below_patches(.3f), rows, {64, 64});
     request.reference_seconds = seconds;
     return request;
@@ -142,10 +143,10 @@ app::CompareRequest make_rough_floor_request(const std::vector<std::string>& row
 /// If the reference used the seed of a row, its first half would equal the row's picture, and the
 /// row's error would be 0.
 TEST(NoisyReference, SharesNoSeedWithARow) {
-    app::CompareRequest request = make_rough_floor_request(
+    study::CompareRequest request = make_rough_floor_request(
         {"raytrace:depth=2,rays=4,seed=1", "raytrace:depth=2,rays=4,seed=2"}, 0);
     request.reference = "raytrace:depth=2,rays=4";
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_TRUE(found.noise);
     EXPECT_EQ(found.noise->frames, 1);
     for (const report::Row& row : found.rows) {
@@ -157,14 +158,14 @@ TEST(NoisyReference, SharesNoSeedWithARow) {
 }
 
 TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
-    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 60);
+    study::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 60);
     request.reference = "raytrace:depth=2,rays=1";
     std::vector<std::string> told;
     request.watcher.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
         EXPECT_LE(index, count);
         told.push_back(label);
     };
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_TRUE(found.noise);
     ASSERT_FALSE(found.stopped);
     EXPECT_GT(found.noise->frames, 1);
@@ -178,27 +179,27 @@ TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
               0u);
 
     request.reference_seconds = 0;
-    const report::Comparison brief = app::compare(test::get_test_engine(), request);
+    const report::Comparison brief = study::compare(test::get_test_engine(), request);
     EXPECT_EQ(brief.noise->frames, 1);
     EXPECT_FALSE(brief.noise->is_noise_target_reached());
     EXPECT_GT(brief.noise->flip_floor, found.noise->flip_floor);
 }
 
 TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
-    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
+    study::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
-    const report::Comparison rough = app::compare(test::get_test_engine(), request);
-    EXPECT_EQ(rough.reference_label, app::kRoughReference);
+    const report::Comparison rough = study::compare(test::get_test_engine(), request);
+    EXPECT_EQ(rough.reference_label, study::kRoughReference);
     EXPECT_TRUE(rough.noise);
     request.reference = "raytrace:depth=16";
-    EXPECT_FALSE(app::compare(test::get_test_engine(), request).noise);
+    EXPECT_FALSE(study::compare(test::get_test_engine(), request).noise);
     request.base.scene = make_metal_floor_below_patches(.04f);
     request.reference = "";
-    const report::Comparison sharp = app::compare(test::get_test_engine(), request);
-    EXPECT_EQ(sharp.reference_label, app::kReference);
+    const report::Comparison sharp = study::compare(test::get_test_engine(), request);
+    EXPECT_EQ(sharp.reference_label, study::kReference);
     // A scene of perfect mirrors has no noise, even if the reference has the knob `rays`.
     request.reference = "raytrace:depth=16,rays=2";
-    const report::Comparison drawn = app::compare(test::get_test_engine(), request);
+    const report::Comparison drawn = study::compare(test::get_test_engine(), request);
     for (const report::Comparison* without : {&sharp, &drawn}) {
         EXPECT_FALSE(without->noise);
         EXPECT_THAT(report::to_json(*without), testing::Not(testing::HasSubstr("noise")));
@@ -210,45 +211,45 @@ TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
 using NoisyReferenceInFolder = test::InFolder;
 
 TEST_F(NoisyReferenceInFolder, FileContinuesTheHalves) {
-    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
+    study::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
     request.reference = "raytrace:depth=2,rays=2";
     request.reference_file = (folder / "halves.exr").string();
-    const report::Comparison first = app::compare(test::get_test_engine(), request),
-                             again = app::compare(test::get_test_engine(), request);
+    const report::Comparison first = study::compare(test::get_test_engine(), request),
+                             again = study::compare(test::get_test_engine(), request);
     EXPECT_EQ(again.noise->frames, 1);
     EXPECT_EQ(again.rows[0].error.rmse, first.rows[0].error.rmse);
     request.reference_seconds = .2; // enough for at least one more frame of each half
-    const report::Comparison longer = app::compare(test::get_test_engine(), request);
+    const report::Comparison longer = study::compare(test::get_test_engine(), request);
     EXPECT_GT(longer.noise->frames, 1);
     EXPECT_LT(longer.noise->halves_rmse, first.noise->halves_rmse);
     request.base.size = {16, 32};
     EXPECT_THAT(test::catch_error_text(Failure::bad_data,
-                                       [&] { app::compare(test::get_test_engine(), request); }),
+                                       [&] { study::compare(test::get_test_engine(), request); }),
                 testing::HasSubstr("the size 16x32"));
     request.base.size = {32, 32};
     request.base.techniques = {"raytrace:depth=2,rays=2,seed=1"};
     EXPECT_THAT(test::catch_error_text(Failure::usage,
-                                       [&] { app::compare(test::get_test_engine(), request); }),
+                                       [&] { study::compare(test::get_test_engine(), request); }),
                 testing::HasSubstr("the seed 1"));
     request.reference = "raytrace:depth=2";
     EXPECT_THAT(test::catch_error_text(Failure::usage,
-                                       [&] { app::compare(test::get_test_engine(), request); }),
+                                       [&] { study::compare(test::get_test_engine(), request); }),
                 testing::HasSubstr("wanted a reference with noise"));
 }
 
 TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {
-    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
+    study::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
     request.reference = "raytrace:depth=2,rays=2";
     request.studies = {{"views", 6}};
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_EQ(found.rows[0].views.size(), 6u);
     for (const measure::Errors& view : found.rows[0].views) EXPECT_GT(view.error.flip_floor, 0);
 }
 
-app::ChooseRequest make_rough_choose_request(double seconds) {
-    app::ChooseRequest request;
+study::ChooseRequest make_rough_choose_request(double seconds) {
+    study::ChooseRequest request;
     request.base = test::make_test_request(make_metal_floor_below_patches(.3f), {}, {24, 24});
     request.base.frames = 6, request.base.warmup = 1;
     request.reference = "raytrace:depth=2,rays=1";
@@ -262,11 +263,12 @@ app::ChooseRequest make_rough_choose_request(double seconds) {
 /// limit. Otherwise the certificate says that the floor was not reached, and the noise counts as
 /// error.
 TEST(NoisyReference, ProofReducesTheNoiseOfEachViewToAFifthOfTheLimit) {
-    for (const app::ErrorQuantity quantity : {app::ErrorQuantity::flip, app::ErrorQuantity::rmse}) {
-        app::ChooseRequest request = make_rough_choose_request(600);
+    for (const study::ErrorQuantity quantity :
+         {study::ErrorQuantity::flip, study::ErrorQuantity::rmse}) {
+        study::ChooseRequest request = make_rough_choose_request(600);
         request.quantity = quantity;
-        const app::PlanProof quiet = app::prove_plan(test::get_test_engine(), request,
-                                                     "reuse:face=16");
+        const study::PlanProof quiet = study::prove_plan(test::get_test_engine(), request,
+                                                         "reuse:face=16");
         ASSERT_TRUE(quiet.noise);
         EXPECT_DOUBLE_EQ(quiet.noise->wanted_floor.value_or(0), .1);
         EXPECT_LE(quiet.noise->largest_floor, .1);
@@ -275,8 +277,8 @@ TEST(NoisyReference, ProofReducesTheNoiseOfEachViewToAFifthOfTheLimit) {
         EXPECT_EQ(quiet.plan.errors.size(), 6u);
         request.max_error = .01;
         request.reference_seconds = 0;
-        const app::PlanProof noisy = app::prove_plan(test::get_test_engine(), request,
-                                                     "reuse:face=16");
+        const study::PlanProof noisy = study::prove_plan(test::get_test_engine(), request,
+                                                         "reuse:face=16");
         ASSERT_TRUE(noisy.noise);
         EXPECT_EQ(noisy.noise->views_above, 6u);
         EXPECT_GT(noisy.noise->median_floor, quiet.noise->median_floor);

@@ -42,9 +42,9 @@ scene::Scene make_lit_square(const dvec3& light) {
 
 measure::Picture render_normal_texture_scene(const scene::Scene& scene,
                                              const std::string& technique) {
-    app::Request asked = test::make_test_request(scene, {technique}, kTiltedPictureSize);
+    session::Request asked = test::make_test_request(scene, {technique}, kTiltedPictureSize);
     asked.ambient = 0;
-    return app::run(test::get_test_engine(), asked).parts.front().hdr;
+    return session::run(test::get_test_engine(), asked).parts.front().hdr;
 }
 
 /// Returns the diffuse radiance of a surface with this normal.

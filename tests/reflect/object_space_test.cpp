@@ -42,7 +42,7 @@ scene::Scene make_room_with_far_balls(int count, bool mirrors) {
     return scene;
 }
 
-double mean_flip_of_results(const app::TechniqueResult& a, const app::TechniqueResult& b) {
+double mean_flip_of_results(const session::TechniqueResult& a, const session::TechniqueResult& b) {
     return measure::flip_mean(measure::flip(a.display, b.display));
 }
 
@@ -52,10 +52,10 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
     for (const std::string technique :
          {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
           "parallax", "pyramid", "hybrid", "layered"}) {
-        const app::TechniqueResult wanted = test::render_technique(alone, technique,
-                                                                   kObjectSpacePictureSize),
-                                   found = test::render_technique(both, technique,
-                                                                  kObjectSpacePictureSize);
+        const session::TechniqueResult wanted = test::render_technique(alone, technique,
+                                                                       kObjectSpacePictureSize),
+                                       found = test::render_technique(both, technique,
+                                                                      kObjectSpacePictureSize);
         EXPECT_EQ(test::count_nonfinite_pixels(found.hdr), 0u) << technique;
         EXPECT_LE(mean_flip_of_results(found, wanted), .001) << technique;
     }
@@ -66,10 +66,10 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
 TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
     for (const bool mirrors : {true, false}) {
         const scene::Scene scene = make_room_with_far_balls(2, mirrors);
-        const app::Request request = test::make_test_request(scene, {"raytrace:sphere=exact"},
-                                                             kObjectSpacePictureSize);
-        const app::TechniqueResult part = test::render_technique(scene, "raytrace:sphere=exact",
+        const session::Request request = test::make_test_request(scene, {"raytrace:sphere=exact"},
                                                                  kObjectSpacePictureSize);
+        const session::TechniqueResult part = test::render_technique(scene, "raytrace:sphere=exact",
+                                                                     kObjectSpacePictureSize);
         const stress::DoublePrecisionTracer tracer(scene, request.ambient);
         measure::Picture truth(static_cast<int>(kObjectSpacePictureSize.x),
                                static_cast<int>(kObjectSpacePictureSize.y));

@@ -65,13 +65,13 @@ TEST(Orthographic, MirrorsReflectParallelViewRays) {
     scene::Scene scene = test::make_lit_room(2, 1);
     scene.cameras = {make_orthographic_camera({.1, .2, -2.9}, {0, -.2, 0}, 3)};
     constexpr uvec2 kOrthographicPictureSize{96, 96};
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace",
-                                                              kOrthographicPictureSize);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace",
+                                                                  kOrthographicPictureSize);
     const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
     for (const auto& [technique, most] :
          {std::pair{"hybrid", .02}, {"secant:face=auto", .1}, {"layered", .05}}) {
-        const app::TechniqueResult part = test::render_technique(scene, technique,
-                                                                 kOrthographicPictureSize, 4);
+        const session::TechniqueResult part = test::render_technique(scene, technique,
+                                                                     kOrthographicPictureSize, 4);
         std::size_t off = 0, all = 0;
         for (std::size_t i = 0; i < mirrors.size(); ++i) {
             if (mirrors[i] == 0) continue;

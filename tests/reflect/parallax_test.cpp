@@ -16,8 +16,8 @@ constexpr int kParallaxWarmupFrames =
 
 TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
-                                                              kParallaxPictureSize);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                                  kParallaxPictureSize);
     const measure::Picture reuse =
         test::render_technique(scene, "reuse", kParallaxPictureSize, kParallaxWarmupFrames).hdr;
     const measure::Picture parallax =
@@ -47,10 +47,10 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
                    {.1, 2, .2}, 1);
     scene.cameras.push_back({.eye = {0, 3, -7}, .target = {0, 2, 0}, .vertical_fov_degrees = 30});
     const auto misses = [&](const std::string& technique) {
-        app::Request request = test::make_test_request(scene, {technique}, {192, 192});
+        session::Request request = test::make_test_request(scene, {technique}, {192, 192});
         request.with_lookup = true;
         double mirror = 0, miss = 0;
-        const app::RunResult result = app::run(test::get_test_engine(), request);
+        const session::RunResult result = session::run(test::get_test_engine(), request);
         for (const vec4& pixel : result.parts.front().lookup) {
             if (!(pixel.w > 0)) continue;
             ++mirror;
@@ -67,8 +67,8 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
 
 TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
-                                                              kParallaxPictureSize);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                                  kParallaxPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto error = [&](const std::string& technique) {
         const double value = test::rmse_of_pictures(

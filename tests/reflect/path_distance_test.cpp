@@ -25,14 +25,14 @@ struct DistanceRun {
     std::vector<std::string> warnings;
 };
 
-DistanceRun measure_distance(app::Engine& engine, const scene::Scene& scene, double seconds,
+DistanceRun measure_distance(session::Engine& engine, const scene::Scene& scene, double seconds,
                              const std::string& reference = "raytrace:depth=16",
                              const uvec2& size = {16, 16}) {
-    app::Request base = test::make_test_request(scene, {"naive:face=16"}, size);
+    session::Request base = test::make_test_request(scene, {"naive:face=16"}, size);
     base.ambient = 0;
-    app::Session session(engine, scene);
+    session::Session session(engine, scene);
     DistanceRun run;
-    run.distance = app::measure_path_distance(
+    run.distance = study::measure_path_distance(
         engine, session, base, reference, seconds, {.on_frame = [&](int, int) { ++run.frames; }},
         [&](const std::string& warning) { run.warnings.push_back(warning); });
     if (run.distance)
@@ -127,16 +127,18 @@ TEST(PathDistance, PictureHasAtMost64x64PixelsInTheShapeOfTheComparison) {
 }
 
 TEST(PathDistance, SignalEndsIt) {
-    app::Request base = test::make_test_request(make_room_with_lamp(), {"naive:face=16"}, {16, 16});
-    app::Session session(test::get_test_engine(), base.scene);
+    session::Request base = test::make_test_request(make_room_with_lamp(), {"naive:face=16"},
+                                                    {16, 16});
+    session::Session session(test::get_test_engine(), base.scene);
     std::atomic<int> signal{0};
     int frames = 0;
-    const app::Watcher watcher{.on_frame = [&](int, int) { signal = ++frames == 2 ? 15 : 0; },
-                               .stop = &signal};
+    const session::Watcher watcher{.on_frame = [&](int, int) { signal = ++frames == 2 ? 15 : 0; },
+                                   .stop = &signal};
     test::expect_error(
         [&] {
-            app::measure_path_distance(test::get_test_engine(), session, base, "raytrace:depth=16",
-                                       kAmpleSeconds, watcher, [](const std::string&) {});
+            study::measure_path_distance(test::get_test_engine(), session, base,
+                                         "raytrace:depth=16", kAmpleSeconds, watcher,
+                                         [](const std::string&) {});
         },
         Failure::terminated, {"stopped by signal 15"});
     EXPECT_EQ(frames, 2);
@@ -150,7 +152,7 @@ protected:
     }
 
 private:
-    app::Engine engine_{{.device = test::read_wanted_device_name(), .cache = folder}};
+    session::Engine engine_{{.device = test::read_wanted_device_name(), .cache = folder}};
 };
 
 TEST_F(KeptPathDistance, SecondRunTracesNoPath) {

@@ -30,9 +30,9 @@ scene::Scene make_audited_room() {
     return test::replace_balls_by_coarse_balls(test::make_lit_room(2, 1));
 }
 
-app::FrameSpec make_audited_spec(const scene::Scene& scene) {
-    app::FrameSpec spec = test::make_test_request(scene, {kRunningPlan}, kAuditedSize);
-    spec.model = app::RenderedWork::required;
+session::FrameSpec make_audited_spec(const scene::Scene& scene) {
+    session::FrameSpec spec = test::make_test_request(scene, {kRunningPlan}, kAuditedSize);
+    spec.model = session::RenderedWork::required;
     return spec;
 }
 
@@ -44,8 +44,8 @@ scene::Camera camera_of_frame(const scene::Camera& first, int k) {
     return camera;
 }
 
-app::PlanAuditRequest make_audit_request(std::vector<std::string> plans = {kRunningPlan}) {
-    app::PlanAuditRequest request;
+study::PlanAuditRequest make_audit_request(std::vector<std::string> plans = {kRunningPlan}) {
+    study::PlanAuditRequest request;
     request.plans = std::move(plans);
     request.max_error = kAuditedLimit;
     request.pace = {.every = 4, .most_time = std::numeric_limits<double>::infinity()};
@@ -53,8 +53,8 @@ app::PlanAuditRequest make_audit_request(std::vector<std::string> plans = {kRunn
 }
 
 /// Returns a request that audits every frame that is counted.
-app::PlanAuditRequest make_request_of_every_frame() {
-    app::PlanAuditRequest request = make_audit_request();
+study::PlanAuditRequest make_request_of_every_frame() {
+    study::PlanAuditRequest request = make_audit_request();
     request.pace.every = 1;
     return request;
 }
@@ -64,7 +64,7 @@ TEST(PlanAudit, SampledViewKeepsPixelCentresForAnySize) {
     const scene::Camera flat{.orthographic_height = 3};
     for (const uvec2 size : {uvec2(64, 64), uvec2(1920, 1080), uvec2(512, 512), uvec2(1367, 771),
                              uvec2(4000, 10), uvec2(1, 1), uvec2(3840, 2160)}) {
-        const app::SampledView view = app::choose_sampled_view(camera, size, 40'000);
+        const study::SampledView view = study::choose_sampled_view(camera, size, 40'000);
         SCOPED_TRACE(testing::Message() << size.x << "x" << size.y << " step " << view.step);
         EXPECT_EQ(view.step % 2, 1u);
         ASSERT_GE(std::min(view.size.x, view.size.y), 1u);
@@ -82,13 +82,13 @@ TEST(PlanAudit, SampledViewKeepsPixelCentresForAnySize) {
         };
         EXPECT_NEAR(slope(view.camera.vertical_fov_degrees, 0, view.size.y),
                     slope(camera.vertical_fov_degrees, view.first.y, size.y), 1e-12);
-        EXPECT_NEAR(app::choose_sampled_view(flat, size, 40'000).camera.orthographic_height *
+        EXPECT_NEAR(study::choose_sampled_view(flat, size, 40'000).camera.orthographic_height *
                         (1 - 1. / view.size.y),
                     flat.orthographic_height * (1 - (2. * view.first.y + 1) / size.y), 1e-12);
     }
-    EXPECT_EQ(app::choose_sampled_view(camera, {200, 200}, 40'000).step, 1u);
-    EXPECT_EQ(app::choose_sampled_view(camera, {201, 200}, 40'000).step, 3u);
-    EXPECT_EQ(app::choose_sampled_view(camera, {200, 200}, 40'000).camera, camera);
+    EXPECT_EQ(study::choose_sampled_view(camera, {200, 200}, 40'000).step, 1u);
+    EXPECT_EQ(study::choose_sampled_view(camera, {201, 200}, 40'000).step, 3u);
+    EXPECT_EQ(study::choose_sampled_view(camera, {200, 200}, 40'000).camera, camera);
 }
 
 /// The ray-traced picture of the sampled view must equal the same pixels of the whole ray-traced
@@ -97,13 +97,13 @@ TEST(PlanAudit, TracedSamplesEqualThePixelsOfTheWholePicture) {
     for (const char* name : {"room", "courtyard"}) {
         SCOPED_TRACE(name);
         const scene::Scene scene = scene::load(name);
-        app::Session session(test::get_test_engine(), scene);
-        app::FrameSpec spec = test::make_test_request(scene, {"raytrace:depth=16"}, {97, 66});
+        session::Session session(test::get_test_engine(), scene);
+        session::FrameSpec spec = test::make_test_request(scene, {"raytrace:depth=16"}, {97, 66});
         const measure::Picture whole = session.frame(spec).hdr();
-        const app::SampledView view = app::choose_sampled_view(spec.camera, spec.size, 800);
+        const study::SampledView view = study::choose_sampled_view(spec.camera, spec.size, 800);
         ASSERT_EQ(view.step, 3u);
         spec.camera = view.camera, spec.size = view.size;
-        const measure::Picture samples = app::sample_picture(whole, view),
+        const measure::Picture samples = study::sample_picture(whole, view),
                                traced = session.frame(spec).hdr();
         std::size_t other = 0;
         for (std::size_t i = 0; i < samples.pixels.size(); ++i) {
@@ -116,29 +116,30 @@ TEST(PlanAudit, TracedSamplesEqualThePixelsOfTheWholePicture) {
 
 TEST(PlanAudit, ErrorIsThatOfAComparison) {
     const scene::Scene scene = make_audited_room();
-    app::CompareRequest compared;
-    static_cast<app::FrameSpec&>(compared.base) = make_audited_spec(scene);
+    study::CompareRequest compared;
+    static_cast<session::FrameSpec&>(compared.base) = make_audited_spec(scene);
     compared.base.scene = scene;
     compared.base.warmup = 8, compared.base.frames = 6;
-    const measure::Row row = app::compare(test::get_test_engine(), compared).rows.front();
+    const measure::Row row = study::compare(test::get_test_engine(), compared).rows.front();
 
-    app::Session session(test::get_test_engine(), scene);
-    for (const app::ErrorQuantity quantity : {app::ErrorQuantity::flip, app::ErrorQuantity::rmse}) {
-        app::PlanAuditRequest request = make_request_of_every_frame();
+    session::Session session(test::get_test_engine(), scene);
+    for (const study::ErrorQuantity quantity :
+         {study::ErrorQuantity::flip, study::ErrorQuantity::rmse}) {
+        study::PlanAuditRequest request = make_request_of_every_frame();
         request.quantity = quantity;
-        app::RunningPlanAudit audit(request);
-        app::FrameSpec spec = make_audited_spec(scene);
+        study::RunningPlanAudit audit(request);
+        session::FrameSpec spec = make_audited_spec(scene);
         std::optional<double> error;
         for (int k = 0; k < 18; ++k) {
             // The scene stands still and only the frame's time changes, so that each frame counts
             // as new.
             spec.time = k;
-            const app::Frame frame = session.frame(spec);
+            const session::Frame frame = session.frame(spec);
             if (const auto found = audit.watch_frame(session, frame, spec, k).error) error = found;
         }
         ASSERT_TRUE(error);
-        EXPECT_NEAR(*error, quantity == app::ErrorQuantity::flip ? row.error.flip : row.error.rmse,
-                    1e-6);
+        EXPECT_NEAR(*error,
+                    quantity == study::ErrorQuantity::flip ? row.error.flip : row.error.rmse, 1e-6);
     }
 }
 
@@ -150,15 +151,15 @@ TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
     scene::Material rough = scene.materials[shiny];
     rough.mirror = false, rough.metallic = 1, rough.roughness = .3f;
     rough.albedo = vec3(.9f);
-    app::Session session(test::get_test_engine(), scene);
-    app::RunningPlanAudit audit(make_request_of_every_frame());
-    app::FrameSpec spec = make_audited_spec(scene);
+    session::Session session(test::get_test_engine(), scene);
+    study::RunningPlanAudit audit(make_request_of_every_frame());
+    session::FrameSpec spec = make_audited_spec(scene);
     int k = 0;
     const auto count_audited_frames = [&](int frames) {
         const std::size_t before = audit.audit().frame_count();
         for (int i = 0; i < frames; ++i, ++k) {
             spec.camera = camera_of_frame(scene.cameras.front(), k);
-            const app::Frame frame = session.frame(spec);
+            const session::Frame frame = session.frame(spec);
             audit.watch_frame(session, frame, spec, k / 60.);
         }
         return audit.audit().frame_count() - before;
@@ -179,17 +180,18 @@ TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
 /// in the first frame of the sequence, such as `face=auto`, must stay.
 TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
     const scene::Scene scene = make_audited_room();
-    app::FrameSpec spec = make_audited_spec(scene);
+    session::FrameSpec spec = make_audited_spec(scene);
     spec.size = {210, 200};
     for (const char* plan : {"secant:face=auto,shadow_map=64", "auto"}) {
-        app::PlanAuditRequest request = make_audit_request({plan});
+        study::PlanAuditRequest request = make_audit_request({plan});
         request.pace.every = 2;
         spec.techniques = request.plans;
-        app::RunningPlanAudit audit(request);
-        app::Session audited(test::get_test_engine(), scene), plain(test::get_test_engine(), scene);
+        study::RunningPlanAudit audit(request);
+        session::Session audited(test::get_test_engine(), scene),
+            plain(test::get_test_engine(), scene);
         for (int k = 0; k < 22; ++k) {
             spec.camera = camera_of_frame(scene.cameras.front(), 2 * k);
-            const app::Frame frame = audited.frame(spec);
+            const session::Frame frame = audited.frame(spec);
             const measure::Picture picture = frame.hdr();
             audit.watch_frame(audited, frame, spec, k);
             EXPECT_TRUE(test::have_equal_pixel_bytes(picture, plain.frame(spec).hdr()))
@@ -201,9 +203,9 @@ TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
 
 TEST(PlanAudit, UnchangedPicturesAndOtherPlansAreNotAudited) {
     const scene::Scene scene = make_audited_room();
-    app::Session session(test::get_test_engine(), scene);
-    app::RunningPlanAudit audit(make_request_of_every_frame());
-    app::FrameSpec spec = make_audited_spec(scene);
+    session::Session session(test::get_test_engine(), scene);
+    study::RunningPlanAudit audit(make_request_of_every_frame());
+    session::FrameSpec spec = make_audited_spec(scene);
     const auto run = [&](int frames) {
         for (int k = 0; k < frames; ++k) audit.watch_frame(session, session.frame(spec), spec, k);
         return audit.audit().frame_count();
@@ -233,19 +235,19 @@ struct CaughtFault {
 /// Runs frames in which a fault begins at some frame, until the audit raises an alarm. `fault`
 /// returns the faulty picture that is shown instead of the frame.
 template <typename ShowFault>
-CaughtFault run_until_alarm(app::Session& session, int faulty, std::uint64_t seed,
+CaughtFault run_until_alarm(session::Session& session, int faulty, std::uint64_t seed,
                             const ShowFault& fault) {
     constexpr int kMostFrames = 200;
-    app::PlanAuditRequest request = make_audit_request();
+    study::PlanAuditRequest request = make_audit_request();
     request.pace.seed = seed;
-    app::RunningPlanAudit audit(request);
-    app::FrameSpec spec = make_audited_spec(session.scene());
+    study::RunningPlanAudit audit(request);
+    session::FrameSpec spec = make_audited_spec(session.scene());
     std::size_t before = 0;
     session.forget();
     for (int k = 0; k < kMostFrames; ++k) {
         spec.camera = camera_of_frame(session.scene().cameras.front(), k);
-        const app::Frame frame = k < faulty ? session.frame(spec) : fault(spec);
-        const app::AuditState outcome = audit.watch_frame(session, frame, spec, k / 60.);
+        const session::Frame frame = k < faulty ? session.frame(spec) : fault(spec);
+        const study::AuditState outcome = audit.watch_frame(session, frame, spec, k / 60.);
         if (k < faulty) before = audit.audit().frame_count();
         if (outcome.is_alarm)
             return {k < faulty, k - faulty + 1, audit.audit().frame_count() - before};
@@ -254,7 +256,7 @@ CaughtFault run_until_alarm(app::Session& session, int faulty, std::uint64_t see
 }
 
 template <typename ShowFault>
-void expect_fault_is_caught_for_20_seeds(app::Session& session, const ShowFault& fault) {
+void expect_fault_is_caught_for_20_seeds(session::Session& session, const ShowFault& fault) {
     int most_frames = 0;
     std::size_t most_audits = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -274,8 +276,8 @@ void expect_fault_is_caught_for_20_seeds(app::Session& session, const ShowFault&
 
 TEST(PlanAudit, WrongLawIsCaughtForEverySeed) {
     const scene::Scene scene = make_audited_room();
-    app::Session session(test::get_test_engine(), scene), wrong(test::get_test_engine(), scene);
-    expect_fault_is_caught_for_20_seeds(session, [&](app::FrameSpec spec) {
+    session::Session session(test::get_test_engine(), scene), wrong(test::get_test_engine(), scene);
+    expect_fault_is_caught_for_20_seeds(session, [&](session::FrameSpec spec) {
         spec.techniques = {"reuse:face=64,shadow_map=64"}; // a technique without parallax
                                                            // correction
         return wrong.frame(spec);
@@ -285,29 +287,29 @@ TEST(PlanAudit, WrongLawIsCaughtForEverySeed) {
 /// A wall changes its colour, but the mirrors continue to show the old captures.
 TEST(PlanAudit, StaleReflectionsAreCaughtForEverySeed) {
     const scene::Scene scene = make_audited_room();
-    app::Session session(test::get_test_engine(), scene), stale(test::get_test_engine(), scene);
+    session::Session session(test::get_test_engine(), scene), stale(test::get_test_engine(), scene);
     session.change(scene::set_material(0, {.name = "white", .albedo = {.25f, .3f, .7f}}));
     expect_fault_is_caught_for_20_seeds(
-        session, [&](const app::FrameSpec& spec) { return stale.frame(spec); });
+        session, [&](const session::FrameSpec& spec) { return stale.frame(spec); });
 }
 
 TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
     const scene::Scene scene = make_audited_room();
-    app::Session session(test::get_test_engine(), scene);
-    app::PlanAuditRequest request = make_audit_request(
+    session::Session session(test::get_test_engine(), scene);
+    study::PlanAuditRequest request = make_audit_request(
         {kRunningPlan, "reuse:face=64", "reuse:face=16"});
     request.pace.every = 1;
-    app::RunningPlanAudit audit(request);
+    study::RunningPlanAudit audit(request);
     EXPECT_EQ(audit.plan(), "reuse:face=16");
-    app::FrameSpec spec = make_audited_spec(scene);
+    session::FrameSpec spec = make_audited_spec(scene);
     std::vector<int> steps;
     std::vector<std::string> messages;
     int alarms = 0;
     for (int k = 0; k < 120; ++k) {
         spec.camera = camera_of_frame(scene.cameras.front(), k);
         spec.techniques = {audit.plan()};
-        const app::AuditState outcome = audit.watch_frame(session, session.frame(spec), spec,
-                                                          k / 60.);
+        const study::AuditState outcome = audit.watch_frame(session, session.frame(spec), spec,
+                                                            k / 60.);
         alarms += outcome.is_alarm;
         if (!outcome.message.empty()) messages.push_back(outcome.message);
         if (!outcome.has_new_plan) continue;
@@ -354,18 +356,18 @@ protected:
 TEST_F(LibraryAudit, ReadsAFileAndReturnsItsState) {
     const scene::Scene scene = make_audited_room();
     int calls = 0;
-    app::PlanAudit audit(write_file_of_two_plans(.001, scene::hash_scene(scene)),
-                         {.every = 1,
-                          .most_time = std::numeric_limits<double>::infinity(),
-                          .before_audit = [&] { ++calls; }});
+    study::PlanAudit audit(write_file_of_two_plans(.001, scene::hash_scene(scene)),
+                           {.every = 1,
+                            .most_time = std::numeric_limits<double>::infinity(),
+                            .before_audit = [&] { ++calls; }});
     EXPECT_TRUE(audit.is_for_scene(scene));
     EXPECT_FALSE(audit.is_for_scene(scene::load("flat")));
     EXPECT_EQ(audit.plan(), "reuse:face=16");
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = make_audited_spec(scene);
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_audited_spec(scene);
     spec.techniques = {"*=reuse:face=16"}; // another spelling of a plan for all mirrors
     audit.prepare(session, spec);
-    app::AuditState state;
+    study::AuditState state;
     int audited = 0;
     for (int k = 0; k < 60 && !state.has_new_plan; ++k) {
         spec.camera = camera_of_frame(scene.cameras.front(), k);
@@ -392,14 +394,14 @@ TEST_F(LibraryAudit, ReadsAFileAndReturnsItsState) {
 
 TEST_F(LibraryAudit, AssuresTheShareOfItsState) {
     const scene::Scene scene = make_audited_room();
-    app::PlanAudit audit(write_file_of_two_plans(1),
-                         {.every = 1, .most_time = std::numeric_limits<double>::infinity()});
+    study::PlanAudit audit(write_file_of_two_plans(1),
+                           {.every = 1, .most_time = std::numeric_limits<double>::infinity()});
     EXPECT_TRUE(audit.is_for_scene(scene)); // the file does not name its scene
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = make_audited_spec(scene);
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = make_audited_spec(scene);
     spec.size = {16, 16};
     spec.techniques = {audit.plan()};
-    app::AuditState state;
+    study::AuditState state;
     double before = 0;
     for (int k = 0; k < 90; ++k) {
         spec.camera = camera_of_frame(scene.cameras.front(), k);
@@ -417,25 +419,25 @@ TEST_F(LibraryAudit, AssuresTheShareOfItsState) {
 
 TEST_F(LibraryAudit, RefusesOptionsOutOfRange) {
     const std::filesystem::path file = write_file_of_two_plans(1);
-    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::PlanAudit(file, {.every = 0}); }),
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { study::PlanAudit(file, {.every = 0}); }),
               "audit: every: wanted at least 1 frame, found 0");
     EXPECT_EQ(
-        test::catch_error_text(Failure::usage, [&] { app::PlanAudit(file, {.most_time = 0}); }),
+        test::catch_error_text(Failure::usage, [&] { study::PlanAudit(file, {.most_time = 0}); }),
         "audit: share of time: wanted a number above 0, found 0");
 }
 
 TEST(PlanAudit, ImpossibleAuditsAreRefused) {
     EXPECT_EQ(test::catch_error_text(Failure::usage,
-                                     [] { app::RunningPlanAudit(make_audit_request({})); }),
+                                     [] { study::RunningPlanAudit(make_audit_request({})); }),
               "audit: plans: wanted at least 1, found none");
-    app::PlanAuditRequest request = make_audit_request();
+    study::PlanAuditRequest request = make_audit_request();
     request.max_error = 2;
-    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::RunningPlanAudit{request}; }),
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { study::RunningPlanAudit{request}; }),
               "audit: limit of error: wanted a number from 0 to 1, found 2");
     scene::Scene rough = make_audited_room();
     test::make_mirrors_rough(rough, .2f);
-    app::Session session(test::get_test_engine(), rough);
-    app::RunningPlanAudit audit(make_audit_request());
+    session::Session session(test::get_test_engine(), rough);
+    study::RunningPlanAudit audit(make_audit_request());
     test::expect_error([&] { audit.prepare(session, make_audited_spec(rough)); }, Failure::usage,
                        {"audit: reference: wanted one with rays=N, because surfaces of 'room' are "
                         "rough, found raytrace:depth=16"});
@@ -445,30 +447,30 @@ TEST(PlanAudit, ImpossibleAuditsAreRefused) {
 /// session goes on as if there were no audit.
 TEST(PlanAudit, ReferenceWithoutFirstHitsIsRefusedAndTheSessionGoesOn) {
     const scene::Scene room = make_audited_room();
-    app::PlanAuditRequest request = make_audit_request();
+    study::PlanAuditRequest request = make_audit_request();
     request.reference = "naive:bounces=1";
-    app::FrameSpec spec = make_audited_spec(room);
+    session::FrameSpec spec = make_audited_spec(room);
     spec.techniques = {"reuse"};
-    app::Session audited(test::get_test_engine(), room), other(test::get_test_engine(), room);
+    session::Session audited(test::get_test_engine(), room), other(test::get_test_engine(), room);
     audited.frame(spec).read(), other.frame(spec).read();
-    app::RunningPlanAudit audit(request);
+    study::RunningPlanAudit audit(request);
     test::expect_error([&] { audit.prepare(audited, spec); }, Failure::usage,
                        {"audit: reference: wanted a ray-traced one, found naive:bounces=1"});
     EXPECT_EQ(audited.frame(spec).read().hdr.pixels, other.frame(spec).read().hdr.pixels);
 }
 
 /// Runs frames of a rough scene, and returns the audit after them. The reference has two halves.
-std::unique_ptr<app::RunningPlanAudit> audit_rough_room(app::ErrorQuantity quantity, double limit,
-                                                        int frames) {
+std::unique_ptr<study::RunningPlanAudit> audit_rough_room(study::ErrorQuantity quantity,
+                                                          double limit, int frames) {
     scene::Scene rough = make_audited_room();
     test::make_mirrors_rough(rough, .2f);
-    app::PlanAuditRequest request = make_request_of_every_frame();
+    study::PlanAuditRequest request = make_request_of_every_frame();
     request.quantity = quantity;
     request.max_error = limit;
     request.reference = "raytrace:depth=4,rays=4";
-    auto audit = std::make_unique<app::RunningPlanAudit>(request);
-    app::Session session(test::get_test_engine(), rough);
-    app::FrameSpec spec = make_audited_spec(rough);
+    auto audit = std::make_unique<study::RunningPlanAudit>(request);
+    session::Session session(test::get_test_engine(), rough);
+    session::FrameSpec spec = make_audited_spec(rough);
     spec.size = {32, 32};
     for (int k = 0; k < frames; ++k) {
         spec.camera = camera_of_frame(rough.cameras.front(), k);
@@ -480,7 +482,8 @@ std::unique_ptr<app::RunningPlanAudit> audit_rough_room(app::ErrorQuantity quant
 /// Against a reference with noise, a frame keeps the limit only if the noise cannot hide a failure,
 /// and only frames that fail whatever the noise is raise an alarm.
 TEST(PlanAudit, RoughSceneIsAuditedByTwoHalves) {
-    for (const app::ErrorQuantity quantity : {app::ErrorQuantity::flip, app::ErrorQuantity::rmse}) {
+    for (const study::ErrorQuantity quantity :
+         {study::ErrorQuantity::flip, study::ErrorQuantity::rmse}) {
         const auto kept = audit_rough_room(quantity, .9, 24),
                    broken = audit_rough_room(quantity, 0, 24);
         EXPECT_GT(kept->audit().frame_count(), 5u);
@@ -494,7 +497,7 @@ TEST(PlanAudit, RoughSceneIsAuditedByTwoHalves) {
 /// With few rays, the noise of the halves is of the size of the limit. Neither passes nor failures
 /// are then certain.
 TEST(PlanAudit, NoiseOfTheSizeOfTheLimitNeitherAssuresNorAlarms) {
-    const auto audit = audit_rough_room(app::ErrorQuantity::flip, .1, 24);
+    const auto audit = audit_rough_room(study::ErrorQuantity::flip, .1, 24);
     EXPECT_EQ(audit->audit().failure_count(), audit->audit().frame_count());
     EXPECT_EQ(audit->audit().assured_share(), 0);
     EXPECT_FALSE(audit->is_alarmed());

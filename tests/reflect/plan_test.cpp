@@ -42,9 +42,10 @@ bool may_capture_show_ball(const scene::Scene& scene, std::size_t mirror, const 
 
 /// Compares the pixels of one mirror in a plan (`mixed`) with those of one technique (`uniform`).
 /// Leaves out the pixels that may show another mirror.
-SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene, const app::TechniqueResult& mixed,
-                                       const app::TechniqueResult& uniform,
-                                       const app::TechniqueResult& truth, MirrorId mirror,
+SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene,
+                                       const session::TechniqueResult& mixed,
+                                       const session::TechniqueResult& uniform,
+                                       const session::TechniqueResult& truth, MirrorId mirror,
                                        int face) {
     SamePixelCounts result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
@@ -71,12 +72,13 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
     // Two frames are enough, because pixels with deeper bounces are left out.
     constexpr int kFramesUntilFirstOrder = 2;
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kPlanPictureSize);
-    app::Request asked = test::make_test_request(
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace",
+                                                                  kPlanPictureSize);
+    session::Request asked = test::make_test_request(
         scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kPlanPictureSize);
     asked.warmup = kFramesUntilFirstOrder - 1;
-    const app::TechniqueResult mixed = std::move(
-        app::run(test::get_test_engine(), asked).parts.front());
+    const session::TechniqueResult mixed = std::move(
+        session::run(test::get_test_engine(), asked).parts.front());
     // Mirror 4 is ray traced. It has a capture nevertheless, because the captures of other mirrors
     // show mirror 4.
     EXPECT_EQ(mixed.scene_passes, 4 + 2);
@@ -86,8 +88,8 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
         const bool is_traced = i == 3;
         asked.techniques = {uniform[i]};
         asked.with_lookup = !is_traced;
-        const app::TechniqueResult part = std::move(
-            app::run(test::get_test_engine(), asked).parts.front());
+        const session::TechniqueResult part = std::move(
+            session::run(test::get_test_engine(), asked).parts.front());
         const SamePixelCounts found = compare_mirror_of_plan(
             scene, mixed, part, truth, MirrorId::mirror_id_from_list_index(i), i == 0 ? 64 : 256);
         std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
@@ -120,13 +122,14 @@ scene::Scene make_balls_between_boards() {
 TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
     constexpr uvec2 kPlanPictureSize{256, 96};
     const scene::Scene scene = make_balls_between_boards();
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kPlanPictureSize);
-    app::Request asked = test::make_test_request(scene, {}, kPlanPictureSize);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace",
+                                                                  kPlanPictureSize);
+    session::Request asked = test::make_test_request(scene, {}, kPlanPictureSize);
     asked.warmup = 1;
     asked.with_lookup = true;
     const auto rendered = [&](const std::string& technique) {
         asked.techniques = {technique};
-        return std::move(app::run(test::get_test_engine(), asked).parts.front());
+        return std::move(session::run(test::get_test_engine(), asked).parts.front());
     };
     for (const std::vector<std::string>& rows :
          {std::vector<std::string>{"reuse:face=32", "secant:face=64", "pyramid:face=48"},
@@ -136,10 +139,10 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
           {"parallax:shadow_map=256,face=48",
            test::has_float_colour() ? "march:colour=float,face=56" : "march:face=56",
            "pyramid:captures=all,face=64"}}) {
-        const app::TechniqueResult mixed = rendered("1=" + rows[0] + " 2=" + rows[1] +
-                                                    " *=" + rows[2]);
+        const session::TechniqueResult mixed = rendered("1=" + rows[0] + " 2=" + rows[1] +
+                                                        " *=" + rows[2]);
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const app::TechniqueResult uniform = rendered(rows[i]);
+            const session::TechniqueResult uniform = rendered(rows[i]);
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
                 // Compare only pixels in which both ray tracing and rasterisation show the mirror.
@@ -160,11 +163,11 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
 TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
     const scene::Scene scene = scene::load("courtyard");
     const uvec2 size{48, 48};
-    const app::TechniqueResult mixed = test::render_technique(
+    const session::TechniqueResult mixed = test::render_technique(
         scene, "1=parallax:face=32,shadow_map=256 *=parallax:face=16,shadow_map=256", size, 2);
-    const app::TechniqueResult alike = test::render_technique(
+    const session::TechniqueResult alike = test::render_technique(
         scene, "parallax:face=32,shadow_map=256", size, 2);
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=1", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=1", size);
     // Numbers of pixels of no mirror, of mirror 1 and of other mirrors.
     std::array<std::size_t, 3> same{}, other{};
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
@@ -180,9 +183,11 @@ TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
 TEST(Plan, PlanOfOneTechniqueEqualsThatTechnique) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     for (const std::string technique : {"hybrid", "naive:bounces=2", "raytrace:shadow=map"}) {
-        const app::TechniqueResult alone = test::render_technique(scene, technique, {64, 48}, 2),
-                                   plan = test::render_technique(
-                                       scene, "2=" + technique + " *=" + technique, {64, 48}, 2);
+        const session::TechniqueResult alone = test::render_technique(scene, technique, {64, 48},
+                                                                      2),
+                                       plan = test::render_technique(
+                                           scene, "2=" + technique + " *=" + technique, {64, 48},
+                                           2);
         EXPECT_TRUE(test::have_equal_pixel_bytes(alone.hdr, plan.hdr)) << technique;
         EXPECT_EQ(alone.scene_passes, plan.scene_passes) << technique;
         EXPECT_EQ(alone.hits, plan.hits) << technique;
@@ -192,11 +197,11 @@ TEST(Plan, PlanOfOneTechniqueEqualsThatTechnique) {
 TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
     const scene::Scene scene = test::make_mirror_hall();
     const uvec2 size{96, 72};
-    const app::TechniqueResult shown = test::render_technique(scene, "1=secant:face=64 *=raytrace",
-                                                              size, 3),
-                               black = test::render_technique(
-                                   scene, "1=secant:face=64 *=raytrace:capture=none", size, 3),
-                               truth = test::render_technique(scene, "raytrace", size);
+    const session::TechniqueResult shown = test::render_technique(
+                                       scene, "1=secant:face=64 *=raytrace", size, 3),
+                                   black = test::render_technique(
+                                       scene, "1=secant:face=64 *=raytrace:capture=none", size, 3),
+                                   truth = test::render_technique(scene, "raytrace", size);
     EXPECT_EQ(shown.scene_passes, black.scene_passes + 2) << "two captures less";
     std::size_t dark = 0, lit = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
@@ -215,17 +220,17 @@ TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
 TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     const uvec2 size{96, 72};
-    const app::TechniqueResult mixed = test::render_technique(
+    const session::TechniqueResult mixed = test::render_technique(
         scene,
         "1=raytrace:depth=1,shadow=map 2=raytrace:depth=3,shadow=map "
         "*=raytrace:depth=8,shadow=map,samples=4",
         size);
     EXPECT_EQ(mixed.scene_passes, 2); // scene passes: the shadow map and the view
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", size);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace", size);
     for (const auto& [mirror, technique] : {std::pair{1u, "raytrace:depth=1,shadow=map"},
                                             {2u, "raytrace:depth=3,shadow=map"},
                                             {3u, "raytrace:depth=8,shadow=map,samples=4"}}) {
-        const app::TechniqueResult alone = test::render_technique(scene, technique, size);
+        const session::TechniqueResult alone = test::render_technique(scene, technique, size);
         std::size_t pixels = 0, off = 0;
         for (std::size_t i = 0; i < truth.hits.size(); ++i) {
             if (measure::first_mirror_of_hit_word(truth.hits[i]) != MirrorId(mirror)) continue;
@@ -256,9 +261,10 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const scene::Scene scene = make_room_of_many_balls(350);
     const uvec2 size{64, 64};
     const std::vector<std::string> techniques{"parallax:face=4"};
-    const app::TechniqueResult part = test::render_technique(scene, techniques.front(), size, 1);
+    const session::TechniqueResult part = test::render_technique(scene, techniques.front(), size,
+                                                                 1);
     EXPECT_EQ(part.scene_passes, 350 + 2);
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=1", size);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=1", size);
     // Compare with a scene without the first ten mirrors, whose captures fit into one array. In a
     // first frame, captures show mirrors black. The pictures may therefore differ only where the
     // removed mirrors were seen.
@@ -266,7 +272,8 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const std::size_t first = scene::mirrors(scene).front();
     const auto begin = fewer.objects.begin() + static_cast<std::ptrdiff_t>(first);
     fewer.objects.erase(begin, begin + 10);
-    const app::TechniqueResult alone = test::render_technique(fewer, techniques.front(), size, 1);
+    const session::TechniqueResult alone = test::render_technique(fewer, techniques.front(), size,
+                                                                  1);
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror_of_hit_word(truth.hits[i]);
@@ -284,7 +291,7 @@ TEST(Plan, TooManyCaptureEdgesAreEnlargedWithANote) {
     std::string plan;
     for (int i = 1; i <= 10; ++i)
         plan += std::to_string(i) + "=reuse:face=" + std::to_string(8 + i) + " ";
-    const app::TechniqueResult part = test::render_technique(scene, plan, {32, 32});
+    const session::TechniqueResult part = test::render_technique(scene, plan, {32, 32});
     ASSERT_EQ(part.notes.size(), 2u);
     EXPECT_EQ(
         part.notes[0],

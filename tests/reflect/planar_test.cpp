@@ -92,8 +92,8 @@ struct PlanarComparison {
 };
 
 /// Compares the first-order pixels with ray tracing, except those in the mask `left_out`.
-PlanarComparison compare_first_order_pixels(const app::TechniqueResult& planar,
-                                            const app::TechniqueResult& truth,
+PlanarComparison compare_first_order_pixels(const session::TechniqueResult& planar,
+                                            const session::TechniqueResult& truth,
                                             const measure::Mask& left_out) {
     measure::Mask mask = measure::mask_first_order_pixels(truth.hits);
     const double whole = double(measure::count_mask_pixels(mask));
@@ -119,10 +119,11 @@ TEST(Planar, FlatMirrorsEqualRayTracing) {
     for (const scene::Scene& scene :
          {make_scene_with_flat_mirror(), low, make_scene_with_flat_mirror(" parallel"),
           make_scene_with_flat_mirror(" orthogonal"), make_scene_with_flat_mirror(" touched")}) {
-        const app::TechniqueResult truth = test::render_technique(scene, app::kReference, size),
-                                   planar = test::render_technique(scene, "planar", size),
-                                   lit = test::render_technique(
-                                       scene, "raytrace:depth=16,shadow=none", size);
+        const session::TechniqueResult truth = test::render_technique(scene, study::kReference,
+                                                                      size),
+                                       planar = test::render_technique(scene, "planar", size),
+                                       lit = test::render_technique(
+                                           scene, "raytrace:depth=16,shadow=none", size);
         const PlanarComparison whole = compare_first_order_pixels(
             planar, truth, measure::Mask(truth.hits.size(), 0));
         print_planar_comparison(scene.name + ", nothing left out", whole);
@@ -157,8 +158,9 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
     const std::size_t index = scene::mirrors(quad).front();
     const Bounds<double> bounds = scene::bounds(quad, quad.objects[index]);
     const auto rmse_of = [&](const scene::Scene& scene) {
-        const app::TechniqueResult truth = test::render_technique(scene, app::kReference, size),
-                                   planar = test::render_technique(scene, "planar", size);
+        const session::TechniqueResult truth = test::render_technique(scene, study::kReference,
+                                                                      size),
+                                       planar = test::render_technique(scene, "planar", size);
         EXPECT_EQ(planar.plan.front().technique, "planar");
         EXPECT_THAT(planar.notes, testing::IsEmpty());
         return compare_first_order_pixels(planar, truth, measure::Mask(truth.hits.size(), 0)).rmse;
@@ -180,8 +182,8 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
 /// A note must name each mirror that `planar` cannot draw and the technique that draws it instead.
 TEST(Planar, NoteNamesMirrorsDrawnByAnotherTechnique) {
     const scene::Scene hall = test::make_mirror_hall();
-    const app::TechniqueResult part = test::render_technique(hall, "planar",
-                                                             kSmallPlanarPictureSize, 2);
+    const session::TechniqueResult part = test::render_technique(hall, "planar",
+                                                                 kSmallPlanarPictureSize, 2);
     ASSERT_EQ(part.notes.size(), 1u);
     EXPECT_THAT(part.notes[0], testing::MatchesRegex("mirror 1 '.*': not flat, drawn by reuse"));
 }
@@ -199,12 +201,12 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
     scene.cameras = {{.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60}};
     for (const int bounces : {0, 1, 2, 5}) {
         const std::string number = std::to_string(bounces);
-        const app::TechniqueResult planar = test::render_technique(
-                                       scene, "planar:shadow=none,bounces=" + number,
-                                       kSmallPlanarPictureSize),
-                                   truth = test::render_technique(
-                                       scene, "raytrace:shadow=none,depth=" + number,
-                                       kSmallPlanarPictureSize);
+        const session::TechniqueResult planar = test::render_technique(
+                                           scene, "planar:shadow=none,bounces=" + number,
+                                           kSmallPlanarPictureSize),
+                                       truth = test::render_technique(
+                                           scene, "raytrace:shadow=none,depth=" + number,
+                                           kSmallPlanarPictureSize);
         EXPECT_LE(
             share_of_masked_pixels_off(planar.hdr, truth.hdr, measure::mask_all_pixels(truth.hits)),
             .01)
@@ -279,10 +281,11 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
     for (const scene::Camera& camera : {before, behind, parallel}) {
         scene.cameras = {camera};
         const uvec2 size(160, 128);
-        const app::TechniqueResult truth = test::render_without_ambient(scene, "raytrace", size),
-                                   lit = test::render_without_ambient(scene, "raytrace:shadow=none",
-                                                                      size),
-                                   planar = test::render_without_ambient(scene, "planar", size);
+        const session::TechniqueResult truth = test::render_without_ambient(scene, "raytrace",
+                                                                            size),
+                                       lit = test::render_without_ambient(
+                                           scene, "raytrace:shadow=none", size),
+                                       planar = test::render_without_ambient(scene, "planar", size);
         measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
         const measure::Mask shadows = test::mask_shadow_edges(lit.hdr, truth.hdr),
                             outlines = mask_pixels_beside_outlines(scene, truth.hits, size);
@@ -298,10 +301,10 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
 /// same result as in a plan.
 TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     const scene::Scene hall = test::make_mirror_hall();
-    const app::TechniqueResult planar = test::render_technique(hall, "planar:rest=secant",
-                                                               kSmallPlanarPictureSize, 3),
-                               plan = test::render_technique(hall, "1=secant *=planar",
-                                                             kSmallPlanarPictureSize, 3);
+    const session::TechniqueResult planar = test::render_technique(hall, "planar:rest=secant",
+                                                                   kSmallPlanarPictureSize, 3),
+                                   plan = test::render_technique(hall, "1=secant *=planar",
+                                                                 kSmallPlanarPictureSize, 3);
     EXPECT_TRUE(test::have_equal_pixel_bytes(planar.hdr, plan.hdr));
     ASSERT_EQ(planar.plan.size(), 3u);
     EXPECT_EQ(planar.plan[0].technique, "secant");
@@ -311,11 +314,11 @@ TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     EXPECT_EQ(planar.plan[1].technique, "planar") << "a block, whose faces are flat";
     EXPECT_EQ(planar.plan[2].technique, "planar");
     EXPECT_EQ(planar.plan[2].why, "one technique was asked for");
-    const app::TechniqueResult dark = test::render_technique(hall, "planar:shadow=none",
-                                                             kSmallPlanarPictureSize, 3),
-                               all_dark = test::render_technique(
-                                   hall, "1=reuse:shadow=none *=planar:shadow=none",
-                                   kSmallPlanarPictureSize, 3);
+    const session::TechniqueResult dark = test::render_technique(hall, "planar:shadow=none",
+                                                                 kSmallPlanarPictureSize, 3),
+                                   all_dark = test::render_technique(
+                                       hall, "1=reuse:shadow=none *=planar:shadow=none",
+                                       kSmallPlanarPictureSize, 3);
     EXPECT_TRUE(test::have_equal_pixel_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
 }
 
@@ -324,7 +327,7 @@ TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
 TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     constexpr uvec2 size{160, 160};
     const scene::Scene hall = test::make_mirror_hall();
-    const app::TechniqueResult truth = test::render_technique(hall, app::kReference, size);
+    const session::TechniqueResult truth = test::render_technique(hall, study::kReference, size);
     measure::Mask ball = measure::mask_mirror_in_mirror(truth.hits);
     const measure::Mask panel = measure::mask_one_mirror(truth.hits, MirrorId(3));
     for (std::size_t i = 0; i < ball.size(); ++i)
@@ -333,7 +336,8 @@ TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     const double black = test::rmse_of_pictures(
         test::render_technique(hall, "planar:bounces=0", size).hdr, truth.hdr, ball);
     for (const std::string rest : {"secant", "hybrid", "raytrace"}) {
-        app::Request asked = test::make_test_request(hall, {"planar:bounces=4,rest=" + rest}, size);
+        session::Request asked = test::make_test_request(hall, {"planar:bounces=4,rest=" + rest},
+                                                         size);
         asked.with_lookup = false;
         const double off = test::rmse_of_pictures(test::render_last_frame(asked, 5).front().hdr,
                                                   truth.hdr, ball);
@@ -356,10 +360,10 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
     scene.objects.back().world_from_object[3] = dvec4(1.5, .3, 3e-4, 1);
     scene.cameras = {
         {.eye = {1.5, .9, .8}, .target = {1.5, .3, 1e-4}, .vertical_fov_degrees = .08}};
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
-                                                              kSmallPlanarPictureSize),
-                               planar = test::render_technique(scene, "planar:shadow=none",
-                                                               kSmallPlanarPictureSize);
+    const session::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
+                                                                  kSmallPlanarPictureSize),
+                                   planar = test::render_technique(scene, "planar:shadow=none",
+                                                                   kSmallPlanarPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto is_red = [](const vec3& pixel) { return pixel.x > .5f; };
     EXPECT_GT(std::ranges::count_if(truth.hdr.pixels, is_red), 400) << "the grain and its image";
@@ -371,7 +375,7 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
 TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
     const auto rows_of = [](const char* name) {
         const scene::Scene scene = scene::load(name);
-        return app::list_default_techniques(
+        return study::list_default_techniques(
             test::make_test_request(scene, {}, kSmallPlanarPictureSize));
     };
     for (const char* name : {"flat", "room", "gallery"})
@@ -383,18 +387,18 @@ TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
 /// Mirrored views change between frames in flight while the scene stays the same.
 TEST(Planar, FrameUsesTheViewsItWasSubmittedWith) {
     const scene::Scene scene = make_scene_with_flat_mirror(" orthogonal");
-    app::Session session(test::get_test_engine(), scene, 3);
-    app::FrameSpec frame_spec{.techniques = {"planar:bounces=4"},
-                              .camera = scene.cameras.front(),
-                              .size = kSmallPlanarPictureSize,
-                              .timing = app::PassTimingMode::pipelined};
+    session::Session session(test::get_test_engine(), scene, 3);
+    session::FrameSpec frame_spec{.techniques = {"planar:bounces=4"},
+                                  .camera = scene.cameras.front(),
+                                  .size = kSmallPlanarPictureSize,
+                                  .timing = session::PassTimingMode::pipelined};
     const measure::Picture wanted = session.frame(frame_spec).hdr();
     for (int i = 0; i < 3; ++i) {
-        app::FrameSpec other = frame_spec; // a frame with other mirrored views
+        session::FrameSpec other = frame_spec; // a frame with other mirrored views
         other.techniques = {"mirror=reuse:face=16 *=planar:bounces=1"};
         session.frame(other);
         EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(frame_spec).hdr(), wanted)) << i;
-        app::FrameSpec beside = frame_spec;
+        session::FrameSpec beside = frame_spec;
         beside.camera = scene.cameras.at(1);
         session.frame(beside);
         EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(frame_spec).hdr(), wanted)) << i;

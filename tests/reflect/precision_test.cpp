@@ -15,7 +15,7 @@ using namespace catoptric;
 /// whose centre lies on an edge.
 double error_against_double_tracer(const scene::Scene& scene, const std::string& technique,
                                    uvec2 size, int mirrors = 1) {
-    const app::TechniqueResult part = test::render_technique(scene, technique, size);
+    const session::TechniqueResult part = test::render_technique(scene, technique, size);
     const stress::DoublePrecisionTracer tracer(scene, .05);
     double sum = 0;
     std::size_t count = 0;
@@ -50,10 +50,10 @@ TEST(Precision, DoubleHitPointsReduceTheError) {
 TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     for (const std::string knobs : {"", "shadow=map,"}) {
-        const app::TechniqueResult f32 = test::render_technique(
-                                       scene, "raytrace:" + knobs + "hit=f32", {128, 128}),
-                                   f64 = test::render_technique(
-                                       scene, "raytrace:" + knobs + "hit=f64", {128, 128});
+        const session::TechniqueResult f32 = test::render_technique(
+                                           scene, "raytrace:" + knobs + "hit=f32", {128, 128}),
+                                       f64 = test::render_technique(
+                                           scene, "raytrace:" + knobs + "hit=f64", {128, 128});
         EXPECT_FALSE(test::have_equal_pixel_bytes(f32.hdr, f64.hdr));
         std::vector<float> off;
         for (std::size_t i = 0; i < f32.hdr.pixels.size(); ++i)
@@ -70,11 +70,11 @@ TEST(Precision, HalfFloatCapturesSaturateAt65504) {
     scene::Scene room = test::make_lit_room(1, 1);
     for (scene::Material& material : room.materials)
         if (material.emission != vec3(0)) material.emission = vec3(kLampEmission);
-    const app::TechniqueResult truth = test::render_technique(room, "raytrace", {256, 256});
+    const session::TechniqueResult truth = test::render_technique(room, "raytrace", {256, 256});
     for (const std::string technique : {"reuse", "parallax", "pyramid"}) {
         const auto brightest = [&](const std::string& colour) {
             float most = 0;
-            const app::TechniqueResult part = test::render_technique(
+            const session::TechniqueResult part = test::render_technique(
                 room, technique + ":face=256,colour=" + colour, {256, 256});
             for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
                 if (truth.hits[i] != 0) most = std::max(most, part.hdr.pixels[i].x);
@@ -90,9 +90,9 @@ TEST(Precision, HalfFloatCapturesSaturateAt65504) {
 TEST(Precision, SaturatedTexelsAreCounted) {
     scene::Scene room = test::make_lit_room(1, 1);
     const auto counted = [&](const std::string& technique) {
-        app::Request asked = test::make_test_request(room, {technique}, {32, 32});
+        session::Request asked = test::make_test_request(room, {technique}, {32, 32});
         asked.with_lookup = true;
-        return app::run(test::get_test_engine(), asked).parts.front().saturated;
+        return session::run(test::get_test_engine(), asked).parts.front().saturated;
     };
     for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
@@ -127,10 +127,11 @@ TEST(Precision, TextbookSphereTestFailsFarAway) {
     camera.vertical_fov_degrees = .06;
     const double stable = error_against_double_tracer(room, "raytrace:sphere=exact,depth=8",
                                                       {64, 64});
-    const app::TechniqueResult with = test::render_technique(room, "raytrace:sphere=exact",
-                                                             {64, 64}),
-                               without = test::render_technique(
-                                   room, "raytrace:sphere=exact,without=stable_sphere", {64, 64});
+    const session::TechniqueResult with = test::render_technique(room, "raytrace:sphere=exact",
+                                                                 {64, 64}),
+                                   without = test::render_technique(
+                                       room, "raytrace:sphere=exact,without=stable_sphere",
+                                       {64, 64});
     const double changed = test::rmse_of_pictures(with.hdr, without.hdr,
                                                   measure::mask_mirror_pixels(with.hits));
     std::cout << "[ MEASURED ] rmse without the stable sphere: " << changed << "\n";
@@ -151,9 +152,9 @@ TEST(Precision, ShadowRaysWithoutAnEndGapHitTheCeilingAtTheLamp) {
     scene::PunctualLight above{.name = "above", .intensity = vec3(1e-6f)};
     above.world_from_light[3] = dvec4(0, ceiling + 1, 0, 1);
     room.punctual.push_back(above);
-    const app::TechniqueResult with = test::render_technique(room, "raytrace", {96, 96}),
-                               without = test::render_technique(room, "raytrace:without=shadow_end",
-                                                                {96, 96});
+    const session::TechniqueResult with = test::render_technique(room, "raytrace", {96, 96}),
+                                   without = test::render_technique(
+                                       room, "raytrace:without=shadow_end", {96, 96});
     std::size_t darker = 0, brighter = 0;
     for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
         darker += without.hdr.pixels[i].x < with.hdr.pixels[i].x;

@@ -86,18 +86,18 @@ struct TwoMirrorRoom {
 double proxy_sphere_radius(const TwoMirrorRoom& room, std::size_t mirror,
                            const std::string& settings) {
     const scene::Scene scene = room.make_room_scene(mirror);
-    app::Request request = test::make_test_request(
+    session::Request request = test::make_test_request(
         scene, {"proxy:shape=sphere,shadow=none," + settings}, kProxyMeanPictureSize);
     request.with_lookup = true;
-    const app::TechniqueResult part = std::move(
-        app::run(test::get_test_engine(), request).parts.front());
+    const session::TechniqueResult part = std::move(
+        session::run(test::get_test_engine(), request).parts.front());
     const shared::View view = render::make_camera_view(request.camera, {}, kProxyMeanPictureSize,
                                                        0);
     std::vector<double> radii;
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
         if (!(part.lookup[i].w > 0)) continue;
         const dvec3 eye = request.camera.eye, centre = room.centres[mirror],
-                    ray(app::make_camera_ray(view, kProxyMeanPictureSize, i).direction),
+                    ray(session::make_camera_ray(view, kProxyMeanPictureSize, i).direction),
                     offset = eye + ray * ((centre.z - eye.z) / ray.z) - centre,
                     onward(ray.x, ray.y, -ray.z), looked(vec3(part.lookup[i]));
         // The point in which the reflected ray meets the looked-up line lies on the sphere.

@@ -377,10 +377,10 @@ TEST(Refraction, ScreenBlursRoughGlassByTheLevelOfThreeJs) {
         const float root = (ior - 1) / (ior + 1);
         scene.materials[material].dielectric_f0 = vec3(root * root);
         scene::find_mirrors(scene);
-        app::Request asked = test::make_test_request(scene, {"secant:refract=screen,face=16"},
-                                                     {kEdge, kEdge});
+        session::Request asked = test::make_test_request(scene, {"secant:refract=screen,face=16"},
+                                                         {kEdge, kEdge});
         asked.ambient = 0, asked.warmup = 1;
-        return app::run(test::get_test_engine(), asked);
+        return session::run(test::get_test_engine(), asked);
     };
     const auto passing = [&](float ior) {
         const double kept = 1 - std::pow((ior - 1.) / (ior + 1.), 2);
@@ -403,7 +403,7 @@ TEST(Refraction, ScreenBlursRoughGlassByTheLevelOfThreeJs) {
                                                 {.6f, 1.5f, 2.4},
                                                 {.5f, 1.25f, 1.},
                                                 {.2f, 1.5f, .8}}) {
-        const app::RunResult rendered = render(roughness, ior);
+        const session::RunResult rendered = render(roughness, ior);
         const measure::Picture& found = rendered.parts.front().hdr;
         for (std::uint32_t y = 0; y < kEdge; ++y)
             for (std::uint32_t x = 0; x < kEdge; ++x)
@@ -417,22 +417,22 @@ TEST(Refraction, ScreenBlursRoughGlassByTheLevelOfThreeJs) {
 }
 
 /// Returns the names of the passes of a frame.
-std::vector<std::string> list_pass_names(const app::RunResult& run) {
+std::vector<std::string> list_pass_names(const session::RunResult& run) {
     std::vector<std::string> names;
-    for (const app::PassTime& pass : run.frames.back().passes) names.push_back(pass.name);
+    for (const session::PassTime& pass : run.frames.back().passes) names.push_back(pass.name);
     return names;
 }
 
 TEST(Refraction, ScreenAddsPassesOnlyWhereGlassReadsThem) {
     const auto render = [](const scene::Scene& scene, const std::string& technique) {
-        app::Request asked = test::make_test_request(scene, {technique}, {32, 24});
+        session::Request asked = test::make_test_request(scene, {technique}, {32, 24});
         asked.warmup = 1;
-        return app::run(test::get_test_engine(), asked);
+        return session::run(test::get_test_engine(), asked);
     };
     scene::Scene glass = make_body_below_sky(scene::ball("ball", 3), make_tinted_glass(),
                                              {.6, .5, 4.5});
-    const app::RunResult bodies = render(glass, "secant:face=32"),
-                         screen = render(glass, "secant:face=32,refract=screen");
+    const session::RunResult bodies = render(glass, "secant:face=32"),
+                             screen = render(glass, "secant:face=32,refract=screen");
     std::vector<std::string> wanted = list_pass_names(bodies);
     const auto view = std::ranges::find(wanted, "view");
     ASSERT_NE(view, wanted.end());
@@ -450,8 +450,8 @@ TEST(Refraction, ScreenAddsPassesOnlyWhereGlassReadsThem) {
             << technique;
 
     const scene::Scene room = test::make_lit_room(1, 1);
-    const app::RunResult with = render(room, "secant:refract=screen,face=32"),
-                         without = render(room, "secant:face=32");
+    const session::RunResult with = render(room, "secant:refract=screen,face=32"),
+                             without = render(room, "secant:face=32");
     EXPECT_EQ(list_pass_names(with), list_pass_names(without));
     EXPECT_TRUE(test::have_equal_pixel_bytes(with.parts.front().hdr, without.parts.front().hdr));
     EXPECT_EQ(with.parts.front().memory_bytes, without.parts.front().memory_bytes);
@@ -487,7 +487,7 @@ TEST(Refraction, ScreenWorksInPlans) {
 }
 
 /// Returns the FLIP between a row and ray tracing, over the pixels of one mirror of the scene.
-double flip_on_mirror(const app::TechniqueResult& found, const app::TechniqueResult& traced,
+double flip_on_mirror(const session::TechniqueResult& found, const session::TechniqueResult& traced,
                       std::size_t mirror) {
     measure::Mask shown(traced.hits.size(), 0);
     for (std::size_t i = 0; i < shown.size(); ++i)
@@ -501,12 +501,12 @@ double flip_on_mirror(const app::TechniqueResult& found, const app::TechniqueRes
 TEST(Refraction, BackFacesShowLensAndBottleBetterThanAnyBody) {
     const scene::Scene scene = scene::load("glass");
     const uvec2 size{128, 96};
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
     const auto render = [&](const std::string& model) {
         return test::render_technique(scene, "secant:face=64,refract=" + model, size, 2);
     };
-    const app::TechniqueResult backs = render("backface"), bodies = render("auto"),
-                               unbent = render("thin");
+    const session::TechniqueResult backs = render("backface"), bodies = render("auto"),
+                                   unbent = render("thin");
     for (std::size_t mirror = 0; mirror < 4; ++mirror) {
         const double found = flip_on_mirror(backs, traced, mirror),
                      least = std::min(flip_on_mirror(bodies, traced, mirror),
@@ -520,10 +520,10 @@ TEST(Refraction, BackFacesShowLensAndBottleBetterThanAnyBody) {
 /// In a scene without glass, no pass draws back faces.
 TEST(Refraction, BackFacesCostNothingWithoutGlass) {
     const scene::Scene room = test::make_lit_room(1, 1);
-    const app::TechniqueResult with = test::render_technique(
-                                   room, "secant:refract=backface,face=32", {32, 32}, 2),
-                               without = test::render_technique(room, "secant:face=32", {32, 32},
-                                                                2);
+    const session::TechniqueResult with = test::render_technique(
+                                       room, "secant:refract=backface,face=32", {32, 32}, 2),
+                                   without = test::render_technique(room, "secant:face=32",
+                                                                    {32, 32}, 2);
     EXPECT_TRUE(test::have_equal_pixel_bytes(with.hdr, without.hdr));
     EXPECT_EQ(with.memory_bytes, without.memory_bytes);
 }
@@ -561,9 +561,9 @@ TEST(Refraction, ThinGlassShowsWhatIsBehindIt) {
         test::add_quad(scene, "wall", wall, {-9, -9, -3}, {9, -9, -3}, {9, 9, -3}, {-9, 9, -3});
         scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
         scene::find_mirrors(scene);
-        app::Request asked = test::make_test_request(scene, {"secant:refract=thin"}, {1, 1});
+        session::Request asked = test::make_test_request(scene, {"secant:refract=thin"}, {1, 1});
         asked.ambient = 0, asked.warmup = 1;
-        const vec3 seen = app::run(test::get_test_engine(), asked).parts.front().hdr.at(0, 0);
+        const vec3 seen = session::run(test::get_test_engine(), asked).parts.front().hdr.at(0, 0);
         const dvec3 once = .96 * dvec3(glass.albedo),
                     all = solid ? once * once : (1 - 2 * .04 / 1.04) * dvec3(glass.albedo);
         for (int channel = 0; channel < 3; ++channel)
@@ -594,7 +594,7 @@ TEST(Refraction, TracerTakesGlassOver) {
 TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
     const scene::Scene scene = scene::load("glass");
     const uvec2 size{96, 72};
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
     const auto error = [&](const char* technique) {
         const measure::Picture found = test::render_technique(scene, technique, size, 4).hdr;
         double sum = 0;
@@ -639,13 +639,14 @@ TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
     for (const scene::Scene& scene : {room, scene::load("glass")})
         for (const char* technique : {"secant:refract=box,face=64", "hybrid:refract=thin,face=32",
                                       "secant:refract=screen,face=64"}) {
-            app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
+            session::Request asked = test::make_test_request(scene, {technique}, {64, 48});
             asked.warmup = 3;
-            asked.model = app::RenderedWork::everything;
-            const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
-            asked.model = app::RenderedWork::required;
+            asked.model = session::RenderedWork::everything;
+            const measure::Picture all =
+                session::run(test::get_test_engine(), asked).parts.front().hdr;
+            asked.model = session::RenderedWork::required;
             const measure::Picture required =
-                app::run(test::get_test_engine(), asked).parts.front().hdr;
+                session::run(test::get_test_engine(), asked).parts.front().hdr;
             EXPECT_TRUE(test::have_equal_pixel_bytes(all, required))
                 << scene.name << ", " << technique;
         }
@@ -677,7 +678,7 @@ TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
     plaster.materials.back() = {.name = "plaster", .albedo = vec3(.9f)};
     scene::find_mirrors(plaster);
     const uvec2 size{96, 96};
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
     const measure::Mask shown = measure::mask_mirror_in_mirror(traced.hits);
     EXPECT_GT(measure::count_mask_pixels(shown), 200u);
     const auto error = [&](const scene::Scene& of, const std::string& technique) {

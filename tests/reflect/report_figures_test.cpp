@@ -31,24 +31,24 @@ scene::Scene make_hall_with_visible_lamp() {
     return scene;
 }
 
-app::CompareRequest make_report_request(const std::vector<std::string>& rows) {
-    app::CompareRequest request;
+study::CompareRequest make_report_request(const std::vector<std::string>& rows) {
+    study::CompareRequest request;
     request.base = test::make_test_request(make_hall_with_visible_lamp(), rows, kReportPictureSize);
     request.base.frames = kReportFrameCount, request.base.warmup = kReportWarmupFrames;
     request.base.exposure = kExposureStops;
     return request;
 }
 
-json compare_and_read_report(const app::CompareRequest& request) {
-    return json::parse(report::to_json(app::compare(test::get_test_engine(), request)));
+json compare_and_read_report(const study::CompareRequest& request) {
+    return json::parse(report::to_json(study::compare(test::get_test_engine(), request)));
 }
 
-app::TechniqueResult render_report_row(const std::string& technique) {
-    app::Request request = test::make_test_request(make_hall_with_visible_lamp(), {technique},
-                                                   kReportPictureSize);
+session::TechniqueResult render_report_row(const std::string& technique) {
+    session::Request request = test::make_test_request(make_hall_with_visible_lamp(), {technique},
+                                                       kReportPictureSize);
     request.frames = kReportFrameCount, request.warmup = kReportWarmupFrames;
     request.exposure = kExposureStops;
-    return std::move(app::run(test::get_test_engine(), request).parts.front());
+    return std::move(session::run(test::get_test_engine(), request).parts.front());
 }
 
 /// Returns whether a figure includes a pixel, given the first and second mirror that its ray meets;
@@ -56,17 +56,17 @@ app::TechniqueResult render_report_row(const std::string& technique) {
 using Chosen = std::function<bool(unsigned, unsigned)>;
 
 /// Returns the FLIP map of two pictures as they are displayed, without rounding to eight bits.
-std::vector<float> flip_map_of_results(const app::TechniqueResult& a, const app::TechniqueResult& b,
-                                       double stops) {
+std::vector<float> flip_map_of_results(const session::TechniqueResult& a,
+                                       const session::TechniqueResult& b, double stops) {
     return measure::flip(measure::to_unrounded_display(a.hdr, stops),
                          measure::to_unrounded_display(b.hdr, stops));
 }
 
 /// Checks the error figures against their definitions: linear colours times the exposure, clamped
 /// to [0,1], over the chosen pixels and all channels.
-void expect_error_figures(const json& found, const app::TechniqueResult& part,
-                          const app::TechniqueResult& truth, const std::vector<std::uint32_t>& hits,
-                          const Chosen& chosen) {
+void expect_error_figures(const json& found, const session::TechniqueResult& part,
+                          const session::TechniqueResult& truth,
+                          const std::vector<std::uint32_t>& hits, const Chosen& chosen) {
     const std::vector<float> map = flip_map_of_results(part, truth, kExposureStops);
     const double gain = std::exp2(kExposureStops);
     double squares = 0, sum = 0, flip = 0;
@@ -121,8 +121,8 @@ TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     const std::vector<std::string> rows{"parallax:face=32", "raytrace:depth=1",
                                         "raytrace:depth=1,samples=4"};
     const json document = compare_and_read_report(make_report_request(rows));
-    const app::TechniqueResult truth = render_report_row(app::kReference);
-    const app::TechniqueResult finer = render_report_row("raytrace:depth=16,samples=4");
+    const session::TechniqueResult truth = render_report_row(study::kReference);
+    const session::TechniqueResult finer = render_report_row("raytrace:depth=16,samples=4");
     // The first of four rays in a pixel hits nearly always the same mirror as the ray through its
     // centre.
     std::size_t others = 0;
@@ -147,9 +147,9 @@ TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         SCOPED_TRACE(rows[i]);
         const json& row = document["rows"][i];
-        const app::TechniqueResult part = render_report_row(rows[i]);
+        const session::TechniqueResult part = render_report_row(rows[i]);
         // The reference uses the row's own number of samples.
-        const app::TechniqueResult& wanted = i == 2 ? finer : truth;
+        const session::TechniqueResult& wanted = i == 2 ? finer : truth;
         for (const auto& [name, chosen] : masks) {
             SCOPED_TRACE(name);
             expect_error_figures(row[name], part, wanted, truth.hits, chosen);
@@ -180,7 +180,7 @@ TEST(ReportFigures, RowIsComparedAtItsOwnSampleCount) {
         EXPECT_EQ(document["rows"][i]["error_all"]["max"], 0) << rows[i];
         EXPECT_EQ(document["rows"][i]["is_reference"], true) << rows[i];
     }
-    const app::TechniqueResult truth = render_report_row(app::kReference);
+    const session::TechniqueResult truth = render_report_row(study::kReference);
     expect_error_figures(document["rows"][3]["error"], render_report_row(rows[3]), truth,
                          truth.hits, [](unsigned first, unsigned) { return first != 0; });
 }
@@ -269,11 +269,11 @@ TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
 
 /// The report states how far a picture of pixel centres is from the mean over the pixels.
 TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
-    app::CompareRequest request = make_report_request({"parallax:face=32"});
+    study::CompareRequest request = make_report_request({"parallax:face=32"});
     const json document = compare_and_read_report(request);
     const measure::Picture centre =
         test::render_technique(request.base.scene, "raytrace:depth=16", kReportPictureSize).hdr;
-    const app::TechniqueResult area = test::render_technique(
+    const session::TechniqueResult area = test::render_technique(
         request.base.scene, "raytrace:depth=16,samples=16", kReportPictureSize);
     const std::vector<float> map = measure::flip(
         measure::to_unrounded_display(centre, request.base.exposure),
@@ -297,7 +297,7 @@ TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
 /// The host's work for a moving scene must be reported in the parts of the frame to which the work
 /// belongs.
 TEST(ReportFigures, MovingSceneNeedsHostWork) {
-    app::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
+    study::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
     const json still = compare_and_read_report(request);
     request.base.scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     request.base.camera = request.base.scene.cameras.front();
@@ -320,7 +320,7 @@ TEST(ReportFigures, MovingSceneNeedsHostWork) {
 
 /// With fewer frames than rounds, each frame is a round. Five rounds give no confidence interval.
 TEST(ReportFigures, FewFramesAreOneRoundEach) {
-    app::CompareRequest request = make_report_request({"reuse:face=32"});
+    study::CompareRequest request = make_report_request({"reuse:face=32"});
     request.base.frames = 5;
     const json document = compare_and_read_report(request);
     EXPECT_EQ(document["rounds"], 5);
@@ -338,7 +338,7 @@ TEST(ReportFigures, FewFramesAreOneRoundEach) {
 TEST(ReportFigures, RowContinuesFromRoundToRound) {
     const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
                                         "naive:face=16", "reuse:face=16"};
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base = test::make_test_request(scene::make_cornell_mirrors(), rows, kReportPictureSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
@@ -347,27 +347,27 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     request.on_finished_row = [&](const report::Comparison& so_far) {
         pictured.push_back(so_far.rows.back().pictured);
     };
-    const report::Comparison compared = app::compare(test::get_test_engine(), request);
+    const report::Comparison compared = study::compare(test::get_test_engine(), request);
     EXPECT_EQ(pictured, (std::vector<int>{5, 5, 5, 5, 5, 5, 5, 5, 5, 11}))
         << "told after each row of the first round, then after each round";
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        app::Request alone = request.base;
+        session::Request alone = request.base;
         alone.techniques = {rows[i]};
-        const app::TechniqueResult part = std::move(
-            app::run(test::get_test_engine(), alone).parts.front());
+        const session::TechniqueResult part = std::move(
+            session::run(test::get_test_engine(), alone).parts.front());
         EXPECT_TRUE(test::have_equal_pixel_bytes(compared.rows[i].hdr, part.hdr)) << rows[i];
         alone.techniques = {"raytrace:depth=16"};
         alone.time = alone.instant(alone.total()), alone.animate = false;
         alone.frames = 1, alone.warmup = 0;
-        const app::TechniqueResult truth = std::move(
-            app::run(test::get_test_engine(), alone).parts.front());
+        const session::TechniqueResult truth = std::move(
+            session::run(test::get_test_engine(), alone).parts.front());
         const std::vector<float> map = flip_map_of_results(part, truth, request.base.exposure);
         EXPECT_EQ(compared.rows[i].flip_map, map) << rows[i];
     }
 }
 
 TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
-    app::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
+    study::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
     request.together = true;
     const json document = compare_and_read_report(request);
     for (int k = 0; k < kReportFrameCount; ++k) {
@@ -387,7 +387,7 @@ TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
 /// a graphics card, the first round is measured again at the end. The repeated round must not
 /// change pictures, errors and calls of `on_finished_row`.
 TEST(Rounds, FirstRoundIsMeasuredAgainOnRequest) {
-    app::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
+    study::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
     request.base.animate = true;
     std::vector<std::string> again;
     std::size_t calls = 0, measurements = 0;
@@ -406,7 +406,7 @@ TEST(Rounds, FirstRoundIsMeasuredAgainOnRequest) {
         for (const bool repeats : {false, true}) {
             request.repeats_first_round = repeats;
             calls = measurements = 0, again.clear();
-            found[repeats] = app::compare(test::get_test_engine(), request);
+            found[repeats] = study::compare(test::get_test_engine(), request);
             called[repeats] = calls;
             const std::vector<std::string> wanted =
                 !repeats   ? std::vector<std::string>{}
@@ -430,7 +430,7 @@ TEST(Rounds, FirstRoundIsMeasuredAgainOnRequest) {
 /// If a signal stops the run during the repeated first round, rows keep the times of the earlier
 /// rounds.
 TEST(Rounds, StopInTheRepeatedRoundKeepsAllRows) {
-    app::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
+    study::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
     std::atomic<int> signal = 0;
     request.watcher.stop = &signal;
     request.repeats_first_round = true;
@@ -442,7 +442,7 @@ TEST(Rounds, StopInTheRepeatedRoundKeepsAllRows) {
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t) {
         if (label == "raytrace:depth=1, first round again") signal = 2;
     };
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_TRUE(found.stopped);
     ASSERT_EQ(found.rows.size(), 2u);
     for (std::size_t row = 0; row < 2; ++row)
@@ -450,14 +450,14 @@ TEST(Rounds, StopInTheRepeatedRoundKeepsAllRows) {
 }
 
 TEST(Rounds, OrderOfRowsAlternates) {
-    app::CompareRequest request = make_report_request(
+    study::CompareRequest request = make_report_request(
         {"reuse:face=16,shadow_map=16", "raytrace:depth=1"});
     std::vector<std::string> measured;
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t) {
         if (label.find(", round ") != std::string::npos)
             measured.push_back(label.substr(0, label.find(':')));
     };
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_EQ(measured.size(), 2 * kFramesOfRounds.size());
     for (std::size_t i = 0; i < measured.size(); ++i)
         EXPECT_EQ(measured[i], i % 4 == 0 || i % 4 == 3 ? "reuse" : "raytrace") << i;

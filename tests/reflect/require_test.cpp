@@ -48,8 +48,8 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         const scene::Scene scene = make_hall_of_seed(seed);
         require::RequiredWorkModelBuilder requirements(scene);
-        app::Session session(test::get_test_engine(), scene);
-        app::FrameSpec frame_spec{
+        session::Session session(test::get_test_engine(), scene);
+        session::FrameSpec frame_spec{
             .techniques = {"parallax:face=" + std::to_string(kRequireFaceTexels) +
                            ",shadow_map=" + std::to_string(kRequireShadowMapEdge)},
             .camera = scene.cameras[0],
@@ -59,8 +59,9 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
             const scene::Scene now = scene::scene_at_time(scene, seconds);
             const require::RequiredWorkModel model = requirements.make_work_model_for_request(
                 {now, frame_spec.camera, frame_spec.size, kRequireShadowMapEdge});
-            return std::pair(model.mirrors[0], app::Access::read_captures(app::Access::render_frame(
-                                                   session, frame_spec, {.with_captures = true})));
+            return std::pair(model.mirrors[0],
+                             session::Access::read_captures(session::Access::render_frame(
+                                 session, frame_spec, {.with_captures = true})));
         };
         const auto [needs, captured] = at(.2);
         const auto [needs_later, captured_later] = at(.5);
@@ -89,7 +90,7 @@ TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
     std::size_t looked = 0, left_out = 0;
     for (const scene::Scene& scene :
          {scene::make_flat_mirror_room(), scene::make_furnished_room(), scene::make_gallery()}) {
-        app::Session session(test::get_test_engine(), scene);
+        session::Session session(test::get_test_engine(), scene);
         for (const scene::Camera& camera : scene.cameras) {
             if (&camera != &scene.cameras.front() && scene.name == "gallery")
                 continue; // skip the other cameras, because the gallery takes long
@@ -102,7 +103,7 @@ TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
             for (const char* technique :
                  {"parallax:face=32", "secant:face=32", "pyramid:face=32"}) {
                 SCOPED_TRACE(scene.name + " " + camera.name + " " + technique);
-                app::FrameSpec frame_spec{
+                session::FrameSpec frame_spec{
                     .techniques = {technique}, .camera = camera, .size = {64, 48}};
                 frame_spec.with_lookup = true;
                 for (const vec4& lookup : session.frame(frame_spec).read().lookup) {

@@ -22,9 +22,9 @@ constexpr uvec2 kRequiredPictureSize{40, 32};
 /// Largest number of bounces that can change a byte of a picture in the random halls.
 constexpr int kMaxVisibleBounces = 8;
 
-Names list_pass_names(const app::FrameTimes& times) {
+Names list_pass_names(const session::FrameTimes& times) {
     Names names;
-    for (const app::PassTime& pass : times.passes) names.push_back(pass.name);
+    for (const session::PassTime& pass : times.passes) names.push_back(pass.name);
     return names;
 }
 
@@ -55,15 +55,15 @@ public:
     /// passes of the session that renders what is required.
     Names render_next_frame() {
         const auto [wanted, found] = render_next_frames();
-        model_ = app::Access::rendered_model(found);
+        model_ = session::Access::rendered_model(found);
         EXPECT_TRUE(have_same_pictures(wanted, found)) << "frame " << number_;
         if (!frame_spec.keeps_history) {
-            EXPECT_EQ(app::Access::does_frame_part_need_previous_frame(found),
-                      app::Access::does_frame_part_need_previous_frame(wanted));
+            EXPECT_EQ(session::Access::does_frame_part_need_previous_frame(found),
+                      session::Access::does_frame_part_need_previous_frame(wanted));
             // If not all faces are needed, some hold nothing, so the states differ.
-            const bool is_whole = does_model_need_all_faces(app::Access::rendered_model(found));
-            EXPECT_TRUE(!is_whole || app::Access::read_next_frame_state(found) ==
-                                         app::Access::read_next_frame_state(wanted))
+            const bool is_whole = does_model_need_all_faces(session::Access::rendered_model(found));
+            EXPECT_TRUE(!is_whole || session::Access::read_next_frame_state(found) ==
+                                         session::Access::read_next_frame_state(wanted))
                 << "frame " << number_;
         }
         return list_pass_names(found.times());
@@ -88,38 +88,39 @@ public:
         return most;
     }
     void edit_both_scenes(const scene::Edit& edit) {
-        for (app::Session* session : {&all_, &few_}) session->change(edit);
+        for (session::Session* session : {&all_, &few_}) session->change(edit);
     }
-    void apply_to_both_sessions(const std::function<void(app::Session&)>& act) {
+    void apply_to_both_sessions(const std::function<void(session::Session&)>& act) {
         act(all_);
         act(few_);
     }
     const scene::Scene& edited_scene() const { return all_.scene(); }
-    app::SessionCounters counters_of_required_session() const {
-        return app::Access::session_counters(few_);
+    session::SessionCounters counters_of_required_session() const {
+        return session::Access::session_counters(few_);
     }
     const require::RequiredWorkModel& last_required_model() const {
         return model_;
     } ///< model of the last frame
 
-    app::FrameSpec frame_spec;
+    session::FrameSpec frame_spec;
 
 private:
-    std::pair<app::Frame, app::Frame> render_next_frames() {
+    std::pair<session::Frame, session::Frame> render_next_frames() {
         ++number_;
-        app::FrameSpec required = frame_spec;
-        required.model = app::RenderedWork::required;
-        app::Frame wanted = all_.frame(frame_spec); // renders everything, before the other session
+        session::FrameSpec required = frame_spec;
+        required.model = session::RenderedWork::required;
+        session::Frame wanted = all_.frame(
+            frame_spec); // renders everything, before the other session
         return {std::move(wanted), few_.frame(required)};
     }
-    static bool have_same_pictures(const app::Frame& wanted, const app::Frame& found) {
+    static bool have_same_pictures(const session::Frame& wanted, const session::Frame& found) {
         bool same = true;
         for (std::size_t part = 0; part < wanted.size(); ++part)
             same = same && test::have_equal_pixel_bytes(found.hdr(part), wanted.hdr(part));
         return same;
     }
 
-    app::Session all_, few_;
+    session::Session all_, few_;
     require::RequiredWorkModel model_;
     int number_ = 0;
 };
@@ -339,7 +340,7 @@ TEST(RequiredFrames, PicturesAreRightAfterRandomEvents) {
 TEST(RequiredFrames, CapturesAreDrawnAgainAfterACut) {
     RequiredAndFullSessions pair(test::make_lit_room(3, 1), {"reuse:face=16"});
     pair.render_until_captures_settle();
-    pair.apply_to_both_sessions([](app::Session& session) { session.forget(); });
+    pair.apply_to_both_sessions([](session::Session& session) { session.forget(); });
     EXPECT_TRUE(do_passes_draw_captures(pair.render_next_frame()));
     const std::vector<std::string> before = std::exchange(pair.frame_spec.techniques,
                                                           {"secant:face=16"});
@@ -359,29 +360,31 @@ TEST(RequiredFrames, CapturesAreDrawnAgainAtAnotherResolution) {
 TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
     RequiredAndFullSessions pair(test::make_lit_room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.render_next_frame();
-    std::vector<app::FrameSequence> aside;
-    pair.apply_to_both_sessions(
-        [&](app::Session& session) { aside.push_back(app::Access::suspend_sequence(session)); });
+    std::vector<session::FrameSequence> aside;
+    pair.apply_to_both_sessions([&](session::Session& session) {
+        aside.push_back(session::Access::suspend_sequence(session));
+    });
     for (int k = 0; k < 2; ++k)
         pair.render_next_frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
-    pair.apply_to_both_sessions([&](app::Session& session) {
-        app::Access::resume_frame_sequence(session, std::move(aside[i++]));
+    pair.apply_to_both_sessions([&](session::Session& session) {
+        session::Access::resume_frame_sequence(session, std::move(aside[i++]));
     });
     pair.render_until_captures_settle();
     aside.clear(), i = 0;
-    pair.apply_to_both_sessions(
-        [&](app::Session& session) { aside.push_back(app::Access::suspend_sequence(session)); });
+    pair.apply_to_both_sessions([&](session::Session& session) {
+        aside.push_back(session::Access::suspend_sequence(session));
+    });
     pair.render_next_frame();
-    pair.apply_to_both_sessions([&](app::Session& session) {
-        app::Access::resume_frame_sequence(session, std::move(aside[i++]));
+    pair.apply_to_both_sessions([&](session::Session& session) {
+        session::Access::resume_frame_sequence(session, std::move(aside[i++]));
     });
     EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
 }
 
 TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
     RequiredAndFullSessions pair(test::make_lit_room(3, 1), {"parallax:face=16"});
-    const app::FrameSpec still = pair.frame_spec;
+    const session::FrameSpec still = pair.frame_spec;
     const auto aside = [&](const char* technique, double ambient) {
         pair.frame_spec.keeps_history = true;
         pair.frame_spec.techniques = {technique};
@@ -404,12 +407,12 @@ TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
 /// With frames in flight, results of comparisons arrive late, and no frame waits for them.
 TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    app::Session all(test::get_test_engine(), scene, 3), few(test::get_test_engine(), scene, 3);
-    app::FrameSpec spec = test::make_test_request(scene, {"parallax:face=16"},
-                                                  kRequiredPictureSize);
-    app::FrameSpec required = spec;
-    required.model = app::RenderedWork::required;
-    std::optional<app::Frame> wanted, found;
+    session::Session all(test::get_test_engine(), scene, 3), few(test::get_test_engine(), scene, 3);
+    session::FrameSpec spec = test::make_test_request(scene, {"parallax:face=16"},
+                                                      kRequiredPictureSize);
+    session::FrameSpec required = spec;
+    required.model = session::RenderedWork::required;
+    std::optional<session::Frame> wanted, found;
     for (int k = 0; k < 48; ++k) wanted = all.frame(spec), found = few.frame(required);
     EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
     EXPECT_EQ(list_pass_names(found->times()), kSettledPassNames);
@@ -429,16 +432,17 @@ TEST(RequiredFrames, MemoryStaysConstantOverTime) {
 
 TEST(RequiredFrames, FramesReportTheirModel) {
     const scene::Scene scene = test::make_lit_room(1, 1);
-    app::Session session(test::get_test_engine(), scene);
-    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=16"}, kRequiredPictureSize);
-    EXPECT_EQ(session.frame(spec).read().model, app::RenderedWork::everything);
-    spec.model = app::RenderedWork::required;
-    const app::Frame frame = session.frame(spec);
-    EXPECT_EQ(frame.read().model, app::RenderedWork::required);
-    EXPECT_FALSE(app::Access::rendered_model(frame).is_everything);
-    EXPECT_EQ(app::Access::rendered_model(frame).mirrors.size(), 1u);
-    const std::string plan = app::Access::format_frame_plan(session, spec,
-                                                            app::GraphPlanFormat::text);
+    session::Session session(test::get_test_engine(), scene);
+    session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=16"},
+                                                      kRequiredPictureSize);
+    EXPECT_EQ(session.frame(spec).read().model, session::RenderedWork::everything);
+    spec.model = session::RenderedWork::required;
+    const session::Frame frame = session.frame(spec);
+    EXPECT_EQ(frame.read().model, session::RenderedWork::required);
+    EXPECT_FALSE(session::Access::rendered_model(frame).is_everything);
+    EXPECT_EQ(session::Access::rendered_model(frame).mirrors.size(), 1u);
+    const std::string plan = session::Access::format_frame_plan(session, spec,
+                                                                session::GraphPlanFormat::text);
     EXPECT_EQ(plan.find("capture/1"), std::string::npos) << plan;
 }
 

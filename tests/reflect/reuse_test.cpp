@@ -15,16 +15,16 @@ constexpr uvec2 kReusePictureSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Request request = test::make_test_request(scene, {"reuse:face=128"}, {256, 256});
+    session::Request request = test::make_test_request(scene, {"reuse:face=128"}, {256, 256});
     request.frames = 8;
-    std::vector<app::TechniqueResult> reused;
-    app::Session session(test::get_test_engine(), scene);
-    for (app::FrameLoop frames(session, request); frames.render_next();)
+    std::vector<session::TechniqueResult> reused;
+    session::Session session(test::get_test_engine(), scene);
+    for (session::FrameLoop frames(session, request); frames.render_next();)
         reused.push_back(frames.current_frame().read());
     ASSERT_EQ(reused.size(), 8u);
     for (std::size_t k = 1; k <= reused.size(); ++k) {
-        const app::TechniqueResult& reuse = reused[k - 1];
-        const app::TechniqueResult naive = test::render_technique(
+        const session::TechniqueResult& reuse = reused[k - 1];
+        const session::TechniqueResult naive = test::render_technique(
             scene, "naive:face=128,bounces=" + std::to_string(k), request.size);
         EXPECT_TRUE(test::have_equal_pixel_bytes(reuse.hdr, naive.hdr)) << "frame " << k;
         EXPECT_TRUE(test::have_equal_pixel_bytes(reuse.display, naive.display)) << "frame " << k;

@@ -30,7 +30,7 @@ public:
         measure::PictureMean means[2];
         for (int i = 0; i < 2 * kFramesPerHalf; ++i)
             means[i % 2].add_picture(
-                render(std::string(app::kRoughReference) + ",seed=" + std::to_string(i + 1), 0)
+                render(std::string(study::kRoughReference) + ",seed=" + std::to_string(i + 1), 0)
                     .hdr);
         halves_ = measure::make_noisy_reference_halves(means[0].mean(), means[1].mean(), exposure);
         measure::PictureMean both;
@@ -41,10 +41,10 @@ public:
 
     /// Returns the causes of a row's error. Expects that they add up.
     report::Causes split(const std::string& technique) {
-        app::Request request = base_;
+        session::Request request = base_;
         request.techniques = {technique};
         const report::Causes found =
-            app::ErrorCauseFinder(session_, request, truth_, hits_, {}, &halves_).find(technique);
+            study::ErrorCauseFinder(session_, request, truth_, hits_, {}, &halves_).find(technique);
         std::cout << "[ MEASURED ] " << technique << ": " << found.squared_error;
         double sum = 0;
         for (const report::ErrorCauseShare& cause : found.list) {
@@ -68,20 +68,20 @@ public:
 
 private:
     static constexpr int kWarmup = 16; ///< frames before a picture in which mirrors show mirrors
-    static app::Request make_base(const scene::Scene& scene, uvec2 size, double exposure) {
-        app::Request base = test::make_test_request(scene, {}, size);
+    static session::Request make_base(const scene::Scene& scene, uvec2 size, double exposure) {
+        session::Request base = test::make_test_request(scene, {}, size);
         base.warmup = kWarmup;
         base.exposure = exposure;
         return base;
     }
-    app::TechniqueResult render(const std::string& technique, int warmup = kWarmup) {
-        app::Request request = base_;
+    session::TechniqueResult render(const std::string& technique, int warmup = kWarmup) {
+        session::Request request = base_;
         request.techniques = {technique}, request.warmup = warmup;
-        return std::move(app::run(session_, request).parts.front());
+        return std::move(session::run(session_, request).parts.front());
     }
 
-    app::Request base_;
-    app::Session session_;
+    session::Request base_;
+    session::Session session_;
     measure::NoisyReferenceHalves halves_;
     measure::Picture truth_;
     std::vector<std::uint32_t> hits_;
@@ -226,18 +226,18 @@ TEST(RoughCauses, SplitIsAFunctionOfTheSeed) {
 }
 
 TEST(RoughCauses, CoatedRoughMirrorsAndOtherReferencesAreRefused) {
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base = test::make_test_request(make_rough_room(.3f), {"reuse:face=16"}, {8, 8});
     request.studies = {{.name = "causes"}};
-    request.reference = app::kReference;
-    test::expect_error([&] { app::compare(test::get_test_engine(), request); }, Failure::usage,
+    request.reference = study::kReference;
+    test::expect_error([&] { study::compare(test::get_test_engine(), request); }, Failure::usage,
                        {"--causes: wanted the default reference of this scene, "
                         "raytrace:depth=16,rays=64, found 'raytrace:depth=16'"});
     request.reference.clear();
     for (scene::Material& material : request.base.scene.materials)
         if (material.metallic == 1) material.clearcoat = .5f;
     test::expect_error(
-        [&] { app::compare(test::get_test_engine(), request); }, Failure::usage,
+        [&] { study::compare(test::get_test_engine(), request); }, Failure::usage,
         {"--causes: wanted rough mirrors without glass or clear coat, found mirror"});
 }
 

@@ -254,11 +254,11 @@ TEST(RoughLookups, SearchesThatTheDriverStopsAreMarked) {
 TEST(RoughLookups, FlatRoughMirrorsAreDrawnByAnotherTechniqueIfAskedFor) {
     scene::Scene scene = scene::load("flat");
     test::make_mirrors_rough(scene, .3f);
-    const app::TechniqueResult planar = test::render_technique(
+    const session::TechniqueResult planar = test::render_technique(
         scene, "planar:rough=rest,rest=secant", {32, 32}, 2);
     ASSERT_EQ(planar.plan.size(), 1u);
     EXPECT_EQ(planar.plan.front().why, "planar draws flat mirrors, and this is rough: rest=secant");
-    const app::TechniqueResult chosen = test::render_technique(scene, "auto", {32, 32}, 2);
+    const session::TechniqueResult chosen = test::render_technique(scene, "auto", {32, 32}, 2);
     ASSERT_EQ(chosen.plan.size(), 1u);
     EXPECT_NE(chosen.plan.front().technique, "planar");
     EXPECT_NE(chosen.plan.front().why.find("rough, "), std::string::npos);

@@ -56,9 +56,9 @@ dvec3 expected_floor_radiance(const scene::Scene& scene, double roughness, int x
 
 measure::Picture trace_rough_rays_with_seed(const scene::Scene& scene, const std::string& technique,
                                             std::uint64_t seed) {
-    app::Request asked = test::make_test_request(scene, {technique}, kRoughPictureSize);
+    session::Request asked = test::make_test_request(scene, {technique}, kRoughPictureSize);
     asked.seed = seed;
-    return app::run(test::get_test_engine(), asked).parts.front().hdr;
+    return session::run(test::get_test_engine(), asked).parts.front().hdr;
 }
 
 /// Pixels differ from the integral by more than their own error bars only as often as chance

@@ -101,9 +101,9 @@ dvec3 expected_highlight_radiance(const scene::Scene& scene, const FloorMaterial
 
 measure::Picture render_scene_without_ambient(const scene::Scene& scene,
                                               const std::string& technique) {
-    app::Request asked = test::make_test_request(scene, {technique}, kFloorPictureSize);
+    session::Request asked = test::make_test_request(scene, {technique}, kFloorPictureSize);
     asked.ambient = 0;
-    return app::run(test::get_test_engine(), asked).parts.front().hdr;
+    return session::run(test::get_test_engine(), asked).parts.front().hdr;
 }
 
 /// Tests a point light on plastic and metal of each roughness, rasterised and ray traced, on

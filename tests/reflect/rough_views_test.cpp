@@ -192,7 +192,7 @@ TEST(RoughViews, BlurIsNearToRayTracing) {
     for (const auto& [first, second] :
          {std::pair{.1f, .1f}, {.3f, .3f}, {.6f, .6f}, {.02f, .3f}, {.3f, .02f}}) {
         const scene::Scene scene = make_glowing_hall(first, second);
-        const app::TechniqueResult truth = test::render_technique(
+        const session::TechniqueResult truth = test::render_technique(
             scene, "raytrace:rays=256,depth=3", kRoughViewSize);
         const measure::Mask all = measure::mask_mirror_pixels(truth.hits),
                             inner = measure::mask_mirror_in_mirror(truth.hits);
@@ -220,10 +220,11 @@ TEST(RoughViews, BlurIsNearToRayTracing) {
 /// mirrors say. With `rough=rest`, a rough mirror is drawn by the technique of `rest`.
 TEST(RoughViews, PerfectMirrorsDoNotDependOnTheKnobsOfRoughMirrors) {
     const scene::Scene flat = scene::load("flat");
-    const app::TechniqueResult plain = test::render_technique(flat, "planar:rough=none",
-                                                              kRoughViewSize);
+    const session::TechniqueResult plain = test::render_technique(flat, "planar:rough=none",
+                                                                  kRoughViewSize);
     for (const char* technique : {"planar", "planar:rough=mips", "planar:law=none,taps=64"}) {
-        const app::TechniqueResult found = test::render_technique(flat, technique, kRoughViewSize);
+        const session::TechniqueResult found = test::render_technique(flat, technique,
+                                                                      kRoughViewSize);
         EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr, plain.hdr)) << technique;
         EXPECT_EQ(found.memory_bytes, plain.memory_bytes) << technique;
     }

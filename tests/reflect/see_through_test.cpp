@@ -75,7 +75,7 @@ scene::Scene make_cards_before_mirror(CardKind kind, bool has_balls, int count, 
 /// Returns the share of mirror pixels that are off by more than .1.
 double share_off(const scene::Scene& scene, const char* technique) {
     const uvec2 size{96, 96};
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
     const measure::Picture found = test::render_technique(scene, technique, size, 2).hdr;
     int off = 0, mirrors = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
@@ -166,7 +166,7 @@ TEST(SeeThrough, WhatLiesInGlassIsSeenInEveryCapture) {
     const uvec2 size{64, 64};
     for (const scene::Material& inner : {metal, water, red}) {
         const scene::Scene scene = make_ball_in_glass(inner);
-        const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
+        const session::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
         for (const char* technique : {"naive", "reuse", "parallax", "secant", "march", "pyramid",
                                       "layered", "hybrid", "planar:rest=reuse"}) {
             const measure::Picture found = test::render_technique(scene, technique, size, 6).hdr;
@@ -200,8 +200,8 @@ TEST(SeeThrough, WhatLiesInGlassIsSeenInEveryCapture) {
 TEST(SeeThrough, CaptureFollowsWhatMovesInGlass) {
     const scene::Material red{.name = "red", .albedo = vec3(0), .emission = {.8f, .1f, .1f}};
     const scene::Scene scene = make_ball_in_glass(red);
-    const app::Request still = test::make_test_request(scene, {"secant"}, {48, 48});
-    app::Session session(test::get_test_engine(), scene);
+    const session::Request still = test::make_test_request(scene, {"secant"}, {48, 48});
+    session::Session session(test::get_test_engine(), scene);
     measure::Picture before = session.frame(still).hdr();
     for (const double x : {.2, .45, 3., 0.}) {
         dmat4 place = scene.objects[1].world_from_object;
@@ -209,7 +209,7 @@ TEST(SeeThrough, CaptureFollowsWhatMovesInGlass) {
         session.change(scene::move(1, place));
         const measure::Picture found = session.frame(still).hdr();
         EXPECT_FALSE(test::have_equal_pixel_bytes(found, before)) << x;
-        app::Session fresh(test::get_test_engine(), session.scene());
+        session::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(still).hdr())) << x;
         before = found;
     }

@@ -39,7 +39,7 @@ scene::Scene make_floor_and_mirror(bool sees_floor) {
     return scene;
 }
 
-app::TechniqueResult trace_shared(const scene::Scene& scene, const std::string& technique) {
+session::TechniqueResult trace_shared(const scene::Scene& scene, const std::string& technique) {
     return test::render_technique(scene, technique, kSharedPictureSize);
 }
 
@@ -47,8 +47,8 @@ app::TechniqueResult trace_shared(const scene::Scene& scene, const std::string& 
 /// Expects that each number of paths adds as many rays as the paths have.
 std::uint64_t count_shared_mirror_rays(const scene::Scene& scene, const std::string& depth) {
     const auto count = [&](const char* rays) {
-        const app::TechniqueResult traced = trace_shared(scene, "raytrace:depth=" + depth +
-                                                                    ",rays=" + rays);
+        const session::TechniqueResult traced = trace_shared(scene, "raytrace:depth=" + depth +
+                                                                        ",rays=" + rays);
         EXPECT_EQ(traced.rays->primary, kSharedPixelCount) << rays;
         EXPECT_EQ(traced.rays->shadow, 0u) << rays;
         return traced.rays->mirror;
@@ -71,8 +71,8 @@ TEST(SharedRays, SharpMirrorBeforeARoughSurfaceReflectsOneRay) {
 TEST(SharedRays, SceneWithoutRoughSurfacesIsTracedOnce) {
     for (const char* name : {"cornell-mirrors", "glass"}) {
         const scene::Scene scene = scene::load(name);
-        const app::TechniqueResult sharp = trace_shared(scene, "raytrace"),
-                                   many = trace_shared(scene, "raytrace:rays=16");
+        const session::TechniqueResult sharp = trace_shared(scene, "raytrace"),
+                                       many = trace_shared(scene, "raytrace:rays=16");
         EXPECT_EQ(many.rays->primary, sharp.rays->primary) << name;
         EXPECT_EQ(many.rays->mirror, sharp.rays->mirror) << name;
         EXPECT_EQ(many.rays->shadow, sharp.rays->shadow) << name;
@@ -84,11 +84,11 @@ TEST(SharedRays, SceneWithoutRoughSurfacesIsTracedOnce) {
 /// their bytes.
 TEST(SharedRays, PixelsWithoutRoughSurfacesTakeOneRay) {
     scene::Scene scene = scene::load("cornell-mirrors");
-    const app::TechniqueResult sharp = trace_shared(scene, "raytrace:depth=4");
+    const session::TechniqueResult sharp = trace_shared(scene, "raytrace:depth=4");
     const std::size_t rough = test::add_material(
         scene, {.name = "rough", .albedo = vec3(.9f), .metallic = 1, .roughness = .4f});
     test::add_ball(scene, "hidden", rough, {0, 1e4, 0}, .1);
-    const app::TechniqueResult many = trace_shared(scene, "raytrace:depth=4,rays=16");
+    const session::TechniqueResult many = trace_shared(scene, "raytrace:depth=4,rays=16");
     EXPECT_EQ(many.rays->primary, sharp.rays->primary);
     EXPECT_EQ(many.rays->mirror, sharp.rays->mirror);
     EXPECT_EQ(many.rays->shadow, sharp.rays->shadow);
@@ -103,8 +103,8 @@ TEST(SharedRays, EachSampleOfAPixelHasACameraRay) {
 /// Expects that paths that share their start make the picture that whole paths make.
 void expect_picture_of_whole_paths(const scene::Scene& scene, const std::string& knobs) {
     const std::string technique = "raytrace:lamps=met," + knobs;
-    const app::TechniqueResult shared = trace_shared(scene, technique),
-                               whole = trace_shared(scene, technique + ",hit=f64");
+    const session::TechniqueResult shared = trace_shared(scene, technique),
+                                   whole = trace_shared(scene, technique + ",hit=f64");
     EXPECT_LT(shared.rays->primary, whole.rays->primary) << knobs;
     // Edges may move by the rounding of single precision.
     std::size_t apart = 0;

@@ -156,7 +156,8 @@ TEST(SoftShadow, MirrorsShowSoftShadows) {
                                soft = test::render_without_ambient(scene, row + ",soft=pcss", size)
                                           .hdr;
         scene.light_samples = 64;
-        const app::TechniqueResult truth = test::render_without_ambient(scene, "raytrace", size);
+        const session::TechniqueResult truth = test::render_without_ambient(scene, "raytrace",
+                                                                            size);
         const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
         const double of_hard = test::rmse_of_pictures(hard, truth.hdr, mirrors),
                      of_soft = test::rmse_of_pictures(soft, truth.hdr, mirrors);

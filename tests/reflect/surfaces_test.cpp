@@ -255,7 +255,8 @@ TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
         const vec3 c = each.colour;
         const vec3 f0 = glm::mix(each.f0, c, each.metallic);
         for (const char* technique : {"raytrace", "reuse:face=64", "hybrid:face=64"}) {
-            const app::TechniqueResult part = test::render_technique(scene, technique, {32, 32}, 3);
+            const session::TechniqueResult part = test::render_technique(scene, technique, {32, 32},
+                                                                         3);
             double off = 0;
             int seen = 0;
             for (int y = 0; y < 32; ++y)
@@ -444,10 +445,10 @@ TEST(Worlds, RasterisationEqualsRayTracingOnAllMaterials) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const scene::Scene scene = make_room_of_random_materials(seed);
         const uvec2 size{96, 96};
-        const app::TechniqueResult raster = test::render_technique(
-                                       scene, "hybrid:face=64,shadow_map=1024", size, 3),
-                                   rays = test::render_technique(
-                                       scene, "raytrace:shadow=map,shadow_map=1024", size);
+        const session::TechniqueResult raster = test::render_technique(
+                                           scene, "hybrid:face=64,shadow_map=1024", size, 3),
+                                       rays = test::render_technique(
+                                           scene, "raytrace:shadow=map,shadow_map=1024", size);
         int off = 0, judged = 0;
         const auto hit = [&](int x, int y) { return rays.hits[std::size_t(y) * size.x + x]; };
         for (int y = 1; y < 95; ++y)

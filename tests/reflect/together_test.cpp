@@ -11,21 +11,21 @@ using namespace catoptric;
 
 TEST(Together, PicturesEqualThoseOfSeparateRuns) {
     std::vector<std::string> techniques;
-    for (const app::TechniqueInfo& technique : app::techniques())
+    for (const session::TechniqueInfo& technique : session::techniques())
         techniques.push_back(
             test::technique_with_knobs(technique, {{"face", "64"}, {"shadow_map", "256"}}));
     techniques.push_back("naive:bounces=1,face=32"); // `naive` a second time, with other settings
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), techniques,
-                                                   {96, 80});
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), techniques,
+                                                       {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;
-    const app::RunResult together = app::run(test::get_test_engine(), request);
+    const session::RunResult together = session::run(test::get_test_engine(), request);
     ASSERT_EQ(together.parts.size(), techniques.size());
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         request.techniques = {techniques[i]};
-        const app::TechniqueResult alone = std::move(
-            app::run(test::get_test_engine(), request).parts.front());
-        const app::TechniqueResult& part = together.parts[i];
+        const session::TechniqueResult alone = std::move(
+            session::run(test::get_test_engine(), request).parts.front());
+        const session::TechniqueResult& part = together.parts[i];
         EXPECT_TRUE(test::have_equal_pixel_bytes(part.hdr, alone.hdr)) << techniques[i];
         EXPECT_TRUE(test::have_equal_pixel_bytes(part.display, alone.display)) << techniques[i];
         EXPECT_EQ(part.hits, alone.hits) << techniques[i];
@@ -38,13 +38,13 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
 }
 
 TEST(Together, AllPassesLieOnOneTimeline) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                   {"reuse:face=64", "raytrace"}, {64, 64});
-    const app::RunResult result = app::run(test::get_test_engine(), request);
+    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                       {"reuse:face=64", "raytrace"}, {64, 64});
+    const session::RunResult result = session::run(test::get_test_engine(), request);
     ASSERT_EQ(result.frames.size(), 1u);
     std::set<std::string> names;
     double time = 0;
-    for (const app::PassTime& pass : result.frames.front().passes) {
+    for (const session::PassTime& pass : result.frames.front().passes) {
         EXPECT_TRUE(names.insert(pass.name).second) << pass.name;
         EXPECT_GE(pass.begin_ms, time) << pass.name;
         time = pass.end_ms;
@@ -61,9 +61,9 @@ TEST(Together, AllPassesLieOnOneTimeline) {
 TEST(Together, TheSameTechniqueTwiceIsRefused) {
     test::expect_error(
         [] {
-            app::run(test::get_test_engine(),
-                     test::make_test_request(test::make_lit_room(1, 1), {"reuse", "reuse:face=256"},
-                                             {16, 16}));
+            session::run(test::get_test_engine(),
+                         test::make_test_request(test::make_lit_room(1, 1),
+                                                 {"reuse", "reuse:face=256"}, {16, 16}));
         },
         Failure::usage, {"'reuse:face=256'", "asked for twice"});
 }

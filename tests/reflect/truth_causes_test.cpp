@@ -22,12 +22,12 @@ using CauseNumbers = std::map<std::string, double>;
 
 measure::Comparison compare_with_truth_causes(scene::Scene scene, int edge) {
     scene::find_mirrors(scene);
-    app::CompareRequest request;
+    study::CompareRequest request;
     request.base = test::make_test_request(scene, {"naive:face=16"}, {edge, edge});
     request.base.ambient = 0;
     request.reference_seconds = 0;
     request.studies = {{.name = "truth-causes"}};
-    return app::compare(test::get_test_engine(), request);
+    return study::compare(test::get_test_engine(), request);
 }
 
 std::vector<std::pair<std::string, CauseNumbers>>

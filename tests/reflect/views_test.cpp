@@ -13,8 +13,8 @@ namespace {
 
 using namespace catoptric;
 
-app::CompareRequest make_views_request(const std::vector<std::string>& rows) {
-    app::CompareRequest request;
+study::CompareRequest make_views_request(const std::vector<std::string>& rows) {
+    study::CompareRequest request;
     request.base = test::make_test_request(test::make_lit_room(2, 1), rows, {32, 32});
     request.studies = {{"views", 6}};
     return request;
@@ -23,7 +23,7 @@ app::CompareRequest make_views_request(const std::vector<std::string>& rows) {
 /// As in a single view, a row that equals the reference at its own sample count must have no error
 /// in any view.
 TEST(ComparedViews, RowIsComparedAtItsOwnSampleCount) {
-    const report::Comparison found = app::compare(
+    const report::Comparison found = study::compare(
         test::get_test_engine(), make_views_request({"raytrace:depth=16,samples=4",
                                                      "raytrace:depth=16", "raytrace:depth=0"}));
     ASSERT_EQ(found.rows.size(), 3u);
@@ -45,7 +45,7 @@ TEST(ComparedViews, RowIsComparedAtItsOwnSampleCount) {
 }
 
 TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
-    app::CompareRequest request = make_views_request({"naive:bounces=0", "reuse:face=32"});
+    study::CompareRequest request = make_views_request({"naive:bounces=0", "reuse:face=32"});
     std::atomic<int> signal{0};
     request.watcher.stop = &signal;
     std::vector<std::string> labels;
@@ -60,7 +60,7 @@ TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
         EXPECT_FALSE(so_far.complete);
         known.push_back(so_far.rows.front().views.size());
     };
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     EXPECT_THAT(labels,
                 testing::IsSupersetOf({"view 1 of 6: reference", "view 2 of 6: naive:bounces=0",
                                        "view 3 of 6: reuse:face=32"}));
@@ -82,12 +82,12 @@ TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
 /// that looked within one texel of a lamp's outline. Rows report this error with and without
 /// `--causes`, and also for plans whose cube maps have different edge lengths.
 TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
-    app::CompareRequest request = make_views_request(
+    study::CompareRequest request = make_views_request(
         {"secant:face=16", "secant:face=auto", "naive:bounces=0",
          "1=secant:face=64 2=secant:face=16", "secant:face=64"});
     request.base.size = {96, 96};
     request.studies.clear();
-    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    const report::Comparison found = study::compare(test::get_test_engine(), request);
     ASSERT_EQ(found.rows.size(), 5u);
     for (const report::Row& row : found.rows) {
         EXPECT_EQ(row.light_edges == nullptr, row.lookup == nullptr) << row.label;

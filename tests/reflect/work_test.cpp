@@ -23,12 +23,12 @@ constexpr std::uint64_t kWorkPixelCount = std::uint64_t{kWorkPictureSize.x} * kW
 
 std::vector<PassWorkCounts>
 count_work_of_frame(const scene::Scene& scene, const std::string& technique,
-                    app::RenderedWork model = app::RenderedWork::everything) {
-    app::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
+                    session::RenderedWork model = session::RenderedWork::everything) {
+    session::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
     asked.model = model;
     asked.warmup = technique.starts_with("raytrace") ? 0 : 1; // captures show mirrors from frame 2
-    app::Session session(test::get_test_engine(), scene);
-    return app::count_frame_work(session, asked);
+    session::Session session(test::get_test_engine(), scene);
+    return session::count_frame_work(session, asked);
 }
 
 std::uint64_t total_work_of_kind(const std::vector<PassWorkCounts>& passes, CountedWorkKind kind) {
@@ -37,16 +37,16 @@ std::uint64_t total_work_of_kind(const std::vector<PassWorkCounts>& passes, Coun
 
 /// Returns the work of all camera rays, by the traversal on the CPU.
 bvh::BvhTraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
-    const app::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
+    const session::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
     const render::SceneUnitTransform units = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(scene, units);
-    const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
+    const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
     const shared::View view = render::make_camera_view(asked.camera, units, kWorkPictureSize, 0,
                                                        render::compute_geometry_bounds(geometry));
     bvh::BvhTraversalCounters sum;
     for (std::size_t pixel = 0; pixel < kWorkPixelCount; ++pixel) {
         bvh::BvhTraversalCounters one;
-        bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, kWorkPictureSize, pixel),
+        bvh::find_closest_hit<float>(tree, session::make_camera_ray(view, kWorkPictureSize, pixel),
                                      std::numeric_limits<float>::max(),
                                      bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, &one);
         sum.nodes += one.nodes, sum.triangles += one.triangles;
@@ -83,8 +83,8 @@ TEST(Work, RaysAreThoseOfTheTracersOwnCounters) {
     for (const char* technique : {"raytrace:depth=4", "raytrace:depth=4,first=raster", "hybrid"}) {
         const auto work = count_work_of_frame(scene, technique);
         const int frames = std::string(technique).starts_with("raytrace") ? 1 : 2;
-        const app::TechniqueResult drawn = test::render_technique(scene, technique,
-                                                                  kWorkPictureSize, frames);
+        const session::TechniqueResult drawn = test::render_technique(scene, technique,
+                                                                      kWorkPictureSize, frames);
         ASSERT_TRUE(drawn.rays) << technique;
         EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::camera_rays), drawn.rays->primary)
             << technique;
@@ -150,8 +150,8 @@ TEST(Work, CountsRepeatToTheLastDigit) {
     const scene::Scene scene = test::make_random_hall(5, 4);
     for (const char* technique : {"parallax", "pyramid", "layered", "hybrid", "raytrace:depth=4",
                                   "raytrace:depth=4,first=raster"})
-        EXPECT_EQ(count_work_of_frame(scene, technique, app::RenderedWork::required),
-                  count_work_of_frame(scene, technique, app::RenderedWork::required))
+        EXPECT_EQ(count_work_of_frame(scene, technique, session::RenderedWork::required),
+                  count_work_of_frame(scene, technique, session::RenderedWork::required))
             << technique;
 }
 
@@ -159,27 +159,30 @@ TEST(Work, CountingChangesNoPixel) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     for (const char* technique : {"parallax", "pyramid", "layered", "hybrid", "raytrace:depth=4",
                                   "raytrace:depth=4,first=raster"}) {
-        const app::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
-        app::Session session(test::get_test_engine(), scene);
+        const session::Request asked = test::make_test_request(scene, {technique},
+                                                               kWorkPictureSize);
+        session::Session session(test::get_test_engine(), scene);
         const measure::Picture plain = session.frame(asked).hdr();
         session.forget();
-        const app::Frame counted = app::Access::render_frame(session, asked, {.counts_work = true});
-        EXPECT_FALSE(app::Access::pass_work(counted).empty());
+        const session::Frame counted = session::Access::render_frame(session, asked,
+                                                                     {.counts_work = true});
+        EXPECT_FALSE(session::Access::pass_work(counted).empty());
         EXPECT_EQ(counted.hdr().pixels, plain.pixels) << technique;
     }
 }
 
 TEST(Work, FrameThatDoesNotCountHasNoWork) {
     const scene::Scene scene = scene::load("flat");
-    app::Session session(test::get_test_engine(), scene);
-    const app::Frame frame = session.frame(
+    session::Session session(test::get_test_engine(), scene);
+    const session::Frame frame = session.frame(
         test::make_test_request(scene, {"parallax"}, kWorkPictureSize));
-    EXPECT_TRUE(app::Access::pass_work(frame).empty());
+    EXPECT_TRUE(session::Access::pass_work(frame).empty());
 }
 
 TEST(Work, LookupsFollowFromTheMasks) {
     const scene::Scene scene = scene::load("flat"); // mirrors do not overlap in its view
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", kWorkPictureSize);
+    const session::TechniqueResult traced = test::render_technique(scene, "raytrace",
+                                                                   kWorkPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);
     const auto mirror_pixels = static_cast<double>(
         std::ranges::count_if(mask, [](auto in) { return in != 0; }));
@@ -209,8 +212,8 @@ TEST(Work, LookupsFollowFromTheMasks) {
 TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     const auto work = count_work_of_frame(scene, "naive:bounces=1");
-    app::Session session(test::get_test_engine(), scene);
-    const app::Frame frame = session.frame(
+    session::Session session(test::get_test_engine(), scene);
+    const session::Frame frame = session.frame(
         test::make_test_request(scene, {"naive:bounces=1"}, kWorkPictureSize));
     ASSERT_EQ(work.size(), frame.times().passes.size());
     for (std::size_t i = 0; i < work.size(); ++i) {

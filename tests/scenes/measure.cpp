@@ -30,22 +30,23 @@ constexpr uvec2 kJudgedPictureSize{128, 128};
 constexpr float kOffPixelThreshold = .02f;
 constexpr int kMinJudgedPixels = 32; // size of the smallest object judged on its own
 
-app::Request make_camera_request(app::ResolvedScene& wanted, std::size_t camera) {
-    app::Request request;
+session::Request make_camera_request(session::ResolvedScene& wanted, std::size_t camera) {
+    session::Request request;
     request.size = kJudgedPictureSize;
-    request.camera = camera < wanted.scene.cameras.size() ? wanted.scene.cameras[camera]
-                                                          : app::choose_or_add_camera(wanted, 1);
-    request.ambient = app::choose_ambient_light(wanted);
-    const std::optional<double> exposure = app::find_exposure(wanted);
+    request.camera = camera < wanted.scene.cameras.size()
+                         ? wanted.scene.cameras[camera]
+                         : session::choose_or_add_camera(wanted, 1);
+    request.ambient = session::choose_ambient_light(wanted);
+    const std::optional<double> exposure = session::find_exposure(wanted);
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
     request.scene = wanted.scene;
     return request;
 }
 
-measure::Picture render_picture(app::Session& session, const app::Request& request,
+measure::Picture render_picture(session::Session& session, const session::Request& request,
                                 const std::string& technique) {
-    app::FrameSpec spec = request;
+    session::FrameSpec spec = request;
     spec.techniques = {technique};
     return measure::apply_exposure(session.frame(spec).hdr(), request.exposure);
 }
@@ -105,7 +106,7 @@ PixelLeftOutReason find_left_out_reason(const SurfacesSeenByCamera& looked,
 /// Compares raster and ray tracing. Returns how many pixels show a surface, how many are left out
 /// and why, and how many of the rest are off. `judged`, if given, becomes a picture: left-out
 /// pixels grey, pixels that are off red, others black.
-json measure_raster_agreement(const app::Request& request, const SurfacesSeenByCamera& looked,
+json measure_raster_agreement(const session::Request& request, const SurfacesSeenByCamera& looked,
                               const scenes::SceneSurfaceCaster& sight,
                               const measure::Picture& raster, const measure::Picture& rays,
                               bool leaves_sharp, measure::Picture* judged) {
@@ -214,7 +215,7 @@ std::optional<float> variation_over_normals(const measure::Picture& picture,
 
 /// Returns two figures for each object: the share of pixels that its texture changes, and how far
 /// luminance varies over its normals.
-json measure_object_surfaces(const app::Request& request, const SurfacesSeenByCamera& looked,
+json measure_object_surfaces(const session::Request& request, const SurfacesSeenByCamera& looked,
                              const measure::Picture& rays, const measure::Picture& plain_rays) {
     json textures = json::array(), lit = json::array();
     for (const auto& [number, pixels] : list_pixels_of_objects(looked)) {
@@ -257,12 +258,12 @@ void write_picture(const measure::Picture& picture, const std::string& folder, c
 constexpr const char* kRasterTechnique = "naive:bounces=0";
 constexpr const char* kRayTracingTechnique = "raytrace";
 
-json measure_view_of_camera(app::Engine& engine, const std::string& name, std::size_t camera,
+json measure_view_of_camera(session::Engine& engine, const std::string& name, std::size_t camera,
                             const std::string& folder) {
-    app::ResolvedScene wanted = app::load_resolved_scene(name, {});
-    app::Request request = make_camera_request(wanted, camera);
-    app::Session session(engine, request.scene);
-    app::resolve_auto_exposure(session, request);
+    session::ResolvedScene wanted = session::load_resolved_scene(name, {});
+    session::Request request = make_camera_request(wanted, camera);
+    session::Session session(engine, request.scene);
+    session::resolve_auto_exposure(session, request);
     const measure::Picture raster = render_picture(session, request, kRasterTechnique),
                            rays = render_picture(session, request, kRayTracingTechnique);
     const scenes::SceneSurfaceCaster sight(request);
@@ -274,17 +275,17 @@ json measure_view_of_camera(app::Engine& engine, const std::string& name, std::s
     write_picture(raster, folder, "raster", camera), write_picture(rays, folder, "rays", camera);
     write_picture(judged, folder, "judged", camera);
 
-    app::Request flat = request;
+    session::Request flat = request;
     flat.scene = remove_vertex_colours(replace_textures_by_mean(request.scene));
-    app::Session flat_session(engine, flat.scene);
+    session::Session flat_session(engine, flat.scene);
     line.update(measure_object_surfaces(request, looked, rays,
                                         render_picture(flat_session, flat, kRayTracingTechnique)));
 
-    app::ResolvedScene smooth = app::load_resolved_scene(
+    session::ResolvedScene smooth = session::load_resolved_scene(
         name, {.overrides = {.dielectric_mirrors = true}});
-    app::Request with = make_camera_request(smooth, camera);
+    session::Request with = make_camera_request(smooth, camera);
     with.exposure = request.exposure;
-    app::Session with_session(engine, with.scene);
+    session::Session with_session(engine, with.scene);
     const scenes::SceneSurfaceCaster with_sight(with);
     line["agreement_dielectric_mirrors"] = measure_raster_agreement(
         with, {with.size, with_sight.find_surfaces_seen_by_camera()}, with_sight,
@@ -297,10 +298,10 @@ json measure_view_of_camera(app::Engine& engine, const std::string& name, std::s
 
 int main(int argc, char** argv) try {
     if (argc < 2) fail(Failure::usage, "catoptric_scenes SCENE [DIR]");
-    app::Engine engine({.cache = app::find_cache_folder()});
+    session::Engine engine({.cache = session::find_cache_folder()});
     const std::string folder = argc > 2 ? argv[2] : "";
     const std::size_t cameras = std::max<std::size_t>(
-        1, app::load_resolved_scene(argv[1], {}).scene.cameras.size());
+        1, session::load_resolved_scene(argv[1], {}).scene.cameras.size());
     for (std::size_t i = 0; i < cameras; ++i)
         std::puts(measure_view_of_camera(engine, argv[1], i, folder).dump().c_str());
     return 0;

@@ -58,7 +58,7 @@ vec4 sample_texture_filtered(const scene::Texture& texture, const vec4& uv) {
 
 } // namespace
 
-SceneSurfaceCaster::SceneSurfaceCaster(const app::Request& request)
+SceneSurfaceCaster::SceneSurfaceCaster(const session::Request& request)
     : current_scene_(scene::scene_at_time(request.scene, request.time)),
       space_(render::make_scene_units(request.scene)),
       geometry_(render::make_frame_geometry(current_scene_, space_)),
@@ -183,7 +183,7 @@ std::vector<SeenSurface> SceneSurfaceCaster::find_surfaces_seen_by_camera() cons
     const uvec2 fine = size_ * kRaysAlongPixelEdge;
     std::vector<SeenSurface> seen;
     for (std::size_t i = 0; i < std::size_t{fine.x} * fine.y; ++i)
-        seen.push_back(find_surface_seen_by_ray(app::make_camera_ray(view_, fine, i)));
+        seen.push_back(find_surface_seen_by_ray(session::make_camera_ray(view_, fine, i)));
     return seen;
 }
 

@@ -32,7 +32,7 @@ struct SeenSurface {
 class SceneSurfaceCaster {
 public:
     /// Prepares the scene at the request's time. Builds a BVH over all triangles.
-    explicit SceneSurfaceCaster(const app::Request& request);
+    explicit SceneSurfaceCaster(const session::Request& request);
 
     /// Returns what kRaysAlongPixelEdge x kRaysAlongPixelEdge rays per pixel meet, row by row. A
     /// ray takes about two microseconds, more with lights.

@@ -34,7 +34,7 @@ namespace detail {
 struct AllTestDevices {
     std::map<bool, std::unique_ptr<TestDevice>>
         benches; ///< devices, by the argument of get_test_device()
-    std::map<bool, std::unique_ptr<app::Engine>>
+    std::map<bool, std::unique_ptr<session::Engine>>
         engines; ///< engines, by the argument of get_test_engine()
 };
 inline AllTestDevices devices;
@@ -90,10 +90,10 @@ inline std::filesystem::path find_shader_cache_of_tests() {
 
 /// Returns the engine of the test program and creates it at first use. Without `layered`, the
 /// engine draws captures face by face.
-inline app::Engine& get_test_engine(bool layered = true) {
+inline session::Engine& get_test_engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
-        made.reset(new app::Engine(app::Access::make_engine(
+        made.reset(new session::Engine(session::Access::make_engine(
             {.device = read_wanted_device_name(), .validate = true},
             {.layered = layered, .shader_cache = find_shader_cache_of_tests()})));
     return *made;

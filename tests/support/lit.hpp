@@ -74,21 +74,22 @@ inline double share_of_off_pixels(const measure::Picture& a, const measure::Pict
 }
 
 /// Renders frames from the scene's first camera without ambient light and returns the last.
-inline app::TechniqueResult render_without_ambient(const scene::Scene& scene,
-                                                   const std::string& technique, uvec2 size,
-                                                   int frames = 1) {
-    app::Request asked = make_test_request(scene, {technique}, size);
+inline session::TechniqueResult render_without_ambient(const scene::Scene& scene,
+                                                       const std::string& technique, uvec2 size,
+                                                       int frames = 1) {
+    session::Request asked = make_test_request(scene, {technique}, size);
     asked.ambient = 0;
     asked.warmup = frames - 1;
-    return std::move(app::run(get_test_engine(), asked).parts.front());
+    return std::move(session::run(get_test_engine(), asked).parts.front());
 }
 
 /// Returns the share of pixels off between the rasterised and the ray-traced picture, without
 /// pixels at shadow edges.
 inline double share_off_in_raster_picture(const scene::Scene& scene, uvec2 size) {
-    const app::TechniqueResult traced = render_without_ambient(scene, "raytrace", size),
-                               lit = render_without_ambient(scene, "raytrace:shadow=none", size),
-                               raster = render_without_ambient(scene, "naive:bounces=0", size);
+    const session::TechniqueResult traced = render_without_ambient(scene, "raytrace", size),
+                                   lit = render_without_ambient(scene, "raytrace:shadow=none",
+                                                                size),
+                                   raster = render_without_ambient(scene, "naive:bounces=0", size);
     return share_of_off_pixels(raster.hdr, traced.hdr, mask_shadow_edges(lit.hdr, traced.hdr));
 }
 

@@ -10,13 +10,13 @@
 /// light is 0, the size is 512x512, and balls are meshes.
 namespace test {
 
-inline app::TechniqueResult trace_cornell_mirrors(int depth, int samples) {
-    app::Request asked = make_test_request(
+inline session::TechniqueResult trace_cornell_mirrors(int depth, int samples) {
+    session::Request asked = make_test_request(
         scene::make_cornell_mirrors(),
         {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
         {512, 512});
     asked.ambient = 0;
-    return std::move(app::run(get_test_engine(), asked).parts.front());
+    return std::move(session::run(get_test_engine(), asked).parts.front());
 }
 
 /// Expects that `found` differs from `wanted` by at most `share` times `wanted`, and prints both

@@ -81,7 +81,7 @@ inline int count_mirrors_met_by_ray(const vec3& colour) {
 /// colour)` is true. Hit and colour are those of the ray-traced picture.
 template <typename Counts>
 PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
-                                          const app::TechniqueResult& truth, Counts&& counts) {
+                                          const session::TechniqueResult& truth, Counts&& counts) {
     PixelComparison result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
@@ -92,7 +92,7 @@ PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
     return result;
 }
 inline PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
-                                                 const app::TechniqueResult& truth) {
+                                                 const session::TechniqueResult& truth) {
     return compare_pixels_of_mirrors(picture, truth,
                                      [](std::uint32_t, const vec3&) { return true; });
 }

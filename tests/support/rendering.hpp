@@ -14,20 +14,20 @@
 #include <utility>
 #include <vector>
 
-namespace catoptric::app {
+namespace catoptric::session {
 
 /// Prints a technique as a parameter of a test.
 inline void PrintTo(const TechniqueInfo& technique, std::ostream* out) { *out << technique.name; }
 
-} // namespace catoptric::app
+} // namespace catoptric::session
 
 /// Functions that render a picture in one call, and that compare two pictures.
 namespace test {
 
 /// Returns a request for one measured frame without warm-up, seen by the scene's first camera.
-inline app::Request make_test_request(const scene::Scene& scene,
-                                      const std::vector<std::string>& techniques, uvec2 size) {
-    app::Request asked;
+inline session::Request make_test_request(const scene::Scene& scene,
+                                          const std::vector<std::string>& techniques, uvec2 size) {
+    session::Request asked;
     asked.scene = scene;
     asked.techniques = techniques;
     asked.camera = scene.cameras.empty() ? scene::make_default_camera(scene)
@@ -48,23 +48,24 @@ inline dvec3 camera_direction_of_pixel(const scene::Camera& camera, int x, int y
                           tangent * (2 * (y + .5) / edge - 1) * down);
 }
 
-inline app::TechniqueResult render_technique(const scene::Scene& scene,
-                                             const std::string& technique, uvec2 size,
-                                             int frames = 1) {
-    app::Request asked = make_test_request(scene, {technique}, size);
+inline session::TechniqueResult render_technique(const scene::Scene& scene,
+                                                 const std::string& technique, uvec2 size,
+                                                 int frames = 1) {
+    session::Request asked = make_test_request(scene, {technique}, size);
     asked.warmup = frames - 1;
-    return std::move(app::run(get_test_engine(), asked).parts.front());
+    return std::move(session::run(get_test_engine(), asked).parts.front());
 }
 
 /// Renders `frames` frames of a still scene and returns the last. Only the last frame has the
 /// requested size and lookup directions. The earlier frames are small, which saves time: the last
 /// frame needs only their captures, which do not depend on the picture's size. Not for face=auto,
 /// whose captures do.
-inline std::vector<app::TechniqueResult> render_last_frame(const app::Request& asked, int frames) {
-    app::Session session(get_test_engine(), asked.scene);
-    app::FrameSpec early = asked;
-    early.model = app::RenderedWork::required; // gives the same pictures in less time
-    app::FrameSpec last = early;
+inline std::vector<session::TechniqueResult> render_last_frame(const session::Request& asked,
+                                                               int frames) {
+    session::Session session(get_test_engine(), asked.scene);
+    session::FrameSpec early = asked;
+    early.model = session::RenderedWork::required; // gives the same pictures in less time
+    session::FrameSpec last = early;
     early.size = {16, 16}, early.with_lookup = false;
     for (int k = 1; k < frames; ++k) session.frame(early);
     return session.frame(last).read_all();
@@ -72,12 +73,13 @@ inline std::vector<app::TechniqueResult> render_last_frame(const app::Request& a
 
 /// Returns "name:knob=value,..." with those of the settings for which the technique has a knob.
 inline std::string
-technique_with_knobs(const app::TechniqueInfo& technique,
+technique_with_knobs(const session::TechniqueInfo& technique,
                      const std::vector<std::pair<std::string, std::string>>& settings) {
     std::string text = technique.name;
     char separator = ':';
     for (const auto& [knob, value] : settings) {
-        if (std::ranges::find(technique.knobs, knob, &app::KnobInfo::name) == technique.knobs.end())
+        if (std::ranges::find(technique.knobs, knob, &session::KnobInfo::name) ==
+            technique.knobs.end())
             continue;
         text += separator + knob + "=" + value;
         separator = ',';

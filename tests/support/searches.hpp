@@ -70,13 +70,13 @@ namespace detail {
 
 /// The reference picture from one camera, and an oracle that knows where its reflected rays end.
 struct ReferencePicture {
-    app::TechniqueResult part;
-    app::TrueHitFinder oracle;
+    session::TechniqueResult part;
+    study::TrueHitFinder oracle;
 };
 
-inline app::Request make_view_request(const scene::Scene& scene, const SearchTestView& look,
-                                      const std::string& technique) {
-    app::Request asked = make_test_request(scene, {technique}, kSearchTestPictureSize);
+inline session::Request make_view_request(const scene::Scene& scene, const SearchTestView& look,
+                                          const std::string& technique) {
+    session::Request asked = make_test_request(scene, {technique}, kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
     return asked;
@@ -85,9 +85,10 @@ inline app::Request make_view_request(const scene::Scene& scene, const SearchTes
 inline SearchErrors measure_search_errors(const scene::Scene& scene, const SearchTestView& look,
                                           const std::string& technique,
                                           const ReferencePicture& truth) {
-    app::Request asked = make_view_request(scene, look, technique);
+    session::Request asked = make_view_request(scene, look, technique);
     asked.with_lookup = true;
-    const app::TechniqueResult part = std::move(render_last_frame(asked, kConvergedFrames).front());
+    const session::TechniqueResult part = std::move(
+        render_last_frame(asked, kConvergedFrames).front());
     const SearchErrors error{
         rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
         rmse_of_pictures(part.hdr, truth.part.hdr,
@@ -116,10 +117,10 @@ measure_search_errors(const scene::Scene& scene, const SearchTestView& look,
     static std::map<std::string, SearchErrors> known;
     const std::string place = scene.name + ", " + look.camera.name + ", " + reference;
     if (!truths.contains(place)) {
-        const app::Request asked = detail::make_view_request(scene, look, reference);
+        const session::Request asked = detail::make_view_request(scene, look, reference);
         truths.emplace(place, detail::ReferencePicture{
-                                  std::move(app::run(get_test_engine(), asked).parts.front()),
-                                  app::TrueHitFinder(asked)});
+                                  std::move(session::run(get_test_engine(), asked).parts.front()),
+                                  study::TrueHitFinder(asked)});
     }
     std::vector<SearchErrors> judged;
     for (const std::string& technique : techniques) {
@@ -139,11 +140,11 @@ inline std::vector<measure::Difference>
 compare_mirror_pictures(const scene::Scene& scene, const SearchTestView& look,
                         std::vector<std::string> techniques) {
     techniques.push_back("raytrace:depth=16");
-    app::Request asked = make_test_request(scene, techniques, kSearchTestPictureSize);
+    session::Request asked = make_test_request(scene, techniques, kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    const std::vector<app::TechniqueResult> parts = render_last_frame(asked, 2);
-    const app::TechniqueResult& truth = parts.back();
+    const std::vector<session::TechniqueResult> parts = render_last_frame(asked, 2);
+    const session::TechniqueResult& truth = parts.back();
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         seen.push_back(
@@ -161,10 +162,10 @@ compare_mirror_pictures(const scene::Scene& scene, const SearchTestView& look,
 /// first camera.
 inline std::vector<measure::LookupDirectionError>
 measure_lookup_directions(const scene::Scene& scene, const std::string& technique, uvec2 size) {
-    app::Request asked = make_test_request(scene, {technique}, size);
+    session::Request asked = make_test_request(scene, {technique}, size);
     asked.with_lookup = true;
-    return app::TrueHitFinder(asked).judge_lookups(
-        app::run(get_test_engine(), asked).parts.front().lookup);
+    return study::TrueHitFinder(asked).judge_lookups(
+        session::run(get_test_engine(), asked).parts.front().lookup);
 }
 
 } // namespace test

@@ -12,21 +12,21 @@
 namespace {
 
 using namespace catoptric;
-using app::BenchmarkSubject;
-using app::ProcessorUsageMeter;
+using benchmark::BenchmarkSubject;
+using session::ProcessorUsageMeter;
 
 /// Builds a benchmark that logs `letter` for each iteration and '|' at the end of each turn.
 BenchmarkSubject make_logging_benchmark(char letter, std::string& log, int warmup = 1) {
-    return {
-        .name = std::string(1, letter),
-        .work =
-            [letter, &log] {
-                log += letter;
-                return app::IterationMeasurements{2, {{"length", static_cast<double>(log.size())}}};
-            },
-        .warmup = warmup,
-        .leave = [&log] { log += '|'; },
-        .caller = letter == 'a' ? "caller of a" : ""};
+    return {.name = std::string(1, letter),
+            .work =
+                [letter, &log] {
+                    log += letter;
+                    return benchmark::IterationMeasurements{
+                        2, {{"length", static_cast<double>(log.size())}}};
+                },
+            .warmup = warmup,
+            .leave = [&log] { log += '|'; },
+            .caller = letter == 'a' ? "caller of a" : ""};
 }
 
 TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
@@ -35,8 +35,8 @@ TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
     const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 2),
                                                  make_logging_benchmark('b', log),
                                                  make_logging_benchmark('c', log, 0)};
-    app::measure_benchmarks_in_rounds(subjects, meter,
-                                      {.iterations = 5, .rounds = 3, .watcher = {}});
+    benchmark::measure_benchmarks_in_rounds(subjects, meter,
+                                            {.iterations = 5, .rounds = 3, .watcher = {}});
     EXPECT_EQ(log, "aa|b||"
                    "aa|bb|cc|"
                    "cc|bb|aa|"
@@ -48,7 +48,7 @@ TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
     const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
     const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 0),
                                                  make_logging_benchmark('b', log, 0)};
-    const std::vector<measure::BenchmarkResult> found = app::measure_benchmarks_in_rounds(
+    const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
         subjects, meter, {.iterations = 3, .rounds = 2, .watcher = {}});
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].name, "a");
@@ -66,12 +66,13 @@ TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
 TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     std::string log;
     const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
-    EXPECT_EQ(app::measure_benchmarks_in_rounds({make_logging_benchmark('b', log)}, meter,
+    EXPECT_EQ(
+        benchmark::measure_benchmarks_in_rounds({make_logging_benchmark('b', log)}, meter,
                                                 {.iterations = 2, .rounds = 6, .watcher = {}})[0]
-                  .rounds.size(),
-              2U);
+            .rounds.size(),
+        2U);
     try {
-        app::measure_benchmarks_in_rounds(
+        benchmark::measure_benchmarks_in_rounds(
             {make_logging_benchmark('b', log), make_logging_benchmark('b', log)}, meter, {});
         ADD_FAILURE();
     } catch (const Error& error) {
@@ -91,13 +92,13 @@ TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
     const ProcessorUsageMeter process(ProcessorUsageMeter::CountedThreadChoice::process),
         caller(ProcessorUsageMeter::CountedThreadChoice::caller);
     const double caller_before = thread_processor_ms();
-    const app::ProcessorUsage all = process.read(), own = caller.read();
+    const session::ProcessorUsage all = process.read(), own = caller.read();
     double worked_ms = 0;
     std::thread([&worked_ms] {
         while ((worked_ms = thread_processor_ms()) < 5) {
         }
     }).join();
-    const app::ProcessorUsage own_after = caller.read() - own, all_after = process.read() - all;
+    const session::ProcessorUsage own_after = caller.read() - own, all_after = process.read() - all;
     EXPECT_GE(all_after.cpu_ms, worked_ms);
     EXPECT_LE(own_after.cpu_ms, thread_processor_ms() - caller_before + 1e-9)
         << "but for roundings";

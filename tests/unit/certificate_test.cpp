@@ -100,8 +100,8 @@ TEST(Certificate, ToleranceLimitCoversTheQuantile) {
 
 /// If half of a mirror's pixels are NaN, a view must not be judged by the other half alone.
 TEST(Certificate, ViewFailsIfAPixelIsNotFiniteAndKeepsIfItShowsNoMirror) {
-    using catoptric::app::ErrorQuantity;
-    using catoptric::app::mirror_error_of_view;
+    using catoptric::study::ErrorQuantity;
+    using catoptric::study::mirror_error_of_view;
     Difference view;
     view.pixels = 100, view.flip = .01, view.rmse = .02;
     EXPECT_EQ(mirror_error_of_view(ErrorQuantity::flip, view), .01);

@@ -46,17 +46,17 @@ struct MadeUpNoise {
 /// Chooses among the made-up plans. The plan `failing`, if any, has an error of 1 in the last
 /// `failures` views that prove it. The plan `failing_late`, if any, has an error of 1 in the last
 /// training view. Without it, there are twelve training views.
-app::PlanChoice choose_made_up_plan(const std::string& failing = "", std::size_t failures = 0,
-                                    const MadeUpNoise& noise = {}, double limit = .1,
-                                    std::optional<double> max_ms = {},
-                                    const std::string& failing_late = "") {
-    app::ChooseRequest request;
+study::PlanChoice choose_made_up_plan(const std::string& failing = "", std::size_t failures = 0,
+                                      const MadeUpNoise& noise = {}, double limit = .1,
+                                      std::optional<double> max_ms = {},
+                                      const std::string& failing_late = "") {
+    study::ChooseRequest request;
     for (const MadeUpPlan& plan : kMadeUpPlans) request.base.techniques.push_back(plan.text);
     request.max_error = limit;
     request.max_ms = max_ms;
     if (failing_late.empty()) request.training_views = 12;
     if (noise.floor > 0) request.reference = "raytrace:depth=16,rays=64,indirect=paths";
-    return app::choose_plan(
+    return study::choose_plan(
         request, [&](const std::vector<std::string>& plans, int views, std::uint64_t seed, int) {
             measure::Comparison comparison;
             comparison.device.name = "made up";
@@ -79,9 +79,9 @@ app::PlanChoice choose_made_up_plan(const std::string& failing = "", std::size_t
         });
 }
 
-std::vector<std::string> list_proved_texts(const app::PlanChoice& choice) {
+std::vector<std::string> list_proved_texts(const study::PlanChoice& choice) {
     std::vector<std::string> texts;
-    for (const app::PlanProof& proof : choice.proofs) texts.push_back(proof.plan.text);
+    for (const study::PlanProof& proof : choice.proofs) texts.push_back(proof.plan.text);
     return texts;
 }
 
@@ -91,7 +91,7 @@ constexpr double kNarrowLimit = .015;
 /// `secant` and `proxy` are left out, because four plans are proved at most, and the proofs of
 /// these two are less likely to succeed.
 TEST(ChoosePlan, PlansAreProvedFromTheSlowestToTheFastest) {
-    const app::PlanChoice choice = choose_made_up_plan("", 0, {}, kNarrowLimit);
+    const study::PlanChoice choice = choose_made_up_plan("", 0, {}, kNarrowLimit);
     EXPECT_THAT(list_proved_texts(choice),
                 testing::ElementsAre("raytrace:depth=8", "raytrace:depth=4", "hybrid", "pyramid"));
     ASSERT_TRUE(choice.chosen);
@@ -100,14 +100,14 @@ TEST(ChoosePlan, PlansAreProvedFromTheSlowestToTheFastest) {
 }
 
 TEST(ChoosePlan, SlowPlansAreNotProvedIfFasterOnesAreAlmostAsLikelyToHold) {
-    const app::PlanChoice choice = choose_made_up_plan(); // errors of 1 to 6 % of the limit
+    const study::PlanChoice choice = choose_made_up_plan(); // errors of 1 to 6 % of the limit
     EXPECT_THAT(list_proved_texts(choice), testing::ElementsAre("hybrid", "pyramid", "proxy"));
     ASSERT_TRUE(choice.chosen);
     EXPECT_EQ(choice.proofs[*choice.chosen].plan.text, "proxy");
 }
 
 TEST(ChoosePlan, PlanBeforeTheFirstFailedProofIsChosen) {
-    const app::PlanChoice choice = choose_made_up_plan("hybrid", 1, {}, kNarrowLimit);
+    const study::PlanChoice choice = choose_made_up_plan("hybrid", 1, {}, kNarrowLimit);
     EXPECT_THAT(list_proved_texts(choice),
                 testing::ElementsAre("raytrace:depth=8", "raytrace:depth=4", "hybrid"));
     EXPECT_EQ(choice.proofs.back().failures, 1u);
@@ -119,11 +119,12 @@ TEST(ChoosePlan, PlanBeforeTheFirstFailedProofIsChosen) {
 /// The noise of the reference counts as error, and the share is lowered for failures that the noise
 /// may hide.
 TEST(ChoosePlan, NoiseOfTheReferenceMakesACertificateStricter) {
-    const app::PlanChoice clean = choose_made_up_plan(), slight = choose_made_up_plan("", 0, {.01}),
-                          strong = choose_made_up_plan("", 0, {.0955});
+    const study::PlanChoice clean = choose_made_up_plan(),
+                            slight = choose_made_up_plan("", 0, {.01}),
+                            strong = choose_made_up_plan("", 0, {.0955});
     ASSERT_TRUE(clean.chosen && slight.chosen && strong.chosen);
-    const app::PlanProof &without = clean.proofs[*clean.chosen],
-                         &with = slight.proofs[*slight.chosen];
+    const study::PlanProof &without = clean.proofs[*clean.chosen],
+                           &with = slight.proofs[*slight.chosen];
     EXPECT_FALSE(without.noise);
     EXPECT_EQ(with.plan.text, without.plan.text);
     EXPECT_EQ(with.plan.errors.size(), 59u);
@@ -141,7 +142,7 @@ TEST(ChoosePlan, NoiseOfTheReferenceMakesACertificateStricter) {
 }
 
 TEST(ChoosePlan, NoiseAboveTheLimitIsNamedAsTheReason) {
-    const app::PlanChoice choice = choose_made_up_plan("", 0, {.2});
+    const study::PlanChoice choice = choose_made_up_plan("", 0, {.2});
     EXPECT_FALSE(choice.chosen);
     EXPECT_THAT(choice.failure,
                 testing::HasSubstr("; errors include the noise floor of the reference: median 0.2, "
@@ -150,7 +151,7 @@ TEST(ChoosePlan, NoiseAboveTheLimitIsNamedAsTheReason) {
 }
 
 TEST(ChoosePlan, NoPlanIsChosenIfTheFirstProofFails) {
-    const app::PlanChoice choice = choose_made_up_plan("raytrace:depth=8", 2, {}, kNarrowLimit);
+    const study::PlanChoice choice = choose_made_up_plan("raytrace:depth=8", 2, {}, kNarrowLimit);
     EXPECT_FALSE(choice.chosen);
     EXPECT_THAT(choice.failure, testing::StartsWith("raytrace:depth=8 keeps the limits in the "
                                                     "training views, but not in enough of the "
@@ -160,18 +161,18 @@ TEST(ChoosePlan, NoPlanIsChosenIfTheFirstProofFails) {
 /// Of twelve views, one in two sets shows a plan that fails in 5 % of all views. Of 59 views, 95 of
 /// 100 sets show it, so the proof is not wasted on it.
 TEST(ChoosePlan, TrainingViewsShowATailOfFivePercent) {
-    const app::PlanChoice choice = choose_made_up_plan("", 0, {}, kNarrowLimit, {}, "pyramid");
+    const study::PlanChoice choice = choose_made_up_plan("", 0, {}, kNarrowLimit, {}, "pyramid");
     ASSERT_TRUE(choice.chosen);
     EXPECT_THAT(list_proved_texts(choice), testing::Not(testing::Contains("pyramid")));
-    const auto pyramid = std::ranges::find(choice.candidates, "pyramid", &app::JudgedPlan::text);
+    const auto pyramid = std::ranges::find(choice.candidates, "pyramid", &study::JudgedPlan::text);
     ASSERT_NE(pyramid, choice.candidates.end());
     EXPECT_EQ(pyramid->why, "flip above 0.015 in 1 of 59 training views");
 }
 
 TEST(ChoosePlan, EachCandidateSaysWhyItFell) {
-    const app::PlanChoice choice = choose_made_up_plan("hybrid", 1, {}, kNarrowLimit);
+    const study::PlanChoice choice = choose_made_up_plan("hybrid", 1, {}, kNarrowLimit);
     std::vector<std::string> reasons;
-    for (const app::JudgedPlan& plan : choice.candidates) reasons.push_back(plan.why);
+    for (const study::JudgedPlan& plan : choice.candidates) reasons.push_back(plan.why);
     EXPECT_THAT(reasons,
                 testing::ElementsAre("holds, but raytrace:depth=4 is faster", "chosen",
                                      "proof failed: flip above 0.015 in 1 of 59 fresh views",
@@ -180,9 +181,9 @@ TEST(ChoosePlan, EachCandidateSaysWhyItFell) {
                                      "not proved: other proofs promise more"));
     // `hybrid` exceeds the limit of error three times, and all others some limit four times or
     // more.
-    const app::PlanChoice fast = choose_made_up_plan("", 0, {}, .001, 40);
+    const study::PlanChoice fast = choose_made_up_plan("", 0, {}, .001, 40);
     reasons.clear();
-    for (const app::JudgedPlan& plan : fast.candidates) reasons.push_back(plan.why);
+    for (const study::JudgedPlan& plan : fast.candidates) reasons.push_back(plan.why);
     EXPECT_THAT(reasons,
                 testing::ElementsAre("takes 1.23e+03 [1.22e+03 - 1.24e+03] ms, above 40",
                                      "flip above 0.001 in 12 of 12 training views",
@@ -193,7 +194,7 @@ TEST(ChoosePlan, EachCandidateSaysWhyItFell) {
 }
 
 TEST(ChoosePlan, NearestPlanIsProvedIfNoPlanKeepsTheLimits) {
-    const app::PlanChoice choice = choose_made_up_plan("", 0, {}, .0005);
+    const study::PlanChoice choice = choose_made_up_plan("", 0, {}, .0005);
     EXPECT_FALSE(choice.chosen);
     EXPECT_EQ(choice.nearest, 0u);
     ASSERT_THAT(list_proved_texts(choice), testing::ElementsAre("raytrace:depth=8"));
@@ -202,34 +203,34 @@ TEST(ChoosePlan, NearestPlanIsProvedIfNoPlanKeepsTheLimits) {
     EXPECT_THAT(choice.failure,
                 testing::StartsWith("no candidate keeps flip <= 0.0005 in the 12 training views"));
 
-    app::ChooseRequest request;
+    study::ChooseRequest request;
     request.max_error = .0005;
-    const report::Json document = app::make_choice_json(request, choice, "made up");
+    const report::Json document = study::make_choice_json(request, choice, "made up");
     EXPECT_EQ(document["plan"][0]["technique"], "raytrace:depth=8");
     EXPECT_EQ(document["nearest"]["max_error"], .0005);
     EXPECT_EQ(document["nearest"]["why"], choice.failure);
     EXPECT_EQ(document["certificate"]["max_error"], report::Json()) << "it proves another error";
     EXPECT_EQ(document["certificate"]["error_bound"], .001);
-    EXPECT_THAT(app::describe_nearest_proof(request, choice.proofs[0]),
+    EXPECT_THAT(study::describe_nearest_proof(request, choice.proofs[0]),
                 testing::HasSubstr("at least 95 % of views have flip <= 0.001, with 95 % "
                                    "confidence (59 views of 512x512, 0 failures)"));
 }
 
 TEST(ChoosePlan, PredictedTimeMayHoldAtBest) {
-    app::ChooseRequest request;
+    study::ChooseRequest request;
     request.max_ms = 20;
-    app::PlanProof proof{.plan = {.text = "reuse", .ms = 4, .ms_range = {1.2, 13}, .errors = {}}};
+    study::PlanProof proof{.plan = {.text = "reuse", .ms = 4, .ms_range = {1.2, 13}, .errors = {}}};
     proof.keeps_error = true;
-    proof.time = app::TimeVerdict::may_keep;
+    proof.time = study::TimeVerdict::may_keep;
     EXPECT_FALSE(proof.holds());
     EXPECT_TRUE(proof.may_hold());
-    EXPECT_EQ(app::describe_verdict(request, proof), "may hold, 1.2 to 13 ms");
+    EXPECT_EQ(study::describe_verdict(request, proof), "may hold, 1.2 to 13 ms");
     proof.plan.ms_range = {};
-    EXPECT_EQ(app::describe_verdict(request, proof), "may hold, 4 ms with an unknown error");
-    proof.time = app::TimeVerdict::keeps;
-    EXPECT_EQ(app::describe_verdict(request, proof), "holds");
-    proof.time = app::TimeVerdict::breaks;
-    EXPECT_EQ(app::describe_verdict(request, proof), "does not hold");
+    EXPECT_EQ(study::describe_verdict(request, proof), "may hold, 4 ms with an unknown error");
+    proof.time = study::TimeVerdict::keeps;
+    EXPECT_EQ(study::describe_verdict(request, proof), "holds");
+    proof.time = study::TimeVerdict::breaks;
+    EXPECT_EQ(study::describe_verdict(request, proof), "does not hold");
 }
 
 } // namespace

@@ -16,11 +16,11 @@ namespace {
 
 std::vector<int> objects_by_pixel_from_tree(const render::FrameGeometry& geometry,
                                             const shared::View& view, uvec2 size) {
-    const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
+    const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
         const auto hit = bvh::find_closest_hit<float>(
-            tree, app::make_camera_ray(view, size, pixel), std::numeric_limits<float>::max(),
+            tree, session::make_camera_ray(view, size, pixel), std::numeric_limits<float>::max(),
             bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
@@ -47,8 +47,8 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
             const scene::Camera camera = draw_random_camera_near(scene.cameras.front(), random);
             const shared::View view = render::make_camera_view(camera, space, kCoveragePictureSize,
                                                                0);
-            const auto seen = app::find_first_object_per_pixel(geometry, view, kCoveragePictureSize,
-                                                               1U << 30);
+            const auto seen = session::find_first_object_per_pixel(geometry, view,
+                                                                   kCoveragePictureSize, 1U << 30);
             ASSERT_TRUE(seen.has_value());
             EXPECT_EQ(*seen, objects_by_pixel_from_tree(geometry, view, kCoveragePictureSize))
                 << name << ", camera " << k;
@@ -61,7 +61,7 @@ TEST(Coverage, SearchStopsAtTheLimitOfTests) {
     const render::SceneUnitTransform space = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(scene, space);
     const shared::View view = render::make_camera_view(scene.cameras.front(), space, {64, 64}, 0);
-    EXPECT_FALSE(app::find_first_object_per_pixel(geometry, view, {64, 64}, 100));
+    EXPECT_FALSE(session::find_first_object_per_pixel(geometry, view, {64, 64}, 100));
 }
 
 } // namespace

@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace catoptric::app;
+using namespace catoptric::session;
 
 void burn_processor_time(double seconds) {
     std::atomic<int> sink{0};

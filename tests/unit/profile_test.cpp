@@ -16,8 +16,8 @@ using namespace catoptric;
 using nlohmann::json;
 using testing::Pair;
 
-app::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (build 3)") {
-    app::DeviceInfo device;
+session::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (build 3)") {
+    session::DeviceInfo device;
     device.name = "A device";
     device.driver = driver;
     device.id = "10de-2330";
@@ -42,11 +42,11 @@ const std::vector<double> kFasterRoundRatios{.9, .91, .92, .93, .94, .95},
     kSlowerRoundRatios{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kMixedRoundRatios{.5, .6, .7, .8, .9, 1.01};
 
 TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
-    const std::string text = app::make_profile_text(
+    const std::string text = session::make_profile_text(
         make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios),
                              make_shader_variant_trial(1, kSlowerRoundRatios),
                              make_shader_variant_trial(2, kMixedRoundRatios)});
-    EXPECT_EQ(app::parse_device_profile(text, "p.json", make_device_info()),
+    EXPECT_EQ(session::parse_device_profile(text, "p.json", make_device_info()),
               (gpu::ShaderVariantChoices{1, 0, 0}));
     const json document = json::parse(text);
     EXPECT_EQ(document["variants"],
@@ -61,17 +61,17 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
 }
 
 TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
-    const std::string text = app::make_profile_text(
+    const std::string text = session::make_profile_text(
         make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios)});
-    const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
+    const auto refuses = [&](const session::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
-        test::expect_error([&] { app::parse_device_profile(text, "p.json", device); },
+        test::expect_error([&] { session::parse_device_profile(text, "p.json", device); },
                            Failure::bad_data,
                            {"p.json: is another device's or driver's profile: device." + member +
                             ": wanted '" + wanted + "', found '" + found + "'"});
     };
     refuses(make_device_info("driver 1.3"), "driver", "driver 1.3", "driver 1.2 (build 3)");
-    app::DeviceInfo other = make_device_info();
+    session::DeviceInfo other = make_device_info();
     other.name = "B";
     refuses(other, "name", "B", "A device");
     other = make_device_info(), other.id = "10de-2331";
@@ -79,11 +79,12 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
 }
 
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
-    json good = json::parse(app::make_profile_text(
+    json good = json::parse(session::make_profile_text(
         make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
-        test::expect_error([&] { app::parse_device_profile(text, "p.json", make_device_info()); },
-                           Failure::bad_data, {"p.json: ", part});
+        test::expect_error(
+            [&] { session::parse_device_profile(text, "p.json", make_device_info()); },
+            Failure::bad_data, {"p.json: ", part});
     };
     refuses("{", "JSON: line 1, column 2: wanted a key in quotation marks, found the end");
     refuses("[]", "wanted a device profile, schema 'catoptric/device-profile/1', found nothing");
@@ -97,12 +98,12 @@ TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     bad = good, bad["variants"]["pixels"] = "storage";
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
     good["variants"] = json::object(); // variants that are left out have their defaults
-    EXPECT_EQ(app::parse_device_profile(good.dump(), "p.json", make_device_info()),
+    EXPECT_EQ(session::parse_device_profile(good.dump(), "p.json", make_device_info()),
               gpu::ShaderVariantChoices{});
 }
 
 TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
-    EXPECT_EQ(app::make_profile_file_name(make_device_info("../a b:c\\d\n")),
+    EXPECT_EQ(session::make_profile_file_name(make_device_info("../a b:c\\d\n")),
               "10de-2330-.._a_b_c_d_.json");
 }
 
@@ -112,33 +113,34 @@ protected:
         std::ofstream(folder / name) << text;
     }
     std::string make_valid_profile_text() const {
-        return app::make_profile_text(make_device_info(),
-                                      {make_shader_variant_trial(0, kFasterRoundRatios)});
+        return session::make_profile_text(make_device_info(),
+                                          {make_shader_variant_trial(0, kFasterRoundRatios)});
     }
 };
 
 TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
-    app::EngineOptions options;
+    session::EngineOptions options;
     options.profiles = folder;
-    app::DeviceInfo device = make_device_info();
-    EXPECT_EQ(app::choose_shader_variants(options, device), gpu::ShaderVariantChoices{})
+    session::DeviceInfo device = make_device_info();
+    EXPECT_EQ(session::choose_shader_variants(options, device), gpu::ShaderVariantChoices{})
         << "there is none";
     EXPECT_EQ(device.profile + device.warning, "");
     EXPECT_THAT(device.variants,
                 testing::ElementsAre(Pair("groups", "scattered"), Pair("hierarchy", "texel"),
                                      Pair("pixels", "blocks")));
-    const std::string name = app::make_profile_file_name(device);
+    const std::string name = session::make_profile_file_name(device);
     write_profile_file(name, make_valid_profile_text());
-    EXPECT_EQ(app::choose_shader_variants(options, device), (gpu::ShaderVariantChoices{1, 0, 0}));
+    EXPECT_EQ(session::choose_shader_variants(options, device),
+              (gpu::ShaderVariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
          {std::string("{"),
-          app::make_profile_text(make_device_info("another"),
-                                 {make_shader_variant_trial(0, kFasterRoundRatios)})}) {
+          session::make_profile_text(make_device_info("another"),
+                                     {make_shader_variant_trial(0, kFasterRoundRatios)})}) {
         write_profile_file(name, text);
         device = make_device_info();
-        EXPECT_EQ(app::choose_shader_variants(options, device), gpu::ShaderVariantChoices{});
+        EXPECT_EQ(session::choose_shader_variants(options, device), gpu::ShaderVariantChoices{});
         EXPECT_EQ(device.profile, "");
         EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
         EXPECT_THAT(device.warning, testing::HasSubstr("; shaders are as by default"));
@@ -146,14 +148,15 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
 }
 
 TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
-    app::DeviceInfo device = make_device_info();
+    session::DeviceInfo device = make_device_info();
     const auto choose = [&](const std::string& name) {
-        return app::choose_shader_variants({.profile = folder / name, .profiles = folder}, device);
+        return session::choose_shader_variants({.profile = folder / name, .profiles = folder},
+                                               device);
     };
     write_profile_file("good.json", make_valid_profile_text()), write_profile_file("bad.json", "3");
-    write_profile_file("other.json",
-                       app::make_profile_text(make_device_info("another"),
-                                              {make_shader_variant_trial(0, kFasterRoundRatios)}));
+    write_profile_file("other.json", session::make_profile_text(
+                                         make_device_info("another"),
+                                         {make_shader_variant_trial(0, kFasterRoundRatios)}));
     EXPECT_EQ(choose("good.json"), (gpu::ShaderVariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
@@ -162,7 +165,7 @@ TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
     test::expect_error([&] { choose("."); }, Failure::bad_data, {": wanted a file with a device"});
     test::expect_error(
         [&] {
-            app::choose_shader_variants({.variants = {{"pixels", "round"}}}, device);
+            session::choose_shader_variants({.variants = {{"pixels", "round"}}}, device);
         },
         Failure::usage, {"variants.pixels: wanted 'blocks' or 'rows'"});
 }
@@ -173,13 +176,13 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
     for (const auto& [type, groups] :
          {std::pair("cpu", "scattered"), std::pair("discrete", "in order"),
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
-        app::DeviceInfo device = make_device_info();
+        session::DeviceInfo device = make_device_info();
         device.type = type;
-        const gpu::ShaderVariantChoices choices = app::choose_shader_variants({}, device);
+        const gpu::ShaderVariantChoices choices = session::choose_shader_variants({}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
         EXPECT_THAT(device.variants, testing::Contains(Pair("hierarchy", "texel"))) << type;
-        EXPECT_EQ(choices, app::choose_default_variants(device));
-        app::choose_shader_variants({.variants = {{"pixels", "rows"}}}, device);
+        EXPECT_EQ(choices, session::choose_default_variants(device));
+        session::choose_shader_variants({.variants = {{"pixels", "rows"}}}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
     }
 }

@@ -21,8 +21,8 @@ measure::Picture draw_random_picture(std::uint64_t seed) {
     return picture;
 }
 
-app::StoredReference make_stored_reference() {
-    app::StoredReference stored{.seeds = {1, 2, 4, 5}, .gpu_ms = {1.5, 2.5}, .rays = 8};
+study::StoredReference make_stored_reference() {
+    study::StoredReference stored{.seeds = {1, 2, 4, 5}, .gpu_ms = {1.5, 2.5}, .rays = 8};
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         stored.a.add_picture(draw_random_picture(seed));
         stored.b.add_picture(draw_random_picture(seed + 10));
@@ -30,15 +30,16 @@ app::StoredReference make_stored_reference() {
     return stored;
 }
 
-const app::ReferenceKey kTestReferenceKey{
+const study::ReferenceKey kTestReferenceKey{
     {"scene", "cafe"}, {"camera", "0,0,1"}, {"time", "0"}, {"size", "5x3"}};
 
 using ReferenceFileTest = test::InFolder;
 
 TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
-    const app::StoredReference before = make_stored_reference();
-    app::write_reference_file(before, kTestReferenceKey, folder / "halves.exr");
-    app::StoredReference after = app::read_reference_file(kTestReferenceKey, folder / "halves.exr");
+    const study::StoredReference before = make_stored_reference();
+    study::write_reference_file(before, kTestReferenceKey, folder / "halves.exr");
+    study::StoredReference after = study::read_reference_file(kTestReferenceKey,
+                                                              folder / "halves.exr");
     EXPECT_EQ(after.seeds, before.seeds);
     EXPECT_EQ(after.gpu_ms, before.gpu_ms);
     EXPECT_EQ(after.rays, 8);
@@ -46,7 +47,7 @@ TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
     EXPECT_EQ(after.a.mean().pixels, before.a.mean().pixels);
     EXPECT_EQ(after.b.mean().pixels, before.b.mean().pixels);
     // Frames that are added later continue the stored mean and variance.
-    app::StoredReference longer = before;
+    study::StoredReference longer = before;
     for (measure::PictureMean* mean : {&after.b, &longer.b})
         mean->add_picture(draw_random_picture(30));
     for (std::size_t i = 0; i < 15; ++i)
@@ -60,22 +61,23 @@ TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
 
 TEST_F(ReferenceFileTest, NamesThePartOfTheKeyThatDiffers) {
     const std::filesystem::path file = folder / "halves.exr";
-    app::write_reference_file(make_stored_reference(), kTestReferenceKey, file);
+    study::write_reference_file(make_stored_reference(), kTestReferenceKey, file);
     for (const auto& [name, value] : kTestReferenceKey) {
-        app::ReferenceKey other = kTestReferenceKey;
+        study::ReferenceKey other = kTestReferenceKey;
         for (auto& part : other)
             if (part.first == name) part.second = "another";
         EXPECT_THAT(test::catch_error_text(Failure::bad_data,
-                                           [&] { app::read_reference_file(other, file); }),
+                                           [&] { study::read_reference_file(other, file); }),
                     AllOf(HasSubstr("the " + name + " another"), HasSubstr(value)));
     }
     measure::write_exr(draw_random_picture(1), file);
-    EXPECT_THAT(test::catch_error_text(Failure::bad_data,
-                                       [&] { app::read_reference_file(kTestReferenceKey, file); }),
-                HasSubstr("wanted the channel A.R"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::bad_data,
+                               [&] { study::read_reference_file(kTestReferenceKey, file); }),
+        HasSubstr("wanted the channel A.R"));
     EXPECT_THAT(test::catch_error_text(
                     Failure::missing_input,
-                    [&] { app::read_reference_file(kTestReferenceKey, folder / "none.exr"); }),
+                    [&] { study::read_reference_file(kTestReferenceKey, folder / "none.exr"); }),
                 HasSubstr("none.exr"));
 }
 

@@ -17,9 +17,9 @@ TEST(ReferenceSeeds, DifferFromEachOtherAndFromTheRows) {
     const std::vector<std::string> rows{
         "raytrace:rays=4,seed=1",   "reuse", "raytrace:rays=4",
         "*=raytrace:rays=2,seed=3", "auto",  "raytrace:rays=8,seed=17"};
-    const std::set<int> taken = app::list_row_seeds(rows);
+    const std::set<int> taken = study::list_row_seeds(rows);
     EXPECT_EQ(taken, (std::set<int>{0, 1, 3, 17}));
-    app::ReferenceSeeds seeds(rows);
+    study::ReferenceSeeds seeds(rows);
     std::set<int> given;
     for (int i = 0; i < 100; ++i) {
         const int seed = seeds.next();
@@ -29,19 +29,20 @@ TEST(ReferenceSeeds, DifferFromEachOtherAndFromTheRows) {
 }
 
 TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
-    EXPECT_EQ(app::set_lobe_seed("raytrace:depth=16,rays=64", 7),
+    EXPECT_EQ(study::set_lobe_seed("raytrace:depth=16,rays=64", 7),
               "raytrace:depth=16,rays=64,seed=7");
-    const app::ParsedTechnique before = app::parse_technique("raytrace:rays=4,seed=3,samples=2"),
-                               after = app::parse_technique(
-                                   app::set_lobe_seed("raytrace:rays=4,seed=3,samples=2", 9));
+    const session::ParsedTechnique before = session::parse_technique(
+                                       "raytrace:rays=4,seed=3,samples=2"),
+                                   after = session::parse_technique(
+                                       study::set_lobe_seed("raytrace:rays=4,seed=3,samples=2", 9));
     ASSERT_EQ(before.settings.size(), after.settings.size());
     for (std::size_t i = 0; i < before.settings.size(); ++i)
         EXPECT_EQ(after.settings[i].text,
                   before.settings[i].name == "seed" ? "9" : before.settings[i].text);
-    EXPECT_TRUE(app::draws_rays_from_lobes("raytrace:rays=1"));
-    EXPECT_TRUE(app::draws_rays_from_lobes("raytrace:indirect=paths"));
-    EXPECT_FALSE(app::draws_rays_from_lobes("raytrace:depth=16"));
-    EXPECT_FALSE(app::draws_rays_from_lobes("reuse"));
+    EXPECT_TRUE(study::draws_rays_from_lobes("raytrace:rays=1"));
+    EXPECT_TRUE(study::draws_rays_from_lobes("raytrace:indirect=paths"));
+    EXPECT_FALSE(study::draws_rays_from_lobes("raytrace:depth=16"));
+    EXPECT_FALSE(study::draws_rays_from_lobes("reuse"));
 }
 
 /// Returns a scene of one triangle of a metal with this roughness. The metal is a mirror if its
@@ -66,9 +67,9 @@ TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
          {std::pair(.0f, false), {.04f, false}, {.05f, true}, {.3f, true}, {1.f, true}}) {
         const scene::Scene scene = make_metal_triangle_scene(roughness, .3f);
         EXPECT_EQ(scene::has_rough_reflector(scene), is_rough) << roughness;
-        EXPECT_EQ(app::choose_reference("", scene),
-                  is_rough ? app::kRoughReference : app::kReference);
-        EXPECT_EQ(app::choose_reference("raytrace:depth=2", scene), "raytrace:depth=2");
+        EXPECT_EQ(study::choose_reference("", scene),
+                  is_rough ? study::kRoughReference : study::kReference);
+        EXPECT_EQ(study::choose_reference("raytrace:depth=2", scene), "raytrace:depth=2");
     }
     scene::Scene perfect = make_metal_triangle_scene(.3f, .3f);
     perfect.materials[0].mirror = true;
@@ -86,13 +87,13 @@ TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
 TEST(EnvironmentShadows, MakeNoiseInTracedReferencesWithAnEnvironment) {
     scene::Scene scene = make_metal_triangle_scene(0, .3f);
     scene.environment_shadows = 4;
-    EXPECT_FALSE(app::does_reference_have_noise(app::kReference, scene)) << "no environment";
+    EXPECT_FALSE(study::does_reference_have_noise(study::kReference, scene)) << "no environment";
     scene.environment = std::make_shared<scene::Environment>();
-    EXPECT_TRUE(app::does_reference_have_noise(app::kReference, scene));
-    EXPECT_FALSE(app::does_reference_have_noise("raytrace:shadow=none", scene));
-    EXPECT_FALSE(app::does_reference_have_noise("reuse", scene));
+    EXPECT_TRUE(study::does_reference_have_noise(study::kReference, scene));
+    EXPECT_FALSE(study::does_reference_have_noise("raytrace:shadow=none", scene));
+    EXPECT_FALSE(study::does_reference_have_noise("reuse", scene));
     scene.environment_shadows = 0;
-    EXPECT_FALSE(app::does_reference_have_noise(app::kReference, scene));
+    EXPECT_FALSE(study::does_reference_have_noise(study::kReference, scene));
 }
 
 /// The green channel of the texture multiplies the roughness. The whole range of the texture must
@@ -109,55 +110,56 @@ TEST(RoughReflectors, TextureCountsByItsWholeRange) {
 }
 
 TEST(PixelTruth, ConvergedReferencesAreThoseOfAllRows) {
-    EXPECT_EQ(app::choose_reference("", make_metal_triangle_scene(0, .3f),
-                                    app::ReferencePixelKind::converged),
-              app::kConvergedReference);
-    EXPECT_EQ(app::choose_reference("", make_metal_triangle_scene(.3f, .3f),
-                                    app::ReferencePixelKind::converged),
-              app::kConvergedRoughReference);
-    EXPECT_EQ(app::set_reference_samples("raytrace:depth=16", "4"), "raytrace:depth=16,samples=4");
-    for (const char* reference : {app::kConvergedReference, app::kConvergedRoughReference})
-        EXPECT_EQ(app::set_reference_samples(reference, "4"), reference);
+    EXPECT_EQ(study::choose_reference("", make_metal_triangle_scene(0, .3f),
+                                      study::ReferencePixelKind::converged),
+              study::kConvergedReference);
+    EXPECT_EQ(study::choose_reference("", make_metal_triangle_scene(.3f, .3f),
+                                      study::ReferencePixelKind::converged),
+              study::kConvergedRoughReference);
+    EXPECT_EQ(study::set_reference_samples("raytrace:depth=16", "4"),
+              "raytrace:depth=16,samples=4");
+    for (const char* reference : {study::kConvergedReference, study::kConvergedRoughReference})
+        EXPECT_EQ(study::set_reference_samples(reference, "4"), reference);
 }
 
 TEST(PixelTruth, PathsAreTheReferenceOfEachScene) {
     for (const float roughness : {0.f, .3f})
-        EXPECT_EQ(app::choose_reference("", make_metal_triangle_scene(0, roughness),
-                                        app::ReferencePixelKind::paths),
-                  app::kPathReference);
-    EXPECT_TRUE(app::traces_paths(app::kPathReference));
-    EXPECT_FALSE(app::traces_paths(app::kRoughReference));
-    EXPECT_TRUE(app::draws_rays_from_lobes(app::kPathReference));
+        EXPECT_EQ(study::choose_reference("", make_metal_triangle_scene(0, roughness),
+                                          study::ReferencePixelKind::paths),
+                  study::kPathReference);
+    EXPECT_TRUE(study::traces_paths(study::kPathReference));
+    EXPECT_FALSE(study::traces_paths(study::kRoughReference));
+    EXPECT_TRUE(study::draws_rays_from_lobes(study::kPathReference));
 }
 
 TEST(RoughReflectors, BuiltInScenesOfPerfectMirrorsKeepTheirReference) {
     for (const char* name : {"cornell-mirrors", "gallery", "room", "courtyard"})
-        EXPECT_EQ(app::choose_reference("", scene::load(name)), app::kReference) << name;
+        EXPECT_EQ(study::choose_reference("", scene::load(name)), study::kReference) << name;
 }
 
 TEST(ReferenceRays, FirstFramesHaveAtMost262144) {
-    const std::string rough = app::kRoughReference;
-    EXPECT_EQ(app::choose_coarse_rays(rough, {64, 64}), 64) << "a small picture needs no fewer";
-    EXPECT_EQ(app::choose_coarse_technique(rough, {64, 64}), rough);
-    EXPECT_EQ(app::choose_coarse_rays(rough, {65, 64}), 32);
-    EXPECT_EQ(app::choose_coarse_rays(rough, {256, 256}), 4);
-    EXPECT_EQ(app::choose_coarse_rays(rough, {1920, 1080}), 1);
-    EXPECT_EQ(app::choose_coarse_rays("raytrace:rays=100", {64, 64}), 64);
-    EXPECT_EQ(app::choose_coarse_rays("raytrace:samples=4,rays=16", {128, 128}), 4);
-    EXPECT_EQ(app::choose_coarse_rays("raytrace:depth=16", {1920, 1080}), 0);
-    EXPECT_EQ(app::choose_coarse_technique(app::kPathReference, {256, 256}),
+    const std::string rough = study::kRoughReference;
+    EXPECT_EQ(study::choose_coarse_rays(rough, {64, 64}), 64) << "a small picture needs no fewer";
+    EXPECT_EQ(study::choose_coarse_technique(rough, {64, 64}), rough);
+    EXPECT_EQ(study::choose_coarse_rays(rough, {65, 64}), 32);
+    EXPECT_EQ(study::choose_coarse_rays(rough, {256, 256}), 4);
+    EXPECT_EQ(study::choose_coarse_rays(rough, {1920, 1080}), 1);
+    EXPECT_EQ(study::choose_coarse_rays("raytrace:rays=100", {64, 64}), 64);
+    EXPECT_EQ(study::choose_coarse_rays("raytrace:samples=4,rays=16", {128, 128}), 4);
+    EXPECT_EQ(study::choose_coarse_rays("raytrace:depth=16", {1920, 1080}), 0);
+    EXPECT_EQ(study::choose_coarse_technique(study::kPathReference, {256, 256}),
               "raytrace:depth=16,rays=4,indirect=paths");
 }
 
 TEST(ReferenceRays, LaterFramesFitIntoTheTime) {
     // A frame of 4 rays takes 2 s, and two frames of 64 rays take 64 s.
-    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 64), 64);
-    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 63), 32);
-    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 33), 32);
-    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 31), 16);
-    EXPECT_EQ(app::choose_refined_rays(64, 4, 2, 0), 1);
-    EXPECT_EQ(app::choose_refined_rays(100, 4, 1e-9, 60), 100);
-    EXPECT_EQ(app::choose_refined_rays(64, 4, 0, 60), 64) << "a clock without progress";
+    EXPECT_EQ(study::choose_refined_rays(64, 4, 2, 64), 64);
+    EXPECT_EQ(study::choose_refined_rays(64, 4, 2, 63), 32);
+    EXPECT_EQ(study::choose_refined_rays(64, 4, 2, 33), 32);
+    EXPECT_EQ(study::choose_refined_rays(64, 4, 2, 31), 16);
+    EXPECT_EQ(study::choose_refined_rays(64, 4, 2, 0), 1);
+    EXPECT_EQ(study::choose_refined_rays(100, 4, 1e-9, 60), 100);
+    EXPECT_EQ(study::choose_refined_rays(64, 4, 0, 60), 64) << "a clock without progress";
 }
 
 } // namespace

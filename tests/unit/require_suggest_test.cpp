@@ -264,7 +264,7 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
     bool is_traced = false, is_searched = false;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const scene::Scene scene = scene::scene_at_time(scene::make_cornell_mirrors(), 0);
-        const scene::Camera camera = app::make_seeded_camera(scene, 0, seed);
+        const scene::Camera camera = session::make_seeded_camera(scene, 0, seed);
         const RequiredWorkModelInput question{scene, camera, {96, 96}};
         const MirrorPathCounts paths = trace_mirror_paths(question);
         const PlanSuggestion suggestion = suggest_technique_plan(question);

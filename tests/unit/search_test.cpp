@@ -19,7 +19,7 @@ using namespace catoptric;
 using testing::Contains;
 using testing::HasSubstr;
 
-const app::RegisteredSearch kTestSearch{
+const session::RegisteredSearch kTestSearch{
     {.name = "test_search",
      .summary = "For a test.",
      .shader = "test_search.frag",
@@ -27,9 +27,9 @@ const app::RegisteredSearch kTestSearch{
      .continues = true,
      .compared = {"test_search", "test_search:much=2"}}};
 
-std::string search_error_text(app::Search search) {
+std::string search_error_text(session::Search search) {
     try {
-        app::add_search(std::move(search));
+        session::add_search(std::move(search));
     } catch (const UsageError& error) {
         return error.what();
     }
@@ -38,7 +38,7 @@ std::string search_error_text(app::Search search) {
 
 std::string technique_error_text(const std::string& technique) {
     try {
-        static_cast<void>(app::parse_technique(technique));
+        static_cast<void>(session::parse_technique(technique));
     } catch (const UsageError& error) {
         return error.what();
     }
@@ -46,13 +46,14 @@ std::string technique_error_text(const std::string& technique) {
 }
 
 TEST(Search, AddedSearchIsInTheTableOfTechniques) {
-    const app::ParsedTechnique choice = app::parse_technique("test_search:much=1.5,face=64");
+    const session::ParsedTechnique choice = session::parse_technique(
+        "test_search:much=1.5,face=64");
     EXPECT_EQ(choice.settings.front().number, 1.5);
-    EXPECT_EQ(choice.settings.size(), app::parse_technique("secant").settings.size());
+    EXPECT_EQ(choice.settings.size(), session::parse_technique("secant").settings.size());
     const scene::Scene room = scene::make_cornell_mirrors();
-    EXPECT_THAT(app::list_default_techniques({.scene = room}), Contains("test_search:much=2"));
+    EXPECT_THAT(study::list_default_techniques({.scene = room}), Contains("test_search:much=2"));
     try {
-        app::parse_technique("test_search:much=some");
+        session::parse_technique("test_search:much=some");
         FAIL();
     } catch (const UsageError& error) {
         EXPECT_STREQ(error.what(),
@@ -61,12 +62,14 @@ TEST(Search, AddedSearchIsInTheTableOfTechniques) {
 }
 
 TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
-    app::add_search({.name = "test_short", .shader = "test_short.frag"});
+    session::add_search({.name = "test_short", .shader = "test_short.frag"});
     for (const char* knob : {"continue=0", "captures=own", "mirrors=captured"})
         EXPECT_THAT(technique_error_text("test_short:" + std::string(knob)),
                     HasSubstr("technique 'test_short' has no knob '"));
-    const app::ParsedTechnique choice = app::parse_technique("test_short:face=64,show=state");
-    EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
+    const session::ParsedTechnique choice = session::parse_technique(
+        "test_short:face=64,show=state");
+    EXPECT_EQ(choice.settings.size() + 3,
+              session::parse_technique("test_search").settings.size() - 1);
 }
 
 /// Returns whether a picture of the built-in scene by the technique requires complete captures.
@@ -83,9 +86,9 @@ TEST(Search, AddedSearchMayAskTheCapturesOfAllMirrors) {
 }
 
 TEST(Search, OwnKnobsMayHaveNamesOfKnobsThatOtherTechniquesHave) {
-    app::add_search({.name = "test_names",
-                     .shader = "test_names.frag",
-                     .knobs = {{.name = "rest"}, {.name = "without"}, {.name = "capture"}}});
+    session::add_search({.name = "test_names",
+                         .shader = "test_names.frag",
+                         .knobs = {{.name = "rest"}, {.name = "without"}, {.name = "capture"}}});
     EXPECT_FALSE(does_technique_read_all_captures("test_names:rest=1,without=1,capture=0"));
 }
 
@@ -111,14 +114,14 @@ TEST(Search, InvalidSearchIsRefusedWithTheReason) {
                 HasSubstr("wanted whole numbers from 0 to 4294967295, found 0 to 1 and 0.5"));
     EXPECT_THAT(search_error_text({.name = "outside", .knobs = {{.name = "a", .low = -1}}}),
                 HasSubstr("found -1 to 1 and 0; is_real allows others"));
-    EXPECT_THROW(app::parse_technique("twice"), UsageError) << "refused ones are not added";
+    EXPECT_THROW(session::parse_technique("twice"), UsageError) << "refused ones are not added";
 }
 
 TEST(Search, ShaderThatExistsAlreadyIsRefused) {
     const std::uint32_t words[] = {1};
-    const app::Shader taken[] = {{"reflect/secant.frag", words}};
+    const session::Shader taken[] = {{"reflect/secant.frag", words}};
     try {
-        app::RegisteredShaders{taken};
+        session::RegisteredShaders{taken};
         FAIL();
     } catch (const UsageError& error) {
         EXPECT_STREQ(error.what(), "there is a shader 'reflect/secant.frag' already");

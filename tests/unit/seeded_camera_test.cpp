@@ -52,7 +52,7 @@ TEST(SeededCamera, SeededCameraSeesTheFrontOfAMirrorAtAnySceneScale) {
         const scene::Scene scene = make_moved_lit_room(mirrors, scale, by);
         std::set<std::string> drawn;
         for (std::uint64_t seed = 0; seed < kSeedCount; ++seed) {
-            const scene::Camera camera = app::make_seeded_camera(scene, 0, seed);
+            const scene::Camera camera = session::make_seeded_camera(scene, 0, seed);
             drawn.insert(camera.name);
             // A seeded camera sees a mirror with at least 11 of its 1024 rays, a share of .011. The
             // grid of rays can overestimate the share, so the bound is lower.
@@ -71,8 +71,8 @@ TEST(SeededCamera, SeededCameraSeesTheFrontOfAMirrorAtAnySceneScale) {
 TEST(SeededCamera, EqualSeedsAndInstantsGiveEqualCameras) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     for (std::uint64_t seed = 0; seed < kSeedCount; ++seed) {
-        const scene::Camera a = app::make_seeded_camera(scene, 1.5, seed),
-                            b = app::make_seeded_camera(scene, 1.5, seed);
+        const scene::Camera a = session::make_seeded_camera(scene, 1.5, seed),
+                            b = session::make_seeded_camera(scene, 1.5, seed);
         EXPECT_EQ(a.eye, b.eye);
         EXPECT_EQ(a.target, b.target);
         EXPECT_EQ(a.vertical_fov_degrees, b.vertical_fov_degrees);
@@ -85,12 +85,12 @@ TEST(SeededCamera, SeededCameraIsInFrontOfAFlatMirror) {
     test::add_quad(scene, "pane", mirror, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0},
                    {-.5, .5, 0}); // the mirror faces +z
     for (std::uint64_t seed = 0; seed < kSeedCount; ++seed)
-        EXPECT_GT(app::make_seeded_camera(scene, 0, seed).eye.z, 0) << seed;
+        EXPECT_GT(session::make_seeded_camera(scene, 0, seed).eye.z, 0) << seed;
 }
 
 TEST(SeededCamera, SceneWithoutMirrorsGetsSeededCameras) {
-    EXPECT_NE(app::make_seeded_camera(test::make_lit_room(0, 1), 0, 1).name,
-              app::make_seeded_camera(test::make_lit_room(0, 1), 0, 2).name);
+    EXPECT_NE(session::make_seeded_camera(test::make_lit_room(0, 1), 0, 1).name,
+              session::make_seeded_camera(test::make_lit_room(0, 1), 0, 2).name);
 }
 
 TEST(SeededCamera, SeedingFailsIfNoMirrorCanBeSeen) {
@@ -101,7 +101,7 @@ TEST(SeededCamera, SeedingFailsIfNoMirrorCanBeSeen) {
     for (int face = 0; face < 6; ++face)
         test::add_mesh(hidden, test::make_box_wall(face, dvec3(-1.01), dvec3(1.01)), white);
     for (const scene::Scene& scene : {hidden, scene::Scene{.name = "empty"}}) try {
-            app::make_seeded_camera(scene, 0, 5);
+            session::make_seeded_camera(scene, 0, 5);
             ADD_FAILURE() << scene.name;
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::usage);

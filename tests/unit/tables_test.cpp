@@ -79,7 +79,7 @@ constexpr reflect::Technique kTestOnlyTechnique{.name = "testonly",
                                                 .search = "reflect/naive.frag"};
 const reflect::RegisteredTechnique kTestOnlyTechniqueEntry{kTestOnlyTechnique};
 
-const app::RegisteredStudy kTestOnlyStudy{
+const study::RegisteredStudy kTestOnlyStudy{
     {.name = "test-only",
      .help = "for a test",
      .number = "N",
@@ -87,10 +87,10 @@ const app::RegisteredStudy kTestOnlyStudy{
      .high = 5,
      .check_reference =
          [](const std::string& reference) {
-             check(reference == app::kReference, Failure::usage, "test-only: no reference");
+             check(reference == study::kReference, Failure::usage, "test-only: no reference");
          },
      .run =
-         [](const app::StudyInput& input) {
+         [](const study::StudyInput& input) {
              for (measure::Row& row : input.comparison.rows)
                  measure::set_row_metric_of_study(row, "test_only_half", input.count / 2.0);
          },
@@ -127,7 +127,7 @@ TEST(Tables, MetricsAndStudiesSayWhatTheyAre) {
             EXPECT_FALSE(column.title.empty()) << metric.name;
     }
     EXPECT_GT(units, 5);
-    for (const app::Study& study : app::list_studies())
+    for (const study::Study& study : study::list_studies())
         EXPECT_FALSE(study.help.empty()) << study.name;
 }
 
@@ -174,13 +174,13 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
 
 TEST(Tables, RegisteredStudyIsFoundAndAskedForItsReference) {
     std::vector<std::string_view> names;
-    for (const app::Study& study : app::list_studies()) names.push_back(study.name);
+    for (const study::Study& study : study::list_studies()) names.push_back(study.name);
     EXPECT_THAT(names, testing::ElementsAre("path-distance", "views", "causes", "lag", "row-times",
                                             "work", "costs", "truth-causes", "test-only"));
-    EXPECT_NO_THROW(app::check_study({"test-only", 2}, app::kReference));
-    EXPECT_THROW(app::check_study({"test-only", 2}, "raytrace"), Error);
+    EXPECT_NO_THROW(study::check_study({"test-only", 2}, study::kReference));
+    EXPECT_THROW(study::check_study({"test-only", 2}, "raytrace"), Error);
     try {
-        app::check_study({"cause"}, app::kReference);
+        study::check_study({"cause"}, study::kReference);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::usage);
@@ -251,7 +251,7 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
     ASSERT_EQ(read.punctual.size(), 1u);
     EXPECT_EQ(read.punctual[0].kind, kTestOnlyLightKind);
     EXPECT_NEAR(read.punctual[0].cos_outer, std::cos(.4), 1e-12);
-    EXPECT_EQ(app::list_light_facts(read).back().kind, "test-only");
+    EXPECT_EQ(session::list_light_facts(read).back().kind, "test-only");
     EXPECT_FALSE(scene::list_lights(read).back().directional);
     EXPECT_EQ(scene::list_lights(read).back().cos_outer, read.punctual[0].cos_outer);
 
@@ -271,9 +271,9 @@ TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
-    EXPECT_EQ(app::parse_technique("testonly:much=3").settings[0].number, 3.0);
-    EXPECT_EQ(app::techniques().back().name, "testonly");
-    const std::vector<std::string> rows = app::list_default_techniques(
+    EXPECT_EQ(session::parse_technique("testonly:much=3").settings[0].number, 3.0);
+    EXPECT_EQ(session::techniques().back().name, "testonly");
+    const std::vector<std::string> rows = study::list_default_techniques(
         {.scene = scene::make_cornell_mirrors()});
     EXPECT_THAT(rows, Contains("testonly:much=2"));
     EXPECT_THAT(rows, Contains("naive:bounces=0"));

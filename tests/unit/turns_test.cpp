@@ -53,7 +53,7 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
 }
 
 TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
-    app::CaptureCostEstimate pace;
+    session::CaptureCostEstimate pace;
     EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
     EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "no mirror was drawn";
@@ -64,19 +64,19 @@ TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
     for (int k = 0; k < 4; ++k) pace.add(900, 1);
     for (int k = 0; k < 5; ++k) pace.add(4, 1);
     EXPECT_EQ(pace.count_affordable_captures(8, 16), 2u) << "the median of the last nine";
-    app::CaptureCostEstimate at_once;
+    session::CaptureCostEstimate at_once;
     at_once.add(0, 1);
     EXPECT_EQ(at_once.count_affordable_captures(1, 16), 16u);
 }
 
 TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
-    EXPECT_EQ(app::describe_capture_budget({.mirrors = 16, .most = 3}),
+    EXPECT_EQ(session::describe_capture_budget({.mirrors = 16, .most = 3}),
               "captures: at most 3 of 16 mirrors a frame; a reflection is at most 5 frames old, "
               "and 6 more for each further mirror on the light's path");
-    EXPECT_EQ(app::describe_capture_budget({.mirrors = 4, .most = 2}),
+    EXPECT_EQ(session::describe_capture_budget({.mirrors = 4, .most = 2}),
               "captures: at most 2 of 4 mirrors a frame; a reflection is at most 1 frame old, "
               "and 2 more for each further mirror on the light's path");
-    EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_cycle(), 1u);
+    EXPECT_EQ((session::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_cycle(), 1u);
 }
 
 } // namespace

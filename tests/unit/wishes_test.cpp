@@ -136,13 +136,14 @@ TEST(Over, CombinedOverridesHoldEachPatternOnce) {
 TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
     Scene scene = make_override_test_scene();
     scene.objects[1].name = "it's a * [1]=2";
-    const std::vector<std::string> options = app::suggest_mirror_options(scene);
+    const std::vector<std::string> options = session::suggest_mirror_options(scene);
     EXPECT_THAT(options, ElementsAre("--mirror 'frame/glass'"))
         << "what emits light is no candidate";
     scene.materials[0].emission_texture.emplace();
-    EXPECT_EQ(app::suggest_mirror_options(scene).size(), 3u) << "what glows here and there is one";
+    EXPECT_EQ(session::suggest_mirror_options(scene).size(), 3u)
+        << "what glows here and there is one";
     scene.materials[0].emission_texture.reset(), scene.materials[0].emission = vec3(0);
-    EXPECT_THAT(app::suggest_mirror_options(scene),
+    EXPECT_THAT(session::suggest_mirror_options(scene),
                 ElementsAre("--mirror 'frame/glass'", "--mirror 'table top'",
                             "--mirror 'it'\\''s a \\* \\[1]=2=1'"));
     const MirrorOverride wish = read_mirror_override("--mirror",
@@ -304,17 +305,17 @@ TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
 TEST(ExposureFor, ExposureBringsThe95thPercentileTo80Percent) {
     measure::Picture picture(10, 10);
     for (std::size_t i = 0; i < 100; ++i) picture.pixels[i] = vec3(i < 90 ? .01f : .1f);
-    EXPECT_EQ(app::choose_exposure_for_picture(picture), 3) << "log2(.8 / .1)";
+    EXPECT_EQ(session::choose_exposure_for_picture(picture), 3) << "log2(.8 / .1)";
     for (vec3& pixel : picture.pixels) pixel *= 1.25f; // log2(.8 / .125) = 2.68, nearest to 8/3
-    EXPECT_DOUBLE_EQ(app::choose_exposure_for_picture(picture), 8.0 / 3);
+    EXPECT_DOUBLE_EQ(session::choose_exposure_for_picture(picture), 8.0 / 3);
     picture.pixels.assign(100, vec3(0, 1, 0)); // luminance .7152 (Rec. 709)
-    EXPECT_EQ(app::choose_exposure_for_picture(picture), 0);
+    EXPECT_EQ(session::choose_exposure_for_picture(picture), 0);
     picture.pixels.assign(100, vec3(0, 0, 1)); // luminance .0722 (Rec. 709): 3.47 stops
-    EXPECT_DOUBLE_EQ(app::choose_exposure_for_picture(picture), 10.0 / 3);
+    EXPECT_DOUBLE_EQ(session::choose_exposure_for_picture(picture), 10.0 / 3);
     picture.pixels.assign(100, vec3(NAN));
-    EXPECT_EQ(app::choose_exposure_for_picture(picture), 0);
+    EXPECT_EQ(session::choose_exposure_for_picture(picture), 0);
     picture.pixels.assign(100, vec3(0));
-    EXPECT_EQ(app::choose_exposure_for_picture(picture), 0);
+    EXPECT_EQ(session::choose_exposure_for_picture(picture), 0);
 }
 
 } // namespace

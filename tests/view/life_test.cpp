@@ -38,9 +38,9 @@ TEST_F(ViewLifetimeTest, MemoryStaysConstantOverFrames) {
     driver.after = [&](const ViewReport& report) {
         if (report.frame < 200 || report.frame % kWindowFrames != 0) return;
         resident.push_back(read_resident_bytes());
-        on_device.push_back(
-            app::Access::session_counters(const_cast<SceneViewer&>(report.viewer).viewer_session())
-                .memory_bytes);
+        on_device.push_back(session::Access::session_counters(
+                                const_cast<SceneViewer&>(report.viewer).viewer_session())
+                                .memory_bytes);
     };
     EXPECT_EQ(run_view_in_test({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32",
                                 "--frames", "500", "--animate"},

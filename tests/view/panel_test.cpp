@@ -95,7 +95,7 @@ protected:
                 EXPECT_LE(state.chosen, 4u);
             }
         for (const std::string& text : texts)
-            EXPECT_NO_THROW(static_cast<void>(app::parse_technique(text))) << text;
+            EXPECT_NO_THROW(static_cast<void>(session::parse_technique(text))) << text;
         return texts;
     }
     static EditedPlanState plan_of_view_state(const ViewState& state) { return state.plan; }

@@ -127,15 +127,15 @@ TEST_F(ViewPictureTest, ReferenceRestartsWhenTheViewChanges) {
 /// Draws every technique and changes up to three of its knobs while the window runs.
 TEST_F(ViewPictureTest, EveryTechniqueIsDrawnWhileItsKnobsChange) {
     std::vector<EditedPlanState> plans;
-    for (const app::TechniqueInfo& technique : app::techniques()) {
+    for (const session::TechniqueInfo& technique : session::techniques()) {
         EditedPlanState plan;
         plan.rest.technique = technique.name;
-        for (const app::KnobInfo& knob : technique.knobs)
+        for (const session::KnobInfo& knob : technique.knobs)
             if (knob.name == "face" || knob.name == "shadow_map")
                 set_knob_from_text(plan.rest, knob, "16");
         plans.push_back(plan);
         std::size_t turned = 0;
-        for (const app::KnobInfo& knob : technique.knobs) {
+        for (const session::KnobInfo& knob : technique.knobs) {
             if (turned == 3) break;
             if (plan.rest.knobs.contains(knob.name)) continue;
             const std::string value = knob.choices.empty() ? std::to_string(static_cast<int>(

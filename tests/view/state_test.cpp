@@ -21,8 +21,9 @@ using namespace catoptric;
 using namespace catoptric::view;
 using testing::ElementsAre;
 
-const app::KnobInfo& find_knob_info(const std::string& technique, const std::string& name) {
-    return *std::ranges::find(find_technique_info(technique)->knobs, name, &app::KnobInfo::name);
+const session::KnobInfo& find_knob_info(const std::string& technique, const std::string& name) {
+    return *std::ranges::find(find_technique_info(technique)->knobs, name,
+                              &session::KnobInfo::name);
 }
 
 TEST(ViewPlan, PlanTextMatchesTheCommandLine) {
@@ -186,7 +187,7 @@ TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
     state.other = state.plan; // a frame accepts each technique only once
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid"));
     state.against = ComparisonPicture::reference;
-    EXPECT_EQ(choose_shown_pictures(state).second, app::WindowPictures::kCanvasPicture);
+    EXPECT_EQ(choose_shown_pictures(state).second, session::WindowPictures::kCanvasPicture);
     EXPECT_TRUE(needs_host_picture(state));
     state.mode = ViewMode::answers;
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid:show=state"));
