@@ -28,7 +28,9 @@ Light read_light(uint light) {
     return lights[light];
 }
 // Returns whether the light has a surface, which rays and captures show.
-bool is_light_a_lamp(uint light) { return read_light(light).kind >= kLightKindTwoSidedLamp; }
+bool is_light_a_lamp(uint light) {
+    return read_light(light).kind == kLightKindTwoSidedLamp || read_light(light).kind == kLightKindLamp;
+}
 bool is_directional_light(uint light) { return light_kinds != 0u && read_light(light).kind == kLightKindDirectional; }
 
 #endif
