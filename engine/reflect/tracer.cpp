@@ -36,12 +36,12 @@ bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
-/// Declares the pass that sets a tracer's counters to 0.
-graph::BufferHandle add_counters_with_reset(graph::Graph& graph, const std::string& prefix,
+/// Declares the pass that sets a tracer's counters to 0. `pass`: name of the tracing pass.
+graph::BufferHandle add_counters_with_reset(graph::Graph& graph, std::string name,
                                             const std::string& pass) {
     const graph::BufferHandle counters = graph.add_buffer(
-        {prefix + "counters", sizeof(shared::Counters)});
-    graph.add_pass(prefix + pass + "/reset")
+        {std::move(name), sizeof(shared::Counters)});
+    graph.add_pass(pass + "/reset")
         .writes(counters, ResourceUse::copy_to)
         .record([=](graph::PassCommands& commands) { commands.fill_buffer(counters, 0); });
     return counters;
@@ -153,7 +153,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     const uvec2 size = inputs.size;
     const TracedPicture traced{
         graph.add_image({inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y}),
-        add_counters_with_reset(graph, inputs.prefix, "raytrace")};
+        add_counters_with_reset(graph, inputs.prefix + "counters", inputs.prefix + "raytrace")};
     request_ray_tracing_data(inputs.requests, tracer);
     const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, "");
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
@@ -180,7 +180,8 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
     };
     const FirstSurfaceImages images{add_image("normals_and_distances"),
                                     add_image("objects_and_roughness"),
-                                    add_counters_with_reset(graph, inputs.prefix, "first_surface")};
+                                    add_counters_with_reset(graph, inputs.prefix + "first_surface/counters",
+                                                            inputs.prefix + "first_surface")};
     const TracerSettings tracer;
     request_ray_tracing_data(inputs.requests, tracer);
     graph.add_pass(inputs.prefix + "first_surface")
