@@ -28,10 +28,22 @@ sys.dont_write_bytecode = True
 import scenes
 
 SHIPPED = ["cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat", "gallery", "room"]
-ROWS = ["auto", "reuse", "parallax", "proxy", "secant", "march", "pyramid", "layered", "hybrid", "planar",
-        "raytrace:depth=4", "raytrace:depth=8", "raytrace:depth=4,first=raster", "raytrace:depth=8,first=raster"]
+TRACED_KNOBS = ["depth=4", "depth=8", "depth=4,first=raster", "depth=8,first=raster"]
 ROUGH_ROWS = [f"raytrace:depth=4,rays={rays}{first}" for rays in (1, 4, 16) for first in ("", ",first=raster")]
 FASTER, BETTER = 1.15, 1.1
+
+
+def list_rows(program):
+    """Returns `auto`, every technique that draws each mirror's capture at most once, and rows of ray tracing alone."""
+    listed = subprocess.run([program, "list", "techniques", "--json"], capture_output=True, text=True, check=True).stdout
+    rows = ["auto"]
+    for technique in json.loads(listed)["techniques"]:
+        name, traits = technique["name"], technique["traits"]
+        if traits["captures"] == "shared" or traits["mirrored_views"]:
+            rows.append(name)
+        elif traits["rays"]:
+            rows += [f"{name}:{knobs}" for knobs in TRACED_KNOBS]
+    return rows
 
 
 def measured(arguments, name, scene, view, rows, timing):
@@ -113,7 +125,7 @@ def main():
     parser.add_argument("--size", default="96x96")
     parser.add_argument("--rounds", type=int, default=6)
     parser.add_argument("--frames", type=int, help="measured, of each row; two a round if not given")
-    parser.add_argument("--rows", nargs="+", default=ROWS)
+    parser.add_argument("--rows", nargs="+", help="rows to compare with auto, and auto; by default all techniques")
     parser.add_argument("--rough", type=float, help="roughness of the mirrors")
     parser.add_argument("--again", action="store_true")
     parser.add_argument("program")
@@ -121,6 +133,7 @@ def main():
     parser.add_argument("scene", nargs="*")
     arguments = parser.parse_args()
     arguments.scene_options = []
+    arguments.rows = arguments.rows or list_rows(arguments.program)
     if arguments.rough:
         arguments.scene_options = ["--mirror", f"mirror,roughness={arguments.rough}", "--reference-seconds", "10"]
         arguments.rows = [*arguments.rows, *ROUGH_ROWS]

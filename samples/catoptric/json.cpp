@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace catoptric::cli {
 
@@ -194,6 +195,15 @@ std::string make_devices_json(const std::vector<session::DeviceInfo>& devices) {
     return serialise_json({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
+Json make_traits_json(const TechniqueTraits& traits) {
+    constexpr std::array<const char*, 3> kCaptures{"none", "own", "shared"},
+        kNoises{"none", "rays", "history"};
+    return {{"captures", kCaptures[static_cast<std::size_t>(traits.captures)]},
+            {"mirrored_views", traits.draws_mirrored_views},
+            {"rays", traits.traces_rays},
+            {"noise", kNoises[static_cast<std::size_t>(traits.noise)]}};
+}
+
 std::string make_techniques_json(const std::vector<session::TechniqueInfo>& techniques) {
     Json rows = Json::array();
     for (const session::TechniqueInfo& technique : techniques) {
@@ -209,7 +219,10 @@ std::string make_techniques_json(const std::vector<session::TechniqueInfo>& tech
             knobs.push_back(row);
         }
         rows.push_back(
-            {{"name", technique.name}, {"summary", technique.summary}, {"knobs", knobs}});
+            {{"name", technique.name},
+             {"summary", technique.summary},
+             {"traits", make_traits_json(session::parse_technique(technique.name).traits())},
+             {"knobs", knobs}});
     }
     return serialise_json({{"schema", "catoptric/list/1"}, {"techniques", rows}});
 }

@@ -11,7 +11,7 @@ LABELS = {
     "sweep": ("snakemake", "procps", "python3-venv"),
     "slurm": ("snakemake", "slurmctld", "slurmd", "slurm-client", "munge"),
     "python": ("python3-venv", "python3-dev"),
-    "clone": (),
+    "clone": (), "guides": (),
     "docs": ("mkdocs", "chromium", "chromium-driver", "python3-selenium"),
     "fuzz": (),
     "renderers": ("chromium", "chromium-driver", "python3-selenium", "blender", "python3-numpy", "xvfb", "xauth",
@@ -20,7 +20,7 @@ LABELS = {
     "long": ("clang-16", "libclang-rt-16-dev"),
 }
 # Labels that the usual suite leaves out (CMakePresets.json).
-OUTSIDE = {"page", "sweep", "slurm", "python", "clone", "docs", "fuzz", "renderers", "limits-all", "long"}
+OUTSIDE = {"page", "sweep", "slurm", "python", "clone", "guides", "docs", "fuzz", "renderers", "limits-all", "long"}
 # Packages in whose place a program of another source will do.
 PROGRAMS = {"npm": "npm"}
 
@@ -45,6 +45,7 @@ PATHS = [
     ("tests/fuzz/*", "long/fuzz_*"),
     ("tests/fuzzed/*", "fuzzed | fuzz"),
     ("tests/golden/*", "unit"),
+    ("tests/guides/*", "guides"),
     ("tests/gpu/*", "gpu | limits/gpu/*"),
     ("tests/install/*", "install"),
     ("tests/limits/*", "limits | limits-all"),
@@ -101,6 +102,7 @@ PATHS = [
     ("docs/site/*", "docs/site install"),
     ("docs/*", "docs/cover docs/tutorial docs/site | docs"),
     ("README.md", "docs/cover docs/site clone"),
+    ("CONTRIBUTING.md", "docs/cover docs/site guides"),
     ("*.md", "docs/cover docs/site"),
     ("mkdocs.yml", "docs/site"),
     ("LICENSE", "install"),
