@@ -131,47 +131,42 @@ void make_pipeline_layout(const GpuDevice& device, const std::string& name,
 }
 
 /// Creates a raster pipeline with the fixed-function state that all raster pipelines share.
-VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
-                                std::span<const VkPipelineShaderStageCreateInfo> stages,
-                                const AttachmentFormats& attachments,
-                                const RasterPipelineState& state, bool reads_vertices,
-                                VkPipelineLayout layout, const std::string& name) {
-    const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
+constexpr VkVertexInputBindingDescription kVertexBinding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
-    const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{
-        {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, position)},
-         {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, normal)}}};
-    VkPipelineVertexInputStateCreateInfo vertices{
-        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    vertices.vertexBindingDescriptionCount = reads_vertices ? 1 : 0;
-    vertices.pVertexBindingDescriptions = &vertex_binding;
-    vertices.vertexAttributeDescriptionCount = reads_vertices ? static_cast<std::uint32_t>(
-                                                                    vertex_attributes.size())
-                                                              : 0;
-    vertices.pVertexAttributeDescriptions = vertex_attributes.data();
-    VkPipelineInputAssemblyStateCreateInfo assembly{
-        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{
-        VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = viewport.scissorCount = 1;
+constexpr std::array<VkVertexInputAttributeDescription, 2> kVertexAttributes{
+    {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, position)},
+     {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, normal)}}};
+
+VkPipelineRasterizationStateCreateInfo make_rasterization_state(TriangleWinding hidden) {
     VkPipelineRasterizationStateCreateInfo raster{
         VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     raster.polygonMode = VK_POLYGON_MODE_FILL;
-    raster.cullMode = state.hidden == TriangleWinding::none ? VK_CULL_MODE_NONE
-                                                            : VK_CULL_MODE_BACK_BIT;
-    raster.frontFace = state.hidden == TriangleWinding::counterclockwise
+    raster.cullMode = hidden == TriangleWinding::none ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+    raster.frontFace = hidden == TriangleWinding::counterclockwise
                            ? VK_FRONT_FACE_CLOCKWISE
                            : VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
-    VkPipelineMultisampleStateCreateInfo samples{
-        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    return raster;
+}
+
+VkPipelineDepthStencilStateCreateInfo make_depth_state(bool is_tested, Blending blending) {
     VkPipelineDepthStencilStateCreateInfo depth{
         VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = attachments.depth;
-    depth.depthWriteEnable = attachments.depth && state.blending == Blending::none;
+    depth.depthTestEnable = is_tested;
+    depth.depthWriteEnable = is_tested && blending == Blending::none;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER;
+    return depth;
+}
+
+std::vector<VkFormat> list_colour_formats(const AttachmentFormats& attachments) {
+    std::vector<VkFormat> formats;
+    for (const TexelFormat format : attachments.colour) formats.push_back(to_vk_format(format));
+    return formats;
+}
+
+/// Returns how each of `count` colour attachments is written. Only the first is blended.
+std::vector<VkPipelineColorBlendAttachmentState> list_blend_states(const RasterPipelineState& state,
+                                                                   std::size_t count) {
     VkPipelineColorBlendAttachmentState write{};
     write.colorWriteMask = 0xf;
     write.blendEnable = state.blending != Blending::none;
@@ -181,10 +176,40 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
     if (state.blending == Blending::sum)
         write.srcColorBlendFactor = write.dstColorBlendFactor = write.dstAlphaBlendFactor =
             VK_BLEND_FACTOR_ONE;
-    std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
+    std::vector<VkPipelineColorBlendAttachmentState> writes(count, write);
     if (state.blending != Blending::none && !writes.empty())
         std::fill(writes.begin() + 1, writes.end(), decltype(write){});
     if (state.keeps_colour && !writes.empty()) writes.front() = {};
+    return writes;
+}
+
+VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
+                                std::span<const VkPipelineShaderStageCreateInfo> stages,
+                                const AttachmentFormats& attachments,
+                                const RasterPipelineState& state, bool reads_vertices,
+                                VkPipelineLayout layout, const std::string& name) {
+    VkPipelineVertexInputStateCreateInfo vertices{
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    if (reads_vertices) {
+        vertices.vertexBindingDescriptionCount = 1;
+        vertices.vertexAttributeDescriptionCount = kVertexAttributes.size();
+    }
+    vertices.pVertexBindingDescriptions = &kVertexBinding;
+    vertices.pVertexAttributeDescriptions = kVertexAttributes.data();
+    VkPipelineInputAssemblyStateCreateInfo assembly{
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{
+        VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = viewport.scissorCount = 1;
+    const VkPipelineRasterizationStateCreateInfo raster = make_rasterization_state(state.hidden);
+    VkPipelineMultisampleStateCreateInfo samples{
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    const VkPipelineDepthStencilStateCreateInfo depth = make_depth_state(attachments.depth,
+                                                                         state.blending);
+    const std::vector<VkPipelineColorBlendAttachmentState> writes = list_blend_states(
+        state, attachments.colour.size());
     VkPipelineColorBlendStateCreateInfo blend{
         VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<std::uint32_t>(writes.size());
@@ -193,8 +218,7 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
-    std::vector<VkFormat> formats;
-    for (TexelFormat format : attachments.colour) formats.push_back(to_vk_format(format));
+    const std::vector<VkFormat> formats = list_colour_formats(attachments);
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
     rendering.pColorAttachmentFormats = formats.data();

@@ -145,6 +145,35 @@ bool must_read_face_comparisons(const CaptureCache& captures, std::uint32_t most
     return captures.differing && (most > 0 || captures.is_late);
 }
 
+namespace {
+
+/// Decides what the frame does with each capture. Returns whether some capture was there in the
+/// frame before.
+bool decide_redraws(const CaptureUpdateDecider& decider, const std::vector<CaptureOptions>& layout,
+                    std::uint32_t most, FrameCaptureUpdate& feeding) {
+    CaptureCache& kept = *feeding.kept;
+    const auto mirrors = static_cast<std::uint32_t>(layout.size());
+    bool any_there = false;
+    std::vector<CaptureRedrawRequest> asking;
+    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
+        feeding.was_there.push_back(decider.had_same_capture_layout_before(mirror));
+        any_there = any_there || feeding.was_there.back();
+        if (layout[mirror].face == 0) continue;
+        decider.decide_capture_face_work(mirror, feeding.work, kept);
+        if (most > 0 && kept.changes[mirror] != CaptureChangeKind::none &&
+            decider.can_capture_redraw_wait(mirror, feeding.work))
+            asking.push_back({mirror, decider.frames_redraw_waited(mirror)});
+    }
+    for (const std::uint32_t mirror : choose_postponed_capture_redraws(std::move(asking), most))
+        decider.postpone_capture_redraw(mirror, feeding.work, kept);
+    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror)
+        kept.is_late = kept.is_late || (kept.changes[mirror] != CaptureChangeKind::none &&
+                                        decider.frames_redraw_waited(mirror) > 0);
+    return any_there;
+}
+
+} // namespace
+
 FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
                                             const std::string& name,
                                             const std::vector<CaptureOptions>& options,
@@ -176,23 +205,9 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
     kept.options = layout;
     kept.faces.resize(mirrors), kept.changes.resize(mirrors), kept.saw.resize(mirrors);
     kept.waited.resize(mirrors);
-    const CaptureUpdateDecider decider(inputs.scene, model, layout, known, comparisons != nullptr);
-    bool any_there = false;
-    std::vector<CaptureRedrawRequest> asking;
-    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
-        feeding.was_there.push_back(decider.had_same_capture_layout_before(mirror));
-        any_there = any_there || feeding.was_there.back();
-        if (layout[mirror].face == 0) continue;
-        decider.decide_capture_face_work(mirror, feeding.work, kept);
-        if (most > 0 && kept.changes[mirror] != CaptureChangeKind::none &&
-            decider.can_capture_redraw_wait(mirror, feeding.work))
-            asking.push_back({mirror, decider.frames_redraw_waited(mirror)});
-    }
-    for (const std::uint32_t mirror : choose_postponed_capture_redraws(std::move(asking), most))
-        decider.postpone_capture_redraw(mirror, feeding.work, kept);
-    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror)
-        kept.is_late = kept.is_late || (kept.changes[mirror] != CaptureChangeKind::none &&
-                                        decider.frames_redraw_waited(mirror) > 0);
+    const bool any_there = decide_redraws(
+        CaptureUpdateDecider(inputs.scene, model, layout, known, comparisons != nullptr), layout,
+        most, feeding);
     if (known && have_equal_capture_layouts(layout, known->options) &&
         are_all_capture_faces_kept(feeding.work)) {
         kept.set = known->set;

@@ -240,26 +240,54 @@ void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& 
         [&](std::size_t i) { return wanted(i) && is_front(i); }, parts);
 }
 
+namespace {
+
+gpu::RasterPipelineState make_diffuse_state(const GpuScene& scene,
+                                            const SceneDrawSettings& drawing) {
+    gpu::RasterPipelineState diffuse{"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
+                                     make_fragment_shader_constants(scene, drawing)};
+    const ShadingTracer& tracer = drawing.completing_tracer;
+    if (tracer.number == 0) return diffuse;
+    diffuse.fragment += "#first";
+    diffuse.constants.emplace_back("tracer", tracer.number);
+    diffuse.constants.emplace_back("traces_lobes", tracer.traces_lobes ? 1u : 0u);
+    // The ray tracer continues behind blended surfaces.
+    diffuse.constants.emplace_back("drawn_parts", shared::kDrawAllParts);
+    return diffuse;
+}
+
+/// Draws all mirrors for which `wanted` returns true.
+void draw_all_mirrors(PassCommands& commands, const GpuScene& scene,
+                      const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                      std::span<const std::uint8_t> shown) {
+    const ShaderOfEachMirror& looks = *drawing.looks;
+    for (std::uint32_t look = 0; look < looks.looks.size(); ++look)
+        draw_mirrors(commands, scene, drawing, looks.looks[look],
+                     [&](std::size_t i) {
+                         const std::uint32_t mirror = scene.mirror_number_of_object(i);
+                         return mirror > 0 && looks.of_mirror[mirror - 1] == look && wanted(i);
+                     },
+                     {nullptr, shown});
+    for (const MirrorSubsetShader& part : looks.parts)
+        draw_mirrors(commands, scene, drawing, looks.looks[part.look],
+                     [&](std::size_t i) {
+                         return scene.mirror_number_of_object(i) == part.mirror + 1 && wanted(i);
+                     },
+                     {&part.triangles, shown});
+}
+
+} // namespace
+
 void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                 const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
     const DrawnObjectParts whole{nullptr, shown};
-    const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
-    const gpu::ShaderConstantValues features = make_fragment_shader_constants(scene, drawing);
+    const auto& [first_view, layers, lighting, looks, store, tracer, peeled] = drawing;
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated))
         scene.bind_ray_tracing_buffers(commands);
     bind_lighting_images(commands, lighting);
     if (peeled) commands.bind_resource("first_layer", *peeled);
-    gpu::RasterPipelineState diffuse{"", "diffuse.frag", store, gpu::TriangleWinding::none,
-                                     features};
-    if (completing_tracer.number > 0) {
-        diffuse.fragment += "#first";
-        diffuse.constants.emplace_back("tracer", completing_tracer.number);
-        diffuse.constants.emplace_back("traces_lobes", completing_tracer.traces_lobes ? 1u : 0u);
-        diffuse.constants.emplace_back("drawn_parts",
-                                       shared::kDrawAllParts); // the ray tracer continues behind
-                                                               // blended surfaces
-    }
+    gpu::RasterPipelineState diffuse = make_diffuse_state(scene, drawing);
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;
         draw_objects(
@@ -273,40 +301,23 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     const auto is_black = [&](std::size_t object) {
         return first_view == GpuScene::kCameraViewIndex && scene.does_object_enclose_camera(object);
     };
-    const auto draw_all_mirrors = [&] {
-        for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
-            draw_mirrors(
-                commands, scene, drawing, looks->looks[look],
-                [&](std::size_t i) {
-                    const std::uint32_t mirror = scene.mirror_number_of_object(i);
-                    return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
-                           !is_black(i);
-                },
-                whole);
-        for (const MirrorSubsetShader& part : looks->parts)
-            draw_mirrors(commands, scene, drawing, looks->looks[part.look],
-                         [&](std::size_t i) {
-                             return scene.mirror_number_of_object(i) == part.mirror + 1 &&
-                                    wanted(i) && !is_black(i);
-                         },
-                         {&part.triangles, shown});
-    };
+    const auto is_visible = [&](std::size_t i) { return wanted(i) && !is_black(i); };
     // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
     // shading the objects that they hide.
     const bool mirrors_first = scene.uses_bvh_over_mirrors() &&
                                first_view != GpuScene::kCameraViewIndex;
-    if (mirrors_first) draw_all_mirrors();
+    if (mirrors_first) draw_all_mirrors(commands, scene, drawing, is_visible, shown);
     draw_diffuse(false, gpu::TriangleWinding::none);
     if (std::ranges::any_of(scene.list_draw_ranges(), &ObjectDrawRange::one_sided))
         draw_diffuse(true, find_back_face_winding(scene.list_views()[first_view]));
-    if (!mirrors_first) draw_all_mirrors();
+    if (!mirrors_first) draw_all_mirrors(commands, scene, drawing, is_visible, shown);
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i)
         if (is_shut(i))
-            return draw_objects(
-                commands, scene,
-                {"", kBlackMirrorShader, store, gpu::TriangleWinding::none, features}, first_view,
-                layers, {}, is_shut, whole);
+            return draw_objects(commands, scene,
+                                {"", kBlackMirrorShader, store, gpu::TriangleWinding::none,
+                                 make_fragment_shader_constants(scene, drawing)},
+                                first_view, layers, {}, is_shut, whole);
 }
 
 void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,

@@ -37,6 +37,36 @@ bool is_shown_by_probes(const ObjectDrawRange& range) { return !range.glass; }
 bool is_lamp(const ObjectDrawRange& range) { return !range.casts_shadow && !range.glass; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
+/// Records the draws of a light probe's capture.
+void record_light_probe_capture(graph::PassCommands& commands, const GpuScene& scene,
+                                const SceneDrawSettings& drawing, bool shows_surfaces) {
+    const auto is_wanted = [&](std::size_t object) {
+        return is_shown_by_probes(scene.list_draw_ranges()[object]);
+    };
+    const std::vector<std::uint8_t> shown = find_faces_showing_objects(
+        std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
+        {shared::kLightProbeFace, scene.scene_device().vulkan_limits().subPixelPrecisionBits},
+        scene.list_draw_ranges(), {}, is_wanted);
+    const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
+    const auto is_shown_lamp = [&](std::size_t object) {
+        return is_shown(object) && is_lamp(scene.list_draw_ranges()[object]);
+    };
+    const auto is_other = [&](std::size_t object) {
+        return is_shown(object) && !is_lamp(scene.list_draw_ranges()[object]);
+    };
+    SceneDrawSettings of_lamps = drawing;
+    of_lamps.store.emplace_back("leaves_out_emission", 1u);
+    draw_scene(commands, scene, drawing, is_other, shown);
+    draw_scene(commands, scene, of_lamps, is_shown_lamp, shown);
+    gpu::ShaderConstantValues of_sky = drawing.store;
+    of_sky.emplace_back("blurs_sky", 1u);
+    draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
+    if (!shows_surfaces) return;
+    // Few lamps are blended, so they may cover blended surfaces in front of them.
+    draw_blended_surfaces(commands, scene, drawing, is_other, shown);
+    draw_blended_surfaces(commands, scene, of_lamps, is_shown_lamp, shown);
+}
+
 void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                              const LightProbes& probes, std::uint32_t probe,
                              const ShadingLights& lighting,
@@ -75,32 +105,7 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                      .store = {{"distance_scale", 1.0f},
                                {"largest_colour", kLargestFiniteHalfFloatValue}},
                      .peeled = {}}](graph::PassCommands& commands) {
-            const auto is_wanted = [&](std::size_t object) {
-                return is_shown_by_probes(scene.list_draw_ranges()[object]);
-            };
-            const std::vector<std::uint8_t> shown = find_faces_showing_objects(
-                std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
-                {shared::kLightProbeFace,
-                 scene.scene_device().vulkan_limits().subPixelPrecisionBits},
-                scene.list_draw_ranges(), {}, is_wanted);
-            const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
-            const auto is_shown_lamp = [&](std::size_t object) {
-                return is_shown(object) && is_lamp(scene.list_draw_ranges()[object]);
-            };
-            const auto is_other = [&](std::size_t object) {
-                return is_shown(object) && !is_lamp(scene.list_draw_ranges()[object]);
-            };
-            SceneDrawSettings of_lamps = drawing;
-            of_lamps.store.emplace_back("leaves_out_emission", 1u);
-            draw_scene(commands, scene, drawing, is_other, shown);
-            draw_scene(commands, scene, of_lamps, is_shown_lamp, shown);
-            gpu::ShaderConstantValues of_sky = drawing.store;
-            of_sky.emplace_back("blurs_sky", 1u);
-            draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
-            if (!shows_surfaces) return;
-            // Few lamps are blended, so they may cover blended surfaces in front of them.
-            draw_blended_surfaces(commands, scene, drawing, is_other, shown);
-            draw_blended_surfaces(commands, scene, of_lamps, is_shown_lamp, shown);
+            record_light_probe_capture(commands, scene, drawing, shows_surfaces);
         });
 }
 

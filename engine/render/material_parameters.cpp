@@ -134,6 +134,43 @@ void MaterialParameterLists::fill_texture_texels(const scene::Scene& now, std::u
     texels_.set_device_list_contents(texels);
 }
 
+namespace {
+
+/// Returns the flag of an open sheet or of a solid body of glass; 0: the glass is a thin shell.
+/// `closed`: whether meshes are closed, as far as known.
+std::uint32_t find_glass_body_flag(const scene::Scene& now, const scene::Object& object,
+                                   std::map<std::size_t, bool>& closed) {
+    const auto [entry, is_new] = closed.try_emplace(object.mesh, false);
+    const scene::Mesh& mesh = now.meshes[object.mesh];
+    if (is_new) entry->second = scene::is_closed_triangle_surface(mesh.positions, mesh.triangles);
+    if (!entry->second) return shared::kMaterialOpenSheetFlag;
+    return now.materials[object.material].solid ? shared::kMaterialSolidFlag : 0;
+}
+
+} // namespace
+
+shared::MaterialParameters MaterialParameterLists::make_parameters_of_object(
+    const scene::Scene& now, const SceneUnitTransform& space, const scene::Material& material,
+    const ObjectDrawRange& range, const DeviceVertices& vertices) const {
+    shared::MaterialParameters detail = make_material_parameters(material, range);
+    detail.ior = material.ior;
+    detail.absorption = material.absorption / space.world_to_scene_length(1);
+    detail.max_specular_roughness = now.mirror_max_roughness;
+    detail.flags |= flag_if_set(now.has_multiple_scattering && range.has_lobe,
+                                shared::kMaterialMultipleScatteringFlag);
+    // The difference may be negative as an unsigned number, because draws count vertices from the
+    // start of their own buffer. Adding it wraps around to the right value.
+    if (range.first_attribute)
+        detail.first_attribute = *range.first_attribute -
+                                 vertices.first_vertex_of_object(range.storage);
+    detail.albedo = texture_use_of_material(material.albedo_texture);
+    detail.emission = texture_use_of_material(material.emission_texture);
+    detail.rough = texture_use_of_material(material.roughness_texture);
+    detail.normal = texture_use_of_material(material.normal_texture);
+    detail.normal_scale = material.normal_scale;
+    return detail;
+}
+
 void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransform& space,
                                   const FrameGeometry& geometry, const DeviceVertices& vertices,
                                   std::uint64_t most) {
@@ -157,31 +194,10 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
     for (const std::size_t i : order) {
         const ObjectDrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
-        shared::MaterialParameters detail = make_material_parameters(material, range);
-        detail.ior = material.ior;
-        detail.absorption = material.absorption / space.world_to_scene_length(1);
-        detail.max_specular_roughness = now.mirror_max_roughness;
-        detail.flags |= flag_if_set(now.has_multiple_scattering && range.has_lobe,
-                                    shared::kMaterialMultipleScatteringFlag);
-        // The difference may be negative as an unsigned number, because draws count vertices from
-        // the start of their own buffer. Adding it wraps around to the right value.
-        if (range.first_attribute)
-            detail.first_attribute = *range.first_attribute -
-                                     vertices.first_vertex_of_object(range.storage);
-        detail.albedo = texture_use_of_material(material.albedo_texture);
-        detail.emission = texture_use_of_material(material.emission_texture);
-        detail.rough = texture_use_of_material(material.roughness_texture);
-        detail.normal = texture_use_of_material(material.normal_texture);
-        detail.normal_scale = material.normal_scale;
+        shared::MaterialParameters detail = make_parameters_of_object(now, space, material, range,
+                                                                      vertices);
         if (range.glass) {
-            const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
-            const auto [entry, is_new] = closed.try_emplace(now.objects[i].mesh, false);
-            if (is_new)
-                entry->second = scene::is_closed_triangle_surface(mesh.positions, mesh.triangles);
-            if (!entry->second)
-                detail.flags |= shared::kMaterialOpenSheetFlag;
-            else if (material.solid)
-                detail.flags |= shared::kMaterialSolidFlag;
+            detail.flags |= find_glass_body_flag(now, now.objects[i], closed);
             if (ranks[i] > 0 && details.size() < shared::kMaxRankedGlass) {
                 detail.flags |= shared::kMaterialRankedFlag;
                 any_ranked_glass_ = true;

@@ -42,6 +42,12 @@ public:
 private:
     shared::TextureUse texture_use_of_material(const std::optional<scene::Texture>& texture) const;
     void fill_texture_texels(const scene::Scene& now, std::uint64_t most);
+    /// Returns the parameters of an object that follow from its material and its draw range.
+    shared::MaterialParameters make_parameters_of_object(const scene::Scene& now,
+                                                         const SceneUnitTransform& space,
+                                                         const scene::Material& material,
+                                                         const ObjectDrawRange& range,
+                                                         const DeviceVertices& vertices) const;
 
     /// Images of the textures, in the order in which their texels lie in the texel buffer.
     std::vector<std::shared_ptr<const scene::Image>> images_;

@@ -98,64 +98,85 @@ std::string find_picture_file(const Comparison& comparison, const EncodedPicture
     return pictures.is_inlined ? std::string() : report_image_path(comparison, name);
 }
 
+/// Encodes pictures of reports as PNG, and writes them and their values into a folder.
+class PictureEncoder {
+public:
+    /// `images`: the folder; empty: nothing is written.
+    PictureEncoder(const Comparison& comparison, const fs::path& images)
+        : comparison_(comparison), images_(images) {}
+
+    void encode(std::string& png, const measure::Picture& picture, const std::string& file) const {
+        std::string bytes = picture.pixels.empty() ? "" : measure::encode_picture_png(picture);
+        if (!bytes.empty()) write(file, [&] { return bytes; });
+        png = std::move(bytes); // after a failed write, the picture still counts as new
+    }
+    void write_values(const std::string& name, const measure::Picture& picture) const {
+        if (!picture.pixels.empty())
+            write(name + ".js", [&] { return make_picture_values_script(picture, path(name)); });
+    }
+    /// Writes the bytes of a PNG as a script.
+    void write_script(const std::string& name, const std::string& png) const {
+        write(name + ".js", [&] { return make_bytes_script(png, path(name)); });
+    }
+    void encode_row(EncodedPictures::RowPngPictures& encoded, const Row& row) const {
+        if (!images_.empty() && !row.hdr.pixels.empty())
+            measure::write_exr(row.hdr, images_ / (row.image + ".exr"));
+        write_values(row.image, row.hdr);
+        encode(encoded.picture, row.display, row.image + ".png");
+        const bool has_map = !row.flip_map.empty();
+        encode(encoded.error,
+               has_map ? measure::make_heat_map(row.flip_map, row.display.width, row.display.height)
+                       : measure::Picture(),
+               row.image + "-error.png");
+        if (has_map) write_script(row.image + "-error", encoded.error);
+    }
+    void encode_reference(std::string& png) const {
+        write_values("reference", comparison_.reference_hdr);
+        if (!comparison_.mirror_hits.empty())
+            write("mirrors.js", [&] {
+                return make_mirror_pixels_script(comparison_.mirror_hits, path("mirrors"));
+            });
+        encode(png, comparison_.reference_display, "reference.png");
+    }
+
+private:
+    std::string path(const std::string& name) const {
+        return report_image_path(comparison_, name + ".js");
+    }
+    template <typename Text>
+    void write(const std::string& file, Text&& text) const {
+        if (!images_.empty()) write_file(images_ / file, text());
+    }
+    const Comparison& comparison_;
+    const fs::path& images_;
+};
+
 void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison,
                          const fs::path& images) {
-    const auto encode = [&](std::string& png, const measure::Picture& picture,
-                            const std::string& file) {
-        std::string bytes = picture.pixels.empty() ? "" : measure::encode_picture_png(picture);
-        if (!images.empty() && !bytes.empty()) write_file(images / file, bytes);
-        png = std::move(bytes); // after a failed write, the picture still counts as new
-    };
+    const PictureEncoder encoder(comparison, images);
     const int noise_frames = comparison.noise
                                  ? comparison.noise->frames * std::max(comparison.noise->rays, 1)
                                  : 0;
-    const auto write_values = [&](const std::string& name, const measure::Picture& picture) {
-        const std::string file = report_image_path(comparison, name + ".js");
-        if (!images.empty() && !picture.pixels.empty())
-            write_file(images / (name + ".js"), make_picture_values_script(picture, file));
-    };
-    if (pictures.reference.empty() || pictures.noise_frames != noise_frames) {
-        write_values("reference", comparison.reference_hdr);
-        if (!images.empty() && !comparison.mirror_hits.empty())
-            write_file(images / "mirrors.js",
-                       make_mirror_pixels_script(comparison.mirror_hits,
-                                                 report_image_path(comparison, "mirrors.js")));
-        encode(pictures.reference, comparison.reference_display, "reference.png");
-    }
+    if (pictures.reference.empty() || pictures.noise_frames != noise_frames)
+        encoder.encode_reference(pictures.reference);
     pictures.noise_frames = noise_frames;
     pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
         EncodedPictures::RowPngPictures& encoded = pictures.rows[i];
         if (encoded.pictured != row.pictured || encoded.noise_frames != noise_frames) {
-            if (!images.empty() && !row.hdr.pixels.empty())
-                measure::write_exr(row.hdr, images / (row.image + ".exr"));
-            write_values(row.image, row.hdr);
-            encode(encoded.picture, row.display, row.image + ".png");
-            const bool has_map = !row.flip_map.empty();
-            encode(encoded.error,
-                   has_map
-                       ? measure::make_heat_map(row.flip_map, row.display.width, row.display.height)
-                       : measure::Picture(),
-                   row.image + "-error.png");
-            if (!images.empty() && has_map) {
-                const std::string name = row.image + "-error.js";
-                write_file(images / name,
-                           make_bytes_script(encoded.error, report_image_path(comparison, name)));
-            }
+            encoder.encode_row(encoded, row);
             encoded.pictured = row.pictured;
             encoded.noise_frames = noise_frames;
         }
         if (row.causes && encoded.causes.empty()) {
             const std::string name = "causes-" + row.image;
-            encode(encoded.causes, make_cause_picture(row), name + ".png");
-            if (!images.empty())
-                write_file(
-                    images / (name + ".js"),
-                    make_bytes_script(encoded.causes, report_image_path(comparison, name + ".js")));
+            encoder.encode(encoded.causes, make_cause_picture(row), name + ".png");
+            encoder.write_script(name, encoded.causes);
         }
         if (row.worst && encoded.worst_view != row.worst->view) {
-            encode(encoded.worst, row.worst->display, make_worst_view_image_name(row.image));
+            encoder.encode(encoded.worst, row.worst->display,
+                           make_worst_view_image_name(row.image));
             encoded.worst_view = row.worst->view;
         }
     }

@@ -212,17 +212,35 @@ std::vector<measure::View> draw_random_views(const Request& request, int count,
     return views;
 }
 
-void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison) {
-    const std::vector<std::string>& texts = request.base.techniques;
-    const std::size_t row_count = texts.size() + request.pictures.size();
+namespace {
+
+void check_views_request(const ViewsRequest& request, const report::Comparison& comparison) {
+    const std::size_t texts = request.base.techniques.size(),
+                      row_count = texts + request.pictures.size();
     check(row_count == comparison.rows.size(), Failure::internal, "views of ", row_count,
           " techniques and pictures: wanted as many rows, found ", comparison.rows.size());
+    check(request.row_sessions.empty() ? !request.continues_instant
+                                       : request.row_sessions.size() == texts,
+          Failure::internal, "views: wanted a session for each of ", texts, " techniques, found ",
+          request.row_sessions.size());
+}
+
+/// Adds the errors of the picture files of a view, from 1.
+void add_errors_of_view_pictures(const ViewsRequest& request, std::size_t view,
+                                 ViewReferencePicture& truth, std::size_t mirrors,
+                                 report::Comparison& comparison, int& warned) {
+    for (std::size_t k = 0; k < request.pictures.size(); ++k)
+        add_errors_of_view_picture(request, k, view, truth.cache.get_reference("1"), truth.hits,
+                                   mirrors, comparison.rows[request.base.techniques.size() + k],
+                                   warned);
+}
+
+} // namespace
+
+void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison) {
+    check_views_request(request, comparison);
+    const std::vector<std::string>& texts = request.base.techniques;
     const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
-    const bool has_row_sessions = !request.row_sessions.empty();
-    check(has_row_sessions ? request.row_sessions.size() == texts.size()
-                           : !request.continues_instant,
-          Failure::internal, "views: wanted a session for each of ", texts.size(),
-          " techniques, found ", request.row_sessions.size());
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
     int warned = 0;
     std::size_t finished = 0; // number of finished pictures
@@ -235,8 +253,8 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     double seconds_left = request.reference_seconds;
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
-    for (std::size_t first = 0; first < count;) {
-        const std::size_t end = find_end_of_views_at_same_instant(
+    for (std::size_t first = 0, end = 0; first < count; first = end) {
+        end = find_end_of_views_at_same_instant(
             comparison.views, first, static_cast<std::size_t>(request.cameras_per_instant));
         std::vector<std::unique_ptr<ViewReferencePicture>> truths;
         for (std::size_t i = first; i < end; ++i) {
@@ -262,22 +280,18 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                 one.model = RenderedWork::required;
                 const bool continues = i > first || (first == 0 && request.continues_instant);
                 const RunResult result = run_with_history(
-                    has_row_sessions ? *request.row_sessions[k] : session, one, request.watcher,
+                    request.row_sessions.empty() ? session : *request.row_sessions[k], one,
+                    request.watcher,
                     continues ? FrameHistoryState::of_last_frame : FrameHistoryState::none);
                 add_view_errors(
                     comparison.rows[k], result.parts.front(),
                     truth.cache.get_reference(find_sample_count(parse_technique(texts[k]))),
                     truth.hits, mirrors, request.base.exposure);
             }
-        for (std::size_t i = first; i < end; ++i) {
-            ViewReferencePicture& truth = *truths[i - first];
-            for (std::size_t k = 0; k < request.pictures.size(); ++k)
-                add_errors_of_view_picture(request, k, i + 1, truth.cache.get_reference("1"),
-                                           truth.hits, mirrors, comparison.rows[texts.size() + k],
-                                           warned);
-        }
+        for (std::size_t i = first; i < end; ++i)
+            add_errors_of_view_pictures(request, i + 1, *truths[i - first], mirrors, comparison,
+                                        warned);
         if (request.on_finished_view) request.on_finished_view();
-        first = end;
     }
     if (warned > kMaxViewWarnings && request.on_warning)
         request.on_warning(std::to_string(warned - kMaxViewWarnings) +
