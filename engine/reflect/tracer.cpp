@@ -178,10 +178,10 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
     const auto add_image = [&](const char* name) {
         return graph.add_image({inputs.prefix + name, TexelFormat::rgba32f, size.x, size.y});
     };
-    const FirstSurfaceImages images{add_image("normals_and_distances"),
-                                    add_image("objects_and_roughness"),
-                                    add_counters_with_reset(graph, inputs.prefix + "first_surface/counters",
-                                                            inputs.prefix + "first_surface")};
+    const FirstSurfaceImages images{
+        add_image("normals_and_distances"), add_image("objects_and_roughness"),
+        add_counters_with_reset(graph, inputs.prefix + "first_surface/counters",
+                                inputs.prefix + "first_surface")};
     const TracerSettings tracer;
     request_ray_tracing_data(inputs.requests, tracer);
     graph.add_pass(inputs.prefix + "first_surface")
