@@ -187,9 +187,10 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
            std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
                const graph::Pass& pass = frame.graph.list_passes()[planned.pass];
                return pass.name.starts_with(part.prefix) &&
-                      std::ranges::any_of(pass.images, [](const graph::ImageUse& use) {
-                          return use.image.previous;
-                      });
+                      (std::ranges::any_of(pass.images,
+                                           [](const auto& use) { return use.image.previous; }) ||
+                       std::ranges::any_of(pass.buffers,
+                                           [](const auto& use) { return use.buffer.previous; }));
            });
 }
 
