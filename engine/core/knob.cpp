@@ -38,7 +38,8 @@ std::size_t compute_edit_distance(std::string_view a, std::string_view b) {
 }
 
 bool is_same_knob(const TechniqueKnob& a, const TechniqueKnob& b) {
-    return a.name == b.name && a.special == b.special && a.choices.data() == b.choices.data();
+    return a.name == b.name && a.special == b.special && a.choices.data() == b.choices.data() &&
+           a.find_choices == b.find_choices;
 }
 
 } // namespace
@@ -68,8 +69,9 @@ double TechniqueKnobSettings::numeric_knob_value(const TechniqueKnob& knob) cons
 
 std::string_view TechniqueKnobSettings::selected_knob_choice_name(const TechniqueKnob& knob) const {
     const std::size_t i = value_index(knob);
-    check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
-    return knobs_[i].choices[static_cast<std::size_t>(numeric_knob_value(knob))];
+    const std::span<const std::string_view> choices = knobs_[i].list_choices();
+    check(!choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
+    return choices[static_cast<std::size_t>(numeric_knob_value(knob))];
 }
 
 bool TechniqueKnobSettings::is_special(const TechniqueKnob& knob) const {
@@ -86,14 +88,14 @@ void TechniqueKnobSettings::set_knob_from_text(std::string_view owner, std::stri
              suggest_nearest_name_or_list(name, names));
     const TechniqueKnob& knob = *named;
     std::optional<double>& target = values_[static_cast<std::size_t>(named - knobs_.begin())];
-    if (!knob.choices.empty()) {
-        const auto found = std::ranges::find(knob.choices, text);
-        const std::vector<std::string> choices(knob.choices.begin(), knob.choices.end());
+    if (const std::span<const std::string_view> known = knob.list_choices(); !known.empty()) {
+        const auto found = std::ranges::find(known, text);
+        const std::vector<std::string> choices(known.begin(), known.end());
         std::string wanted;
         for (const std::string& choice : choices) wanted += (wanted.empty() ? "" : "|") + choice;
-        check(found != knob.choices.end(), Failure::usage, "knob '", name, "' of '", owner,
-              "' takes ", wanted, ", not '", text, "'", suggest_nearest_name(text, choices));
-        target = static_cast<double>(found - knob.choices.begin());
+        check(found != known.end(), Failure::usage, "knob '", name, "' of '", owner, "' takes ",
+              wanted, ", not '", text, "'", suggest_nearest_name(text, choices));
+        target = static_cast<double>(found - known.begin());
         return;
     }
     if (!knob.special.empty() && text == knob.special) {
@@ -116,8 +118,8 @@ void TechniqueKnobSettings::set_knob_from_text(std::string_view owner, std::stri
 
 std::string TechniqueKnobSettings::format_current_knob_value(const TechniqueKnob& knob) const {
     if (is_special(knob)) return std::string(knob.special);
-    return knob.choices.empty() ? format_knob_value(numeric_knob_value(knob))
-                                : std::string(selected_knob_choice_name(knob));
+    return knob.list_choices().empty() ? format_knob_value(numeric_knob_value(knob))
+                                       : std::string(selected_knob_choice_name(knob));
 }
 
 std::string find_nearest_name(std::string_view word, std::span<const std::string> names) {

@@ -18,9 +18,15 @@ struct TechniqueKnob {
     double high = 1;
     double value = 0; ///< default; for a choice, the index into `choices`
     std::span<const std::string_view> choices = {}; ///< names, if the knob is a choice
+    /// Lists the choices instead, if they follow from a table; null: they are `choices`.
+    std::span<const std::string_view> (*find_choices)() = nullptr;
     std::string_view special =
         {};               ///< a word allowed instead of a number, such as "auto"; empty: none
     bool is_real = false; ///< a real number; otherwise an integer
+
+    std::span<const std::string_view> list_choices() const {
+        return find_choices ? find_choices() : choices;
+    }
 };
 
 /// A value for each of a technique's knobs.

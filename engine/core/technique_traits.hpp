@@ -40,6 +40,11 @@ struct TechniqueTraits {
     bool is_ray_traced() const {
         return traces_rays && captures == Captures::none && !draws_mirrored_views;
     }
+    /// Returns whether it draws a mirror of any shape beside mirrors of other techniques. A history
+    /// is that of a whole picture.
+    bool draws_any_mirror() const {
+        return captures == Captures::shared || (is_ray_traced() && noise != Noise::history);
+    }
     /// Returns whether pictures with other seeds can be drawn, whose mean has less noise.
     bool has_drawable_noise() const { return noise == Noise::rays && !seed.empty(); }
 };

@@ -10,8 +10,17 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kNonPlanarMirrorTechniqueChoices{
-    "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
+/// Returns the techniques that may draw mirrors which are not flat.
+std::span<const std::string_view> list_rest_techniques() {
+    static const std::vector<std::string_view> kNames = [] {
+        std::vector<std::string_view> names;
+        for (const Technique* technique : list_techniques())
+            if (technique->traits.draws_any_mirror()) names.push_back(technique->name);
+        return names;
+    }();
+    return kNames;
+}
+
 constexpr TechniqueKnob kPlanarBouncesKnob{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
@@ -21,8 +30,7 @@ constexpr TechniqueKnob kPlanarBouncesKnob{
 constexpr TechniqueKnob kNonPlanarMirrorTechniqueKnob{
     .name = "rest",
     .help = "technique of mirrors that are not flat",
-    .high = kNonPlanarMirrorTechniqueChoices.size() - 1,
-    .choices = kNonPlanarMirrorTechniqueChoices};
+    .find_choices = list_rest_techniques};
 constexpr std::array<std::string_view, 4> kPlanarRoughChoices{"none", "mips", "prefilter", "rest"};
 constexpr int kRoughByRest = 3; // index of "rest"
 constexpr TechniqueKnob kPlanarRoughKnob{

@@ -212,12 +212,12 @@ void trace_samples(graph::PassCommands& commands, gpu::ComputePipelineState stat
                    const PixelsToTraceList* list, const std::optional<PathStartBuffers>& starts) {
     SampleTracing tracing{.commands = commands,
                           .state = std::move(state),
-                          .offsets = make_sample_offsets(tracer.samples, inputs.seed),
+                          .offsets = make_sample_offsets(tracer.samples, inputs.facts.seed),
                           .groups = count_picture_work_groups(inputs.size),
                           .is_split = count_most_rays(tracer, inputs.scene, inputs.size) >
                                       commands.most_rays_of_piece(),
                           .parameters = {.size = inputs.size,
-                                         .seed = make_lobe_seed(tracer, inputs.seed),
+                                         .seed = make_lobe_seed(tracer, inputs.facts.seed),
                                          .path_count = 1}};
     tracing.parameters.sample_count = static_cast<std::uint32_t>(tracing.offsets.size()) *
                                       count_paths_of_camera_ray(tracer, inputs.scene);

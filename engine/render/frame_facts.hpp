@@ -4,7 +4,9 @@
 #include "scene/scene.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace catoptric::render {
 
@@ -22,7 +24,12 @@ struct FrameFacts {
     std::uint64_t number = 1; ///< in its sequence, from 1 after a cut
     std::uint64_t seed = 1;   ///< seed of sample patterns
     ShownInstant now;
-    std::optional<ShownInstant> before; ///< of the last frame of the sequence; none: there is none
+    /// World from object, by object of the scene. Frames between which nothing moved share them.
+    std::shared_ptr<const std::vector<dmat4>> transforms;
+    /// Of the last frame of the sequence; none: there is none. An edit that removes or adds objects
+    /// ends the sequence, so the objects are the same.
+    std::optional<ShownInstant> before;
+    std::shared_ptr<const std::vector<dmat4>> transforms_before;
 };
 
 } // namespace catoptric::render

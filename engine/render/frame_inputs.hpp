@@ -13,8 +13,7 @@ struct FrameInputs {
     const GpuScene& scene;
     FrameRequests& requests; ///< grows while passes are declared; passes do not read it later
     uvec2 size{512, 512};
-    std::string prefix;     ///< starts the names of passes and images
-    std::uint64_t seed = 1; ///< seed of the stratified samples
+    std::string prefix; ///< starts the names of passes and images
     /// Causes of error to remove in the camera's view: a sum of shared::kAblate...
     std::uint32_t ablated = 0;
     /// Adds an output of where mirrors looked; for measuring, costs an attachment.

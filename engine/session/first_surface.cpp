@@ -71,12 +71,14 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     Session::Impl& self = *session.impl_;
     self.read_capture_times(); // before this frame takes the place of the timed one
     const scene::Camera camera = scene::camera_at_time(spec.camera, spec.time);
-    self.update_device_scene({spec.time, camera, spec.size, spec.ambient});
+    const render::FrameFacts facts{.seed = spec.seed,
+                                   .now = {spec.time, camera, spec.size, spec.ambient}};
+    self.update_device_scene(facts.now);
     const render::GpuScene& resident = *self.resident;
     graph::Graph graph;
     render::FrameRequests requests(self.resident->next_view());
     const reflect::FirstSurfaceImages images = reflect::add_first_surface_tracing(
-        graph, {resident, requests, spec.size, "", spec.seed});
+        graph, {.scene = resident, .requests = requests, .size = spec.size, .facts = facts});
     graph.mark_as_graph_output(images.normals_and_distances);
     graph.mark_as_graph_output(images.objects_and_roughness);
     graph.mark_as_graph_output(images.counters);

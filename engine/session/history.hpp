@@ -37,15 +37,14 @@ struct History {
     /// Techniques and work of the frames. A frame with others begins without history.
     std::vector<reflect::TechniquePlan> plans;
     RenderedWork work = RenderedWork::everything;
+    /// The texts that `plans` were read from; empty after a cut or an edit, when `auto` chooses
+    /// again. `auto` keeps its choice for frames of the same texts.
+    std::vector<std::string> texts;
     /// Captures that the last frame kept, by technique; null: it kept none.
     std::vector<std::shared_ptr<render::CaptureCache>> captures;
     std::vector<CaptureCostEstimate> costs; ///< of captures, by technique
     std::optional<PendingTimedFrame> timed;
     std::optional<SequenceFaceEdges> face_edges;
-    /// Texts of the techniques, and what they were read as: `auto` keeps the plan that it suggested
-    /// for the first frame.
-    std::vector<std::string> texts;
-    std::vector<reflect::TechniquePlan> read_plans;
     std::optional<render::FrameFacts> last; ///< facts of the last frame; none: there is none
     std::uint64_t units = 0;                ///< Session::Impl::units in which captures were drawn
     std::uint64_t edits = 0;                ///< Session::Impl::edits of the last frame

@@ -33,6 +33,14 @@ bool have_equal_plans(const std::vector<reflect::TechniquePlan>& a,
                               [](const auto& x, const auto& y) { return x.is_same_plan_as(y); });
 }
 
+std::shared_ptr<const std::vector<dmat4>> list_transforms(const scene::Scene& scene) {
+    std::vector<dmat4> transforms;
+    transforms.reserve(scene.objects.size());
+    for (const scene::Object& object : scene.objects)
+        transforms.push_back(object.world_from_object);
+    return std::make_shared<const std::vector<dmat4>>(std::move(transforms));
+}
+
 void check_frame_spec(const FrameSpec& spec) {
     check_capture_limit(spec);
     check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
@@ -98,9 +106,11 @@ double Session::Impl::write_device_scene(const render::ShownInstant& wanted) {
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
         scene::move_scene_to_time(*moved, scene, wanted.time);
+        transforms = nullptr;
     } else {
         scene::check_scene_time(wanted.time);
     }
+    if (!transforms) transforms = list_transforms(scene_at_current_instant());
     resident->update(scene_at_current_instant(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     shown = wanted;
@@ -108,16 +118,12 @@ double Session::Impl::write_device_scene(const render::ShownInstant& wanted) {
     return compute_milliseconds_since(start);
 }
 
-const std::vector<reflect::TechniquePlan>&
-Session::Impl::parse_and_cache_technique_plans(const FrameSpec& spec) {
-    if (history.read_plans.empty() || history.texts != spec.techniques) {
-        history.read_plans = parse_technique_plans(spec.techniques);
-        for (reflect::TechniquePlan& plan : history.read_plans)
-            plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.info);
-        history.texts = spec.techniques;
-        models.clear();
-    }
-    return history.read_plans;
+std::vector<reflect::TechniquePlan> Session::Impl::find_plans(const FrameSpec& spec) const {
+    if (!history.plans.empty() && history.texts == spec.techniques) return history.plans;
+    std::vector<reflect::TechniquePlan> plans = parse_technique_plans(spec.techniques);
+    for (reflect::TechniquePlan& plan : plans)
+        plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.info);
+    return plans;
 }
 
 graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
@@ -137,12 +143,14 @@ graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
 }
 
 const std::shared_ptr<const require::RequiredWorkModel>&
-Session::Impl::find_required_work_model(RenderedWork work, bool is_ablated) {
+Session::Impl::find_required_work_model(const std::vector<reflect::TechniquePlan>& plans,
+                                        RenderedWork work, bool is_ablated) {
+    if (!have_equal_plans(modelled_plans, plans)) models.clear(), modelled_plans = plans;
     std::shared_ptr<const require::RequiredWorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
     require::RequiredWorkModelInput question{scene_at_current_instant(), shown->camera,
                                              shown->size};
-    reflect::add_capture_needs_of_plan(question, history.read_plans);
+    reflect::add_capture_needs_of_plan(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // look-ups with removed causes read faces that a search
                                        // would never read
@@ -184,13 +192,13 @@ Frame Access::render_frame(Session& session, const FrameSpec& spec, const FrameH
     return Frame(session.impl_->submit(session.impl_, spec, hooks, finish));
 }
 
-bool Session::Impl::follows_last_frame(const FrameSpec& spec) const {
-    return have_equal_plans(history.plans, history.read_plans) && history.work == spec.model;
-}
-
-render::FrameFacts Session::Impl::make_frame_facts(const FrameSpec& spec) const {
+render::FrameFacts Session::Impl::prepare_frame_facts(const FrameSpec& spec, double& update_ms) {
     render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
-    if (history.last) facts.number = history.last->number + 1, facts.before = history.last->now;
+    update_ms += update_device_scene(facts.now);
+    facts.transforms = transforms;
+    if (!history.last) return facts;
+    facts.number = history.last->number + 1;
+    facts.before = history.last->now, facts.transforms_before = history.last->transforms;
     return facts;
 }
 
@@ -199,26 +207,22 @@ Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
                       const FrameHooks& hooks,
                       const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
     check_frame_spec(spec);
-    parse_and_cache_technique_plans(spec);
-    const bool follows = follows_last_frame(spec);
-    if (!spec.keeps_history && !follows)
-        exchange_history({.plans = history.read_plans,
-                          .work = spec.model,
-                          .texts = history.texts,
-                          .read_plans = history.read_plans});
+    const std::vector<reflect::TechniquePlan> plans = find_plans(spec);
+    const bool follows = have_equal_plans(history.plans, plans) && history.work == spec.model;
+    if (!spec.keeps_history && !follows) exchange_history({.plans = plans, .work = spec.model});
+    if (!spec.keeps_history) history.texts = spec.techniques;
     auto frame = std::make_shared<Access::FrameImpl>();
     frame->session = self, frame->spec = spec, frame->hooks = hooks;
     {
         const Stopwatch watch(frame->waited_ms);
         wait_for_needed_results(spec);
     }
-    const render::FrameFacts facts = make_frame_facts(spec);
-    frame->update_ms = update_device_scene(facts.now);
+    const render::FrameFacts facts = prepare_frame_facts(spec, frame->update_ms);
     const SteadyClock::time_point start = SteadyClock::now();
-    frame->model = find_required_work_model(spec.model, hooks.ablated != 0);
-    frame->frame = declare_frame_graph(spec, hooks, facts, history.read_plans, mirrors, *resident,
-                                       runner.make_history(),
-                                       find_capture_histories(spec, *frame->model, follows));
+    frame->model = find_required_work_model(plans, spec.model, hooks.ablated != 0);
+    frame->frame = declare_frame_graph(
+        spec, hooks, facts, plans, mirrors, *resident, runner.make_history(),
+        find_capture_histories(spec, plans.size(), *frame->model, follows));
     frame->declare_ms = compute_milliseconds_since(start);
     const SteadyClock::time_point trees = SteadyClock::now();
     resident->fulfil(frame->frame.requests, [&] { wait_until_scene_copy_is_free(copy); });
@@ -235,7 +239,6 @@ Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
 
 History Session::Impl::exchange_history(History next) {
     runner.release_retained();
-    models.clear();
     return std::exchange(history, std::move(next));
 }
 
@@ -261,7 +264,7 @@ void Session::change(const scene::Edit& edit) {
     }
     if (removes) self.requirements.reset();
     self.scene = std::move(edited);
-    self.moved.reset();
+    self.moved.reset(), self.transforms.reset();
     self.mirrors = list_mirror_names(self.scene);
     self.shown.reset();
     ++self.edits;
@@ -294,11 +297,12 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
                                       GraphPlanFormat format) {
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
-    const std::vector<reflect::TechniquePlan>& plans = self.parse_and_cache_technique_plans(spec);
-    const render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
+    const std::vector<reflect::TechniquePlan> plans = self.find_plans(spec);
+    render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
     self.update_device_scene(facts.now);
+    facts.transforms = self.transforms;
     const std::shared_ptr<const require::RequiredWorkModel> model = self.find_required_work_model(
-        spec.model, false);
+        plans, spec.model, false);
     std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
                                                          {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident, {},

@@ -38,10 +38,10 @@ void check_capture_limit(const FrameSpec& spec) {
 }
 
 std::vector<reflect::PreviousCaptureHistory>
-Session::Impl::find_capture_histories(const FrameSpec& spec,
+Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_count,
                                       const require::RequiredWorkModel& model, bool follows) {
     std::vector<reflect::PreviousCaptureHistory> keeping(
-        history.read_plans.size(), {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
+        plan_count, {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
     for (std::size_t i = 0; i < keeping.size(); ++i)
         keeping[i].most = most_captures(spec, i, model);
     for (std::size_t i = 0; follows && i < history.captures.size(); ++i) {

@@ -48,26 +48,24 @@ struct Session::Impl {
     double write_device_scene(const render::ShownInstant& wanted);
     /// Waits until no frame in flight reads copy `of` of the scene data.
     void wait_until_scene_copy_is_free(std::size_t copy_index);
-    /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
-    /// after a cut, and after an edit. Until then, `auto` keeps the plan suggested for the first
-    /// frame.
-    const std::vector<reflect::TechniquePlan>&
-    parse_and_cache_technique_plans(const FrameSpec& spec);
-    /// Returns the facts of the next frame.
-    render::FrameFacts make_frame_facts(const FrameSpec& spec) const;
+    /// Returns the plans of the frame's techniques: those of the last frame if the texts are equal.
+    /// Otherwise reads the texts, and `auto` chooses.
+    std::vector<reflect::TechniquePlan> find_plans(const FrameSpec& spec) const;
+    /// Returns the facts of the next frame, and writes what it shows of the scene to the device.
+    /// Adds the milliseconds of that to `update_ms`.
+    render::FrameFacts prepare_frame_facts(const FrameSpec& spec, double& update_ms);
     /// Submits the graph of a frame. A frame that is stopped leaves the session without history.
     graph::SubmittedFrameTicket run_graph(const graph::Graph& graph, const FrameSpec& spec,
                                           const graph::ExternalSemaphores& outside,
                                           bool counts_work);
-    /// Returns the model of the scene at its present instant.
+    /// Returns the model of the scene at its present instant, for these techniques.
     const std::shared_ptr<const require::RequiredWorkModel>&
-    find_required_work_model(RenderedWork work, bool is_ablated);
+    find_required_work_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
+                             bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
     std::vector<reflect::PreviousCaptureHistory>
-    find_capture_histories(const FrameSpec& spec, const require::RequiredWorkModel& model,
-                           bool follows);
-    /// Returns whether a frame of these plans and this work follows the last frame.
-    bool follows_last_frame(const FrameSpec& spec) const;
+    find_capture_histories(const FrameSpec& spec, std::size_t plan_count,
+                           const require::RequiredWorkModel& model, bool follows);
     /// Waits for results of earlier frames that this frame needs.
     void wait_for_needed_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.
@@ -91,8 +89,11 @@ struct Session::Impl {
     std::optional<render::ShownInstant> shown;
     /// `scene` at the instant of `shown`, if it is animated.
     std::optional<scene::Scene> moved;
+    /// Transforms of the objects at the instant of `shown`; null: they must be listed.
+    std::shared_ptr<const std::vector<dmat4>> transforms;
     std::optional<require::RequiredWorkModelBuilder> requirements; ///< computed at first use
-    /// Models of `shown` and the plans that were read last.
+    /// Models of `shown`, and the plans for which they were made.
+    std::vector<reflect::TechniquePlan> modelled_plans;
     std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::RequiredWorkModel>>
         models;
     std::optional<graph::SubmittedFrameTicket> last; ///< ticket of the frame submitted last

@@ -12,14 +12,17 @@ std::vector<TechniqueInfo> techniques() {
     for (const reflect::Technique* row : reflect::list_techniques()) {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
         const TechniqueKnobSettings defaults(row->knobs);
-        for (const catoptric::TechniqueKnob& knob : row->knobs)
-            info.knobs.push_back({std::string(knob.name),
-                                  std::string(knob.help),
-                                  knob.low,
-                                  knob.high,
-                                  defaults.format_current_knob_value(knob),
-                                  {knob.choices.begin(), knob.choices.end()},
-                                  std::string(knob.special)});
+        for (const catoptric::TechniqueKnob& knob : row->knobs) {
+            const std::span<const std::string_view> choices = knob.list_choices();
+            info.knobs.push_back(
+                {std::string(knob.name),
+                 std::string(knob.help),
+                 knob.low,
+                 choices.empty() ? knob.high : static_cast<double>(choices.size() - 1),
+                 defaults.format_current_knob_value(knob),
+                 {choices.begin(), choices.end()},
+                 std::string(knob.special)});
+        }
         infos.push_back(std::move(info));
     }
     return infos;
@@ -29,7 +32,7 @@ std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice) 
     std::vector<Setting> settings;
     const TechniqueKnobSettings defaults(choice.technique->knobs);
     for (const catoptric::TechniqueKnob& knob : choice.technique->knobs) {
-        const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob);
+        const bool is_number = knob.list_choices().empty() && !choice.settings.is_special(knob);
         const std::string value = choice.settings.format_current_knob_value(knob);
         settings.push_back(
             {std::string(knob.name), value,

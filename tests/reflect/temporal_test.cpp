@@ -3,6 +3,7 @@
 // shader alone, and has two tracers in a frame.
 #include "reflect/captures.hpp"
 #include "render/views.hpp"
+#include "scene/pose.hpp"
 #include "session/access.hpp"
 #include "support/rendering.hpp"
 
@@ -24,11 +25,15 @@ TemporalEye make_temporal_eye(const render::FrameInputs& inputs, const scene::Ca
     return {view.eye, view.right, view.down, view.forward};
 }
 
+/// What the frame declared last knew.
+render::FrameFacts known_facts; // NOLINT: the table of techniques takes plain functions
+
 reflect::TechniqueOutputs add_temporal_picture(graph::Graph& graph,
                                                const render::FrameInputs& inputs,
                                                const TechniqueKnobSettings&,
                                                const render::ShadingLights& lighting) {
     using graph::ResourceUse;
+    known_facts = inputs.facts;
     const reflect::TracedPicture traced = reflect::add_picture_tracing(
         graph, inputs,
         {.depth = 4,
@@ -162,6 +167,53 @@ TEST(Temporal, SequencesInsideOneAnotherEqualSequencesApart) {
         }
         sequences[i] = session::Access::suspend_sequence(together);
     }
+}
+
+/// Two sequences of a scene with a motion and an edit, drawn inside one another.
+TEST(Temporal, FramesKnowWhereObjectsWereInTheLastFrameOfTheirSequence) {
+    scene::Scene scene = make_rough_room();
+    scene.objects[0].motion = scene::HarmonicMotion{.amplitude = {.05, 0, 0}, .period = 3};
+    session::FrameSpec spec = make_temporal_spec(scene);
+    session::Session session(test::get_test_engine(), scene);
+    const auto list_transforms = [&](double time) {
+        std::vector<dmat4> transforms;
+        for (const scene::Object& object : scene::scene_at_time(session.scene(), time).objects)
+            transforms.push_back(object.world_from_object);
+        return transforms;
+    };
+    std::optional<double> drawn;
+    std::vector<dmat4> before;
+    const auto expect_facts = [&](double time) {
+        spec.time = time;
+        session.frame(spec);
+        EXPECT_EQ(*known_facts.transforms, list_transforms(time));
+        EXPECT_EQ(known_facts.before.has_value(), drawn.has_value());
+        EXPECT_EQ(known_facts.transforms_before != nullptr, drawn.has_value());
+        if (drawn) {
+            EXPECT_EQ(*known_facts.transforms_before, before);
+        }
+        drawn = time, before = list_transforms(time);
+    };
+    expect_facts(0), expect_facts(.3);
+    EXPECT_NE(*known_facts.transforms, *known_facts.transforms_before);
+    session::FrameSequence other = session::Access::suspend_sequence(session);
+    const auto [time_aside, before_aside] = std::pair(drawn, before);
+    drawn.reset();
+    expect_facts(1), expect_facts(1.1);
+    session::Access::suspend_sequence(session);
+    session::Access::resume_frame_sequence(session, std::move(other));
+    drawn = time_aside, before = before_aside;
+    expect_facts(.4);
+    dmat4 moved = scene.objects[1].world_from_object;
+    moved[3].x += .01;
+    session.change(scene::move(1, moved));
+    expect_facts(.4);
+    EXPECT_NE((*known_facts.transforms)[1], (*known_facts.transforms_before)[1]) << "an edit";
+    expect_facts(.4);
+    EXPECT_EQ(*known_facts.transforms, *known_facts.transforms_before) << "nothing moved";
+    session.forget();
+    drawn.reset();
+    expect_facts(.4);
 }
 
 /// A technique beside it in the frame has tracers of its own.
