@@ -192,7 +192,6 @@ public:
             counts.nodes += weight * static_cast<double>(nodes[i]);
             if (!is_rough) most_nodes_.at(i) = std::max(most_nodes_.at(i), nodes[i]);
         }
-        paths_.longest = std::max(paths_.longest, sharp);
         if (++count_ == paths_of_group_) end_group();
     }
     void end_group() {

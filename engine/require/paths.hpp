@@ -46,7 +46,6 @@ struct MirrorPathCounts {
     /// sharply, and further rays that leave rough surfaces. Of the last, one row in
     /// kRowsPerRoughRow is followed and counted as all.
     WalkedRays camera, sharp, rough;
-    std::size_t longest = 0; ///< most sharp reflections on a path, at most kMaxMirrorsPerPath
 
     std::size_t
     count_paths_on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.

@@ -21,9 +21,9 @@ constexpr double kLargeMirrorShare = .1;
 constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
 constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested
 constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
-// Bounces of traced plans.
-constexpr std::size_t kMinRayDepth = 4, kUsualRayDepth = 8;
-constexpr double kIncoherentLanes = 1 / 3.5; // visits of a subgroup for each node of scattered rays
+constexpr int kLobeRayDepth = 4;            // reflections of traced plans with rays of lobes
+// Visits of a subgroup for each node of rays that scatter, and of rays of listed pixels.
+constexpr double kIncoherentLanes = 1 / 3.5, kListedLanes = 1 / 4.8;
 
 /// Returns how many mirrors for which `of` is true the path meets before any other mirror.
 std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
@@ -101,7 +101,7 @@ void add_mirror(PlanCandidate& candidate, FrameWork& work, const MirrorCostInput
                                                                                          : hidden),
                      ray_nodes = rays * sharp.nodes / std::max(1.0, sharp.rays);
         work.add_rays(
-            {CountedWorkKind::mirror_rays, rays, ray_nodes, ray_nodes * kIncoherentLanes});
+            {CountedWorkKind::mirror_rays, rays, ray_nodes, ray_nodes * kIncoherentLanes, true});
     }
     const double error = way == MirrorDrawMethod::planes ? kTechniqueErrorTable.planar
                          : is_searched                   ? find_search_error(known, mirror)
@@ -164,18 +164,15 @@ bool has_seen_mirror(const MirrorCostInputs& known, const std::vector<bool>& of)
 }
 
 /// Returns the technique that traces all mirrors.
-std::string write_traced_technique(const MirrorCostInputs& known, int lobe_rays,
-                                   bool is_rasterised) {
+std::string write_traced_technique(int lobe_rays, bool is_rasterised) {
     std::string text = "raytrace";
     const char* between = ":";
     const auto add = [&](const std::string& setting) { text += between + setting, between = ","; };
-    // A view may move and then show longer paths, so the depth is no less than usual.
-    const std::size_t depth = lobe_rays > 0 ? kMinRayDepth
-                              : has_seen_mirror(known, known.is_glass)
-                                  ? kUsualRayDepth
-                                  : std::clamp(known.paths.longest, kMinRayDepth, kUsualRayDepth);
-    if (depth != kUsualRayDepth) add("depth=" + std::to_string(depth));
-    if (lobe_rays > 0) add("rays=" + std::to_string(lobe_rays));
+    // Sharp paths end where they meet no mirror, so a large depth costs nothing.
+    if (lobe_rays > 0) {
+        add("depth=" + std::to_string(kLobeRayDepth));
+        add("rays=" + std::to_string(lobe_rays));
+    }
     if (is_rasterised) add("first=raster");
     return text;
 }
@@ -185,7 +182,7 @@ std::string write_traced_technique(const MirrorCostInputs& known, int lobe_rays,
 PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
                                     int lobe_rays, bool is_rasterised) {
     const bool has_lobes = lobe_rays > 0;
-    PlanCandidate candidate{.name = write_traced_technique(known, lobe_rays, is_rasterised)};
+    PlanCandidate candidate{.name = write_traced_technique(lobe_rays, is_rasterised)};
     candidate.ways.assign(known.mirror_count(), MirrorDrawMethod::traced);
     candidate.techniques.assign(known.mirror_count(), candidate.name);
     FrameWork work(known.picture);
@@ -201,12 +198,14 @@ PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCos
                        scale * camera.node_lanes});
     }
     const double times = scale * std::max(1, lobe_rays);
-    work.add_rays(
-        {CountedWorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
-         times * (is_rasterised || has_lobes ? sharp.nodes * kIncoherentLanes : sharp.node_lanes)});
+    const double sharp_lanes = has_lobes       ? sharp.nodes * kIncoherentLanes
+                               : is_rasterised ? sharp.nodes * kListedLanes
+                                               : sharp.node_lanes;
+    work.add_rays({CountedWorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
+                   times * sharp_lanes, is_rasterised});
     if (has_lobes)
         work.add_rays({CountedWorkKind::mirror_rays, times * rough.rays, times * rough.nodes,
-                       times * rough.nodes * kIncoherentLanes});
+                       times * rough.nodes * kIncoherentLanes, is_rasterised});
     candidate.ms = predict_ms(work.work(), costs);
     for (std::size_t i = 0; i < known.mirror_count(); ++i)
         if (known.is_rough[i])

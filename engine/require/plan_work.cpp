@@ -1,6 +1,7 @@
 #include "require/plan_work.hpp"
 
 #include "scene/light.hpp"
+#include "scene/material_facts.hpp"
 
 #include <algorithm>
 
@@ -12,12 +13,12 @@ constexpr double kShadowMapEdge = 1024, kShadowMapFaces = 6; // as the knob `sha
 constexpr double kFacesOfCube = 6;
 
 // Work of a texel of a drawn shadow map. A map is cleared and stored as a whole.
-constexpr double kShadowFragments = .8, kShadowBytes = 8;
+constexpr double kShadowFragments = .35, kShadowBytes = 8;
 // Draws of a pass, as a share of the objects, and drawn triangles, as a share of all.
 constexpr double kPassDraws = .9, kPassTriangles = .9, kViewDraws = .6, kViewTriangles = .4;
 // Work of a pixel of a capture, of the view, and of a mirrored view.
 constexpr double kCaptureFragments = 2, kCapturePoints = 1.2, kCaptureBytes = 44;
-constexpr double kViewFragments = 4, kViewPoints = 1.6, kViewBytes = 36;
+constexpr double kViewFragments = 2.3, kViewPoints = 1.25, kViewBytes = 36;
 constexpr double kMirroredFragments = 6, kMirroredPoints = 2, kMirroredBytes = 42;
 // Look-ups in shadow maps for each light of a shaded point.
 constexpr double kShadowLookups = .7;
@@ -31,8 +32,23 @@ constexpr double kBoundsInvocations = .34, kBoundsDispatches = 2.7;
 constexpr double kFilterInvocations = .4, kFilterColours = 16;
 // Rays to a light for each light of a point that a ray meets, and the nodes that they visit, as a
 // share of those of other rays.
-constexpr double kShadowRays = .75, kShadowNodes = .8;
+constexpr double kShadowRays = .75, kShadowNodes = .3;
 constexpr double kTrianglesOfNode = .35; // tests of triangles for each visited node
+
+/// Returns whether points of the surface differ in more than their place, so that shaders evaluate
+/// the material at each point.
+bool has_varying_material(const scene::Scene& now, const scene::Object& object) {
+    const scene::Material& material = now.materials[object.material];
+    if (!now.meshes[object.mesh].colours.empty() || material.albedo_texture ||
+        material.emission_texture || material.normal_texture || material.unlit ||
+        scene::has_alpha_mask(material) || scene::is_glass(material) ||
+        scene::has_clear_coat(material))
+        return true;
+    if (material.albedo != vec3(0) && (material.two_sided || scene::is_mirror(now, object)))
+        return true; // shaders find the side that is seen
+    return material.mirror ? material.albedo != vec3(0) && material.reflectance != vec3(1)
+                           : scene::has_specular_part(material);
+}
 
 } // namespace
 
@@ -49,13 +65,17 @@ PictureCounts count_picture(const RequiredWorkModelInput& question, const Mirror
     const bool is_textured = std::ranges::any_of(
         question.now.materials, [](const scene::Material& m) { return bool(m.albedo_texture); });
     picture.textures = is_textured ? 1 : 0;
+    const bool varies = std::ranges::any_of(question.now.objects, [&](const scene::Object& object) {
+        return has_varying_material(question.now, object);
+    });
+    picture.materials = varies ? 1 : 0;
     picture.pixels_per_path = picture.pixels /
                               static_cast<double>(std::max<std::size_t>(1, paths.count));
     return picture;
 }
 
 void FrameWork::add_shaded_pixels(double points) {
-    work_[materials] += points;
+    work_[materials] += points * picture_.materials;
     work_[texture_lookups] += points * picture_.textures;
     work_[lights] += points * picture_.lights;
     work_[shadow_lookups] += points * picture_.lights * kShadowLookups;
@@ -127,14 +147,16 @@ void FrameWork::add_list() {
 
 void FrameWork::add_rays(const RayWork& rays) {
     work_[rays.kind] += rays.rays;
-    work_[materials] += rays.rays;
+    work_[materials] += rays.rays * picture_.materials;
     work_[texture_lookups] += rays.rays * picture_.textures;
     const double nodes_of_ray = rays.rays > 0 ? rays.nodes / rays.rays : 0,
                  lanes_of_node = rays.nodes > 0 ? rays.node_lanes / rays.nodes : 0,
-                 to_lights = rays.rays * picture_.lights * kShadowRays,
+                 lit = rays.rays * picture_.lights,
+                 to_lights = rays.has_shadow_maps ? 0 : lit * kShadowRays,
                  all_nodes = rays.nodes + to_lights * nodes_of_ray * kShadowNodes;
-    work_[lights] += rays.rays * picture_.lights;
+    work_[lights] += lit;
     work_[shadow_rays] += to_lights;
+    if (rays.has_shadow_maps) work_[shadow_lookups] += lit * kShadowLookups;
     work_[nodes] += all_nodes;
     work_[node_lanes] += all_nodes * lanes_of_node;
     work_[triangles] += all_nodes * kTrianglesOfNode;

@@ -14,8 +14,10 @@ struct PictureCounts {
     double pixels = 0, triangles = 0, objects = 0, lights = 0;
     double shadow_faces = 0;         ///< drawn faces of all shadow maps
     double cleared_shadow_faces = 0; ///< faces of all shadow maps
-    double textures = 0;             ///< look-ups in textures for each point: 1 or 0
-    double pixels_per_path = 0;      ///< pixels of the picture that one path stands for
+    double materials =
+        0; ///< evaluations of a material for each point: 1, or 0 if no material varies
+    double textures = 0;        ///< look-ups in textures for each point: 1 or 0
+    double pixels_per_path = 0; ///< pixels of the picture that one path stands for
 };
 PictureCounts count_picture(const RequiredWorkModelInput& question, const MirrorPathCounts& paths);
 
@@ -23,6 +25,7 @@ PictureCounts count_picture(const RequiredWorkModelInput& question, const Mirror
 struct RayWork {
     CountedWorkKind kind = CountedWorkKind::mirror_rays;
     double rays = 0, nodes = 0, node_lanes = 0;
+    bool has_shadow_maps = false; ///< the points that they meet look up shadow maps, without rays
 };
 
 /// Sums up the estimated work of a frame.
@@ -43,7 +46,7 @@ public:
     void add_lookup(double pixels);
     /// Adds a list of the pixels that the rasteriser leaves to rays.
     void add_list();
-    /// Adds rays, and the rays to lights from the surfaces that they meet.
+    /// Adds rays, and what lights the surfaces that they meet.
     void add_rays(const RayWork& rays);
     /// Adds the passes of a traced picture.
     void add_traced_picture();

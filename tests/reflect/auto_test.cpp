@@ -2,9 +2,11 @@
 #include "require/suggest.hpp"
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
+#include "scene/load.hpp"
 #include "scene/pose.hpp"
 #include "session/access.hpp"
 #include "session/resolve_auto.hpp"
+#include "session/seeded_camera.hpp"
 #include "support/rendering.hpp"
 
 namespace {
@@ -40,6 +42,42 @@ TEST(Auto, PictureIsThatOfTheSuggestedPlanAndEachMirrorHasAReason) {
     }
 }
 
+/// Returns the milliseconds that the costs predict for the work that the frame does.
+double predict_ms_of_counted_work(session::Session& session, const session::FrameSpec& spec) {
+    const session::Frame frame = session::Access::render_frame(session, spec,
+                                                               {.counts_work = true});
+    const WorkCountsByKind counts = sum_work_counts_of_passes(session::Access::pass_work(frame));
+    require::WorkValues values;
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+        values.values[i] = static_cast<double>(counts.values[i].value_or(0));
+    return require::predict_ms(values, require::default_unit_costs());
+}
+
+/// What `auto` expects of a traced plan before it is drawn, and the work that the plan then does,
+/// in drawn views of five scenes.
+TEST(Auto, ExpectedTimesOfTracedPlansAreThoseOfTheirWork) {
+    for (const char* name : {"cornell-mirrors", "courtyard", "flat", "gallery", "room"}) {
+        const scene::Scene rest = scene::load(name), now = scene::scene_at_time(rest, 0);
+        session::Session session(test::get_test_engine(), rest);
+        for (const std::uint64_t seed : {1, 2, 3}) {
+            session::FrameSpec spec{.camera = session::make_seeded_camera(rest, 0, seed),
+                                    .size = uvec2(256)};
+            const require::PlanSuggestion suggestion = require::suggest_technique_plan(
+                {.now = now, .camera = spec.camera, .size = spec.size});
+            int traced = 0;
+            for (const require::PlanCandidate& candidate : suggestion.candidates) {
+                if (!candidate.name.starts_with("raytrace")) continue;
+                spec.techniques = {candidate.name};
+                const double counted = predict_ms_of_counted_work(session, spec);
+                EXPECT_NEAR(candidate.ms, counted, .35 * counted)
+                    << name << ", camera " << seed << ", " << candidate.name;
+                ++traced;
+            }
+            EXPECT_EQ(traced, 2);
+        }
+    }
+}
+
 /// A plan belongs to a scene and a sequence. After an edit or a cut, `auto` must choose again.
 TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
     scene::Scene hall = test::make_mirror_hall();
@@ -61,6 +99,22 @@ TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
     session.forget();
     const std::string chosen_again = session.frame(away).read().plan[0].why;
     EXPECT_NE(chosen_again.find("no pixel shows it"), std::string::npos) << chosen_again;
+}
+
+/// A frame beside the sequence has a plan of its own, and takes none from the sequence.
+TEST(Auto, PlanStaysAfterAFrameBesideTheSequence) {
+    const scene::Scene hall = test::make_mirror_hall();
+    session::Session session(test::get_test_engine(), hall);
+    session::FrameSpec frame_spec{
+        .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
+    const std::string why = session.frame(frame_spec).read().plan[0].why;
+    session::FrameSpec aside = frame_spec;
+    aside.techniques = {"reuse:face=16"}, aside.keeps_history = true;
+    EXPECT_EQ(session.frame(aside).read().plan[0].technique, "reuse");
+    // This view does not show the ball.
+    frame_spec.camera.eye = {.9, .9, 1.2}, frame_spec.camera.target = {.9, 1, 1.9};
+    frame_spec.camera.vertical_fov_degrees = 10;
+    EXPECT_EQ(session.frame(frame_spec).read().plan[0].why, why);
 }
 
 /// A comparison suspends the sequence of a row and resumes it later. The plan of the first frame
