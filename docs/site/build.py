@@ -180,10 +180,10 @@ def write_command_line(program):
         fail(f"'{program} help' wanted a list of verbs, found {verbs}")
     parts = ["# Command line (reference)\n\nThis page lists the verbs and options of the programs. The programs' help "
              "makes this page.\n", write_help("catoptric", text, 2)]
-    parts += [write_help(f"catoptric {verb}", run_help(program, "help", verb), 2) for verb in verbs]
+    parts += [write_help(f"catoptric {verb}", run_help(program, verb, "--help-all"), 2) for verb in verbs]
     window = pathlib.Path(program).with_name("catoptric-view")
     if window.exists():
-        parts.append(write_help("catoptric-view", run_help(window, "--help"), 2))
+        parts.append(write_help("catoptric-view", run_help(window, "--help-all"), 2))
     return "\n".join(parts)
 
 

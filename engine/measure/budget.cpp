@@ -18,12 +18,17 @@ const Row* find_row_minimising_value(const std::vector<const Row*>& rows, Value&
 }
 
 double mean_flip_over_mirrors(const Row& row) { return row.error.flip; }
+double rmse_over_mirrors(const Row& row) { return row.error.rmse; }
 double median_frame_ms(const Row& row) { return row.time_ms().median; }
 
 } // namespace
 
-bool has_time_or_flip_budget(const Comparison& comparison) {
-    return !std::isnan(comparison.max_ms) || !std::isnan(comparison.max_flip);
+bool has_error_budget(const Comparison& comparison) {
+    return !std::isnan(comparison.max_flip) || !std::isnan(comparison.max_rmse);
+}
+
+bool has_budget(const Comparison& comparison) {
+    return !std::isnan(comparison.max_ms) || has_error_budget(comparison);
 }
 
 Order compare_to_time_budget(const Comparison& comparison, const Row& row) {
@@ -35,8 +40,9 @@ Order compare_to_time_budget(const Comparison& comparison, const Row& row) {
                             comparison.max_ms);
 }
 
-bool is_within_flip_budget(const Comparison& comparison, const Row& row) {
-    return std::isnan(comparison.max_flip) || row.error.flip <= comparison.max_flip;
+bool is_within_error_budget(const Comparison& comparison, const Row& row) {
+    return (std::isnan(comparison.max_flip) || row.error.flip <= comparison.max_flip) &&
+           (std::isnan(comparison.max_rmse) || row.error.rmse <= comparison.max_rmse);
 }
 
 BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison) {
@@ -47,18 +53,19 @@ BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison) 
         judged.push_back(&row);
         const Order time = compare_to_time_budget(comparison, row);
         const bool is_in_time = time == Order::less || time == Order::equal,
-                   is_close = is_within_flip_budget(comparison, row);
+                   is_close = is_within_error_budget(comparison, row);
         if (is_in_time) in_time.push_back(&row);
         if (is_in_time && is_close) fitting.push_back(&row);
         if (time == Order::unknown && is_close) answer.undecided.push_back(&row);
     }
-    const bool by_flip = std::isnan(comparison.max_flip);
+    const bool by_flip = !has_error_budget(comparison);
     answer.row = by_flip ? find_row_minimising_value(fitting, mean_flip_over_mirrors)
                          : find_row_minimising_value(fitting, median_frame_ms);
     if (answer.row == nullptr) {
-        answer.nearest = in_time.empty()
-                             ? find_row_minimising_value(judged, median_frame_ms)
-                             : find_row_minimising_value(in_time, mean_flip_over_mirrors);
+        const bool by_rmse = std::isnan(comparison.max_flip) && !std::isnan(comparison.max_rmse);
+        answer.nearest = in_time.empty() ? find_row_minimising_value(judged, median_frame_ms)
+                         : by_rmse       ? find_row_minimising_value(in_time, rmse_over_mirrors)
+                                   : find_row_minimising_value(in_time, mean_flip_over_mirrors);
         return answer;
     }
     const RowJudge judge(comparison.rows);

@@ -199,9 +199,9 @@ struct Comparison {
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
     /// measure::find_pareto_front_of_rows.
     std::vector<std::size_t> pareto;
-    double max_ms = NAN, max_flip = NAN; ///< budgets (measure/budget.hpp); NaN: none
-    std::shared_ptr<LagResults> lag;     ///< see CompareRequest::studies; may be null
-    std::vector<std::string> studies;    ///< names of the studies that were asked for
+    double max_ms = NAN, max_flip = NAN, max_rmse = NAN; ///< budgets (budget.hpp); NaN: none
+    std::shared_ptr<LagResults> lag;  ///< see CompareRequest::studies; may be null
+    std::vector<std::string> studies; ///< names of the studies that were asked for
     std::vector<std::string> warnings;
     /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.
     std::string images;

@@ -29,23 +29,25 @@ std::string format_rows_with_intervals(const std::vector<const Row*>& rows) {
     return join_texts(texts, "; ");
 }
 
-/// Returns "4 ms", "FLIP 0.1" or "4 ms and FLIP 0.1".
+/// Returns the limits, such as "4 ms and FLIP 0.1".
 std::string format_budget_limits(const Comparison& comparison) {
     std::vector<std::string> limits;
     if (!std::isnan(comparison.max_ms)) limits.push_back(fmt::format("{:g} ms", comparison.max_ms));
     if (!std::isnan(comparison.max_flip))
         limits.push_back(fmt::format("FLIP {:g}", comparison.max_flip));
+    if (!std::isnan(comparison.max_rmse))
+        limits.push_back(fmt::format("rmse {:g}", comparison.max_rmse));
     return join_texts(limits, " and ");
 }
 
 } // namespace
 
 std::string describe_budget_answer(const Comparison& comparison) {
-    if (!measure::has_time_or_flip_budget(comparison)) return "";
+    if (!measure::has_budget(comparison)) return "";
     const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
     const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name +
                               describe_judged_time(comparison);
-    const bool by_time = !std::isnan(comparison.max_flip);
+    const bool by_time = measure::has_error_budget(comparison);
     const char* least = by_time ? "time" : "FLIP";
     std::string text;
     if (answer.row != nullptr && answer.open.empty()) {

@@ -130,7 +130,7 @@ std::string make_html_device_switch(const Comparison& comparison,
 /// of the sentence on ray tracing.
 std::string make_html_first_sentences(const Comparison& comparison, const std::string& where) {
     std::string html;
-    if (measure::has_time_or_flip_budget(comparison))
+    if (measure::has_budget(comparison))
         html = "<p class=\"lede answer\"><strong>" +
                escape_html(describe_budget_answer(comparison)) + "</strong></p>";
     return html + "<p class=\"lede\">" +

@@ -127,6 +127,7 @@ Json make_budget_json(const Comparison& comparison) {
     ties.insert(ties.end(), answer.open.begin(), answer.open.end());
     return {{"max_ms", make_number_json(comparison.max_ms)},
             {"max_flip", make_number_json(comparison.max_flip)},
+            {"max_rmse", make_number_json(comparison.max_rmse)},
             {"row", label(answer.row)},
             {"ties", make_labels_json(ties)},
             {"cannot_tell", make_labels_json(answer.open)},
@@ -292,7 +293,7 @@ Json make_report_json(const Comparison& comparison) {
     json["pareto"] = comparison.pareto;
     json["judged_time"] = measure::find_judged_time(comparison);
     json["verdict"] = make_verdict_json(comparison);
-    if (measure::has_time_or_flip_budget(comparison)) json["budget"] = make_budget_json(comparison);
+    if (measure::has_budget(comparison)) json["budget"] = make_budget_json(comparison);
     if (comparison.lag) json["lag"] = make_lag_json(comparison);
     return json;
 }

@@ -83,7 +83,7 @@ std::string to_markdown(const ReportTable& table) {
 std::string to_markdown(const Comparison& comparison) {
     std::string text = "# Reflections compared: " + escape_markdown(comparison.scene.name) +
                        "\n\n" +
-                       (measure::has_time_or_flip_budget(comparison)
+                       (measure::has_budget(comparison)
                             ? "**" + escape_markdown(describe_budget_answer(comparison)) + "**\n\n"
                             : "") +
                        escape_markdown(summarise_ray_tracing_verdict(comparison)) + "\n\n";

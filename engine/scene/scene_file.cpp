@@ -19,9 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How a value may be written without JSON's quotes: not at all, as a text, or as a list of one.
+enum class ValueForm : std::uint8_t { json, text, list };
+
 /// Key of the file: its name, its reader and its writer. The table of keys defines the format.
 struct SceneFileJsonKey {
     const char* name;
+    ValueForm form;
     void (*read)(const gltf::JsonObject& file, const gltf::Json& value, SceneOverrides& overrides);
     gltf::Json (*written)(const SceneOverrides& overrides); ///< null: the member is not written
 };
@@ -98,7 +102,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
 }
 
 const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
-    {{"mirrors",
+    {{"mirrors", ValueForm::list,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_text_list_member(file, value, "mirrors"))
               overrides.mirrors.push_back(
@@ -110,14 +114,14 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
               list.push_back(mirror_override_to_json(wish));
           return list.empty() ? Json() : list;
       }},
-     {"lights",
+     {"lights", ValueForm::list,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.lights = read_text_list_member(file, value, "lights");
       },
       [](const SceneOverrides& overrides) {
           return overrides.lights.empty() ? Json() : Json(overrides.lights);
       }},
-     {"mirror_max_roughness",
+     {"mirror_max_roughness", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.mirror_max_roughness = read_bounded_number(file, value, "mirror_max_roughness",
                                                                0, 1);
@@ -125,14 +129,14 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           return optional_to_json(overrides.mirror_max_roughness);
       }},
-     {"dielectric_mirrors",
+     {"dielectric_mirrors", ValueForm::json,
       [](const JsonObject& file, const Json&, SceneOverrides& overrides) {
           overrides.dielectric_mirrors = file.flag("dielectric_mirrors", false);
       },
       [](const SceneOverrides& overrides) {
           return optional_to_json(overrides.dielectric_mirrors);
       }},
-     {"multiple_scattering",
+     {"multiple_scattering", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.multiple_scattering = read_none_or_word(file, value, "multiple_scattering",
                                                             "turquin");
@@ -140,20 +144,20 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           return none_or_word_to_json(overrides.multiple_scattering, "turquin");
       }},
-     {"glass_shadow",
+     {"glass_shadow", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.tints_glass_shadows = read_none_or_word(file, value, "glass_shadow", "tint");
       },
       [](const SceneOverrides& overrides) {
           return none_or_word_to_json(overrides.tints_glass_shadows, "tint");
       }},
-     {"light_samples",
+     {"light_samples", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.light_samples = read_bounded_whole_number(file, value, "light_samples", 1,
                                                               kMaxLightSamples);
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.light_samples); }},
-     {"environment_shadows",
+     {"environment_shadows", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment_shadows = read_bounded_whole_number(
               file, value, "environment_shadows", 0, kMaxEnvironmentShadows);
@@ -161,12 +165,12 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           return optional_to_json(overrides.environment_shadows);
       }},
-     {"environment",
+     {"environment", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment = read_text_member(file, value, "environment");
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.environment); }},
-     {"environment_scale",
+     {"environment_scale", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment_scale = read_bounded_number(file, value, "environment_scale", 0,
                                                             kMaxLightScale);
@@ -174,7 +178,7 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           return optional_to_json(overrides.environment_scale);
       }},
-     {"environment_rotate",
+     {"environment_rotate", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment_rotation = read_bounded_number(
               file, value, "environment_rotate", -kMaxRotationDegrees, kMaxRotationDegrees);
@@ -182,12 +186,12 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           return optional_to_json(overrides.environment_rotation);
       }},
-     {"ambient",
+     {"ambient", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.ambient = read_bounded_number(file, value, "ambient", 0, kMaxLightScale);
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.ambient); }},
-     {"exposure",
+     {"exposure", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           if (value == "auto")
               overrides.exposure = ExposureOverride{};
@@ -199,12 +203,12 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
           if (!overrides.exposure) return Json();
           return overrides.exposure->stops ? Json(*overrides.exposure->stops) : Json("auto");
       }},
-     {"camera",
+     {"camera", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.camera = read_text_member(file, value, "camera");
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.camera); }},
-     {"up",
+     {"up", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           file.require_condition(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
                                  gltf::describe_json_value(value));
@@ -213,15 +217,13 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           return overrides.up ? Json(*overrides.up == UpAxis::z ? "z" : "y") : Json();
       }},
-     {"animation",
+     {"animation", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.animation = read_text_member(file, value, "animation");
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.animation); }}}};
 
-SceneOverrides read_overrides(const std::string& file, const std::string& text,
-                              SceneLoadBudgetUsage& account) {
-    const Json document = gltf::parse_json(file, text, account);
+SceneOverrides read_overrides(const std::string& file, const Json& document) {
     const JsonObject item(document, file);
     item.require_condition(document.is_object(), "wanted an object, found ",
                            gltf::describe_json_value(document));
@@ -261,12 +263,30 @@ std::optional<SceneFile> read_scene_file(const fs::path& scene, const SceneFileO
         return std::nullopt;
     const fs::path real = files.find_scene_file_by_name(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
-    found.overrides = read_overrides(place, files.read_file_content(real, place), account);
+    found.overrides = read_overrides(
+        place, gltf::parse_json(place, files.read_file_content(real, place), account));
     if (std::optional<std::string>& picture = found.overrides.environment;
         picture && is_environment_file_name(*picture))
         picture = files.find_required_scene_file(*picture, place + ": environment").string();
     found.files = files.list_found_files();
     return found;
+}
+
+SceneOverrides read_override(const std::string& text) {
+    const std::size_t end = text.find('=');
+    check(end != std::string::npos && end > 0, Failure::usage,
+          "--set: wanted KEY=VALUE, such as ambient=0, found ", quote_text_with_escapes(text));
+    const std::string name = text.substr(0, end), value = text.substr(end + 1);
+    const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileJsonKey::name);
+    const ValueForm form = key == kSceneFileKeys.end() ? ValueForm::text : key->form;
+    Json parsed = Json::parse(value, nullptr, false);
+    if (form == ValueForm::text || parsed.is_discarded()) parsed = value;
+    if (form == ValueForm::list && !parsed.is_array()) parsed = Json::array({value});
+    try {
+        return read_overrides("--set", Json{{name, std::move(parsed)}});
+    } catch (const Error& error) {
+        fail(Failure::usage, error.what());
+    }
 }
 
 std::string write_scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {

@@ -31,6 +31,10 @@ struct SceneFile {
 std::optional<SceneFile> read_scene_file(const std::filesystem::path& scene,
                                          const SceneFileOptions& options);
 
+/// Reads "KEY=VALUE", with a key of a scene file and its value. A text needs no quotes, and one
+/// text is a list of one. Throws `usage`.
+SceneOverrides read_override(const std::string& text);
+
 /// Returns the text that `read_scene_file` reads as these overrides. Throws `usage` for a picture
 /// that does not lie below the scene's folder.
 std::string write_scene_file_text(const SceneOverrides& overrides,

@@ -32,7 +32,7 @@ namespace catoptric::cli {
 namespace {
 
 constexpr const char* kChooseExamples = R"(Examples:
-  catoptric choose room.glb --max-error flip=0.05 -o plan.json
+  catoptric choose room.glb --max-flip 0.05 -o plan.json
   catoptric choose room.glb --max-ms 4 --costs gtx-1080-ti -o card.json
   catoptric render room.glb --plan plan.json -o look.png
   catoptric choose room.glb --certify plan.json --proof-seed 7
@@ -53,13 +53,22 @@ struct ChooseOptions {
     std::vector<std::string> command;
 };
 
+void set_error_limit(const std::string& option, study::ErrorQuantity quantity,
+                     const std::string& text, study::ChooseRequest& limits) {
+    check(!limits.max_error, Failure::usage, option,
+          ": wanted one of --max-flip, --max-rmse and --max-error, found several");
+    limits.quantity = quantity;
+    limits.max_error = parse_real(option, text, 0, 1);
+}
+
 void read_error_limit(const std::string& text, study::ChooseRequest& limits) {
     const std::size_t end = text.find('=');
     const std::string quantity = text.substr(0, end);
     check(end != std::string::npos && (quantity == "flip" || quantity == "rmse"), Failure::usage,
           "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote_text_with_escapes(text));
-    limits.quantity = quantity == "flip" ? study::ErrorQuantity::flip : study::ErrorQuantity::rmse;
-    limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
+    set_error_limit("--max-error",
+                    quantity == "flip" ? study::ErrorQuantity::flip : study::ErrorQuantity::rmse,
+                    text.substr(end + 1), limits);
 }
 
 /// Returns the certificate in a file of a plan; an empty object if the file has none.
@@ -118,7 +127,7 @@ void read_certificate(const ChooseOptions& options, study::ChooseRequest& reques
     // A plan that keeps no requested limit states the error that it keeps.
     if (!request.max_error && !request.max_ms) request.max_error = number("error_bound", 0, 1);
     check(request.max_error || request.max_ms, Failure::usage, file,
-          ": has no certificate with a limit; wanted --max-error or --max-ms");
+          ": has no certificate with a limit; wanted --max-flip, --max-rmse or --max-ms");
     if (!options.is_share_given) request.share = number("share", .5, .9999).value_or(request.share);
     if (!options.is_confidence_given)
         request.confidence = number("confidence", .5, .9999).value_or(request.confidence);
@@ -250,7 +259,7 @@ int run_choose(const ChooseOptions& options) {
           "--certify: wanted no --techniques beside it");
     if (options.certified.empty()) {
         throw_unless_option_given(options.limits.max_error || options.limits.max_ms, "choose",
-                                  "--max-error or --max-ms", "the limit to keep");
+                                  "--max-flip, --max-rmse or --max-ms", "the limit to keep");
         throw_unless_option_given(!options.output.empty(), "choose", "-o PLAN.json",
                                   "the file for the plan");
         check_technique_list(options.techniques);
@@ -287,8 +296,17 @@ int run_choose(const ChooseOptions& options) {
 
 void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
     study::ChooseRequest& limits = options.limits;
-    verb.option("--max-error", "Q=V",
-                "limit of the error over the mirrors in a view: flip=V or rmse=V, from 0 to 1",
+    const auto add_limit = [&](const char* option, const char* value, const char* help,
+                               study::ErrorQuantity quantity) {
+        verb.option(option, value, help, [=, &limits](const std::string& text) {
+            set_error_limit(option, quantity, text, limits);
+        });
+    };
+    add_limit("--max-flip", "F", "limit of FLIP over the mirrors in a view, from 0 to 1",
+              study::ErrorQuantity::flip);
+    add_limit("--max-rmse", "E", "limit of the root mean square error there, from 0 to 1",
+              study::ErrorQuantity::rmse);
+    verb.option("--max-error", "Q=V", "the same as flip=V or rmse=V",
                 [&limits](const std::string& text) { read_error_limit(text, limits); });
     verb.option("--max-ms", "M",
                 "limit of the time of a frame, milliseconds; alone: choose the least error",

@@ -20,6 +20,7 @@ namespace {
 constexpr const char* kHelpVerb = "help";
 constexpr std::size_t kHelpTextColumns = 80;
 constexpr std::size_t kHelpDescriptionColumn = 28; ///< column of the descriptions of options
+constexpr std::ptrdiff_t kHelpLines = 80;          ///< a longer help names less common options only
 
 /// Returns `text` in lines of at most kHelpTextColumns columns. The first line starts in column
 /// `indent`; the others are indented to it.
@@ -72,9 +73,35 @@ std::string wrap_paragraphs(const std::string& text) {
     return result;
 }
 
-/// Formats the help of CLI11 in kHelpTextColumns columns.
+/// Returns the help without repeated empty lines.
+std::string remove_repeated_empty_lines(std::string text) {
+    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
+    return text;
+}
+
+/// Formats the help of CLI11 in kHelpTextColumns columns. A help of more than kHelpLines lines
+/// describes the common options, and only names the others; --help-all describes all.
 class HelpFormatter : public CLI::Formatter {
 public:
+    std::string make_help(const CLI::App* app, std::string name,
+                          CLI::AppFormatMode mode) const override {
+        const std::string whole = remove_repeated_empty_lines(
+            CLI::Formatter::make_help(app, name, mode));
+        if (mode != CLI::AppFormatMode::Normal || std::ranges::count(whole, '\n') <= kHelpLines)
+            return whole;
+        std::string text = make_description(app) + make_usage(app, std::move(name)) +
+                           make_positionals(app) +
+                           make_group(kCommonOptions, false, list_options(app, kCommonOptions)) +
+                           "\nFurther options, which --help-all describes:\n";
+        for (const std::string& group : app->get_groups()) {
+            if (group.empty() || group == kCommonOptions) continue;
+            std::string names;
+            for (const CLI::Option* option : list_options(app, group))
+                names += (names.empty() ? "" : " ") + option->get_name();
+            if (!names.empty()) text += format_help_entry(group, names);
+        }
+        return text + make_footer(app);
+    }
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
         return format_help_entry(make_option_name(option, is_positional) + make_option_opts(option),
                                  make_option_desc(option));
@@ -83,15 +110,17 @@ public:
         return format_help_entry(verb->get_name(), verb->get_description());
     }
     std::string make_footer(const CLI::App* app) const override {
-        return app->get_footer().empty() ? "" : wrap_paragraphs(app->get_footer());
+        return app->get_footer().empty() ? "" : "\n" + wrap_paragraphs(app->get_footer());
+    }
+
+private:
+    static std::vector<const CLI::Option*> list_options(const CLI::App* app,
+                                                        const std::string& group) {
+        return app->get_options([&](const CLI::Option* option) {
+            return option->get_group() == group && option->nonpositional();
+        });
     }
 };
-
-/// Returns the help without repeated empty lines.
-std::string remove_repeated_empty_lines(std::string text) {
-    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
-    return text;
-}
 
 /// Throws `usage` for unknown words, with the nearest known name. CLI11 is told to accept unknown
 /// words, because its own message suggests no name.
@@ -105,7 +134,7 @@ void refuse_unknown_words(const CLI::App& verb, const std::string& program) {
         const std::string name = extra.substr(0, extra.find('='));
         const std::string nearest = suggest_nearest_name(name, names);
         fail(Failure::usage, "'", verb.get_name(), "' has no option '", name, "'",
-             nearest.empty() ? "; '" + program + " --help' lists all" : nearest);
+             nearest.empty() ? "; '" + program + " --help-all' lists all" : nearest);
     }
     check(extras.empty(), Failure::usage, "'", verb.get_name(),
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
@@ -212,12 +241,14 @@ CommandVerb& CommandLine::add_command_verb(const std::string& name, const std::s
     CLI::App* app = command_line_parser_->add_subcommand(name, summary);
     app->group("Verbs");
     app->set_help_flag("-h,--help", "print this help");
+    app->set_help_all_flag("--help-all", "describe all options");
     app->allow_extras(); // refuse_unknown_words has the better message
     return *verbs_.emplace_back(std::make_unique<CommandVerb>(*app));
 }
 
 CommandVerb& CommandLine::only_command_verb() {
     command_line_parser_->require_subcommand(0);
+    command_line_parser_->set_help_all_flag("--help-all", "describe all options");
     command_line_parser_->allow_extras();
     is_whole_ = true;
     return *verbs_.emplace_back(std::make_unique<CommandVerb>(*command_line_parser_));

@@ -64,7 +64,7 @@ struct CompareOptions {
     double reference_seconds = study::CompareRequest().reference_seconds;
     std::optional<int> cameras_per_instant; ///< of drawn views
     study::ReferencePixelKind truth = study::ReferencePixelKind::centre;
-    double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
+    double max_ms = NAN, max_flip = NAN, max_rmse = NAN; ///< budgets; NaN: none
     BaselineOptions baseline;
     std::optional<int> rounds; ///< none: study::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
@@ -248,9 +248,8 @@ public:
             print_result(
                 (is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
                 make_compare_table(comparison) +
-                (measure::has_time_or_flip_budget(comparison)
-                     ? report::describe_budget_answer(comparison) + "\n"
-                     : "") +
+                (measure::has_budget(comparison) ? report::describe_budget_answer(comparison) + "\n"
+                                                 : "") +
                 (comparison.path_distance
                      ? report::describe_path_distance(*comparison.path_distance, comparison.rows) +
                            "\n"
@@ -296,7 +295,8 @@ report::Comparison compare_scene(session::Engine& engine, study::CompareRequest&
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = study::compare(engine, request);
-    comparison.max_ms = options.max_ms, comparison.max_flip = options.max_flip;
+    comparison.max_ms = options.max_ms;
+    comparison.max_flip = options.max_flip, comparison.max_rmse = options.max_rmse;
     progress.clear();
     // If no row was finished, nothing is written, because an earlier report in the folder is worth
     // more.
@@ -362,7 +362,7 @@ int run_compare(const CompareOptions& options) {
         }
         gate.judge_scene_against_baseline(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
-        keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||
+        keeps_budgets = keeps_budgets && (!measure::has_budget(comparison) ||
                                           measure::find_best_rows_within_budget(comparison).row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
@@ -432,18 +432,33 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
         "compare each technique that has the knob with each of several values, such as "
         "rays=1,4,16,64; may be repeated",
         [options](const std::string& text) { options->axes.push_back(parse_knob_axis(text)); });
-    verb.repeated("--row", "NAME=PICTURES",
-                  "further row: a picture of the same camera, time and size from another renderer, "
-                  "or a folder with one for each view, see 'help views'. EXR and Radiance files "
-                  "hold linear light, a PNG what is displayed at the comparison's exposure; "
-                  "NAME=FILE:LAYER for an OpenEXR file of several layers; may be repeated",
-                  [options](const std::string& text) {
-                      const std::size_t end = text.find('=');
-                      check(end != std::string::npos && end > 0 && end + 1 < text.size(),
-                            Failure::usage, "--row: wanted NAME=PICTURES, found ",
-                            quote_text_with_escapes(text));
-                      options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
-                  });
+    verb.repeated(
+        "--row", "NAME=PICTURES",
+        "further row: another renderer's picture of the same camera, time and size, or "
+        "a folder with one for each view, see 'help views'. EXR and HDR files hold linear "
+        "light, a PNG what is displayed; NAME=FILE:LAYER for a layer; may be repeated",
+        [options](const std::string& text) {
+            const std::size_t end = text.find('=');
+            check(end != std::string::npos && end > 0 && end + 1 < text.size(), Failure::usage,
+                  "--row: wanted NAME=PICTURES, found ", quote_text_with_escapes(text));
+            options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
+        });
+    verb.option("--max-ms", "M",
+                "say which row has the least error within M milliseconds; exit code 1 if none is",
+                [options](const std::string& text) {
+                    options->max_ms = parse_real("--max-ms", text, 0, 1e6);
+                });
+    verb.option(
+        "--max-flip", "F",
+        "say which row is the fastest with a FLIP of at most F, within --max-ms if given; exit "
+        "code 1 if none is",
+        [options](const std::string& text) {
+            options->max_flip = parse_real("--max-flip", text, 0, 1);
+        });
+    verb.option("--max-rmse", "E", "the same with a root mean square error of at most E",
+                [options](const std::string& text) {
+                    options->max_rmse = parse_real("--max-rmse", text, 0, 1);
+                });
     verb.heading(kMeasuringOptions);
     add_study_options(verb, *options, StudyOptionKind::number);
     verb.option("--cameras-per-instant", "M",
@@ -461,20 +476,6 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                     options->rounds = static_cast<int>(
                         parse_integer("--rounds", text, study::kRounds, 10000));
                 });
-    verb.option(
-        "--max-ms", "M",
-        "say which row has the least error within M milliseconds of this device; exit code 1 "
-        "if no row is that fast",
-        [options](const std::string& text) {
-            options->max_ms = parse_real("--max-ms", text, 0, 1e6);
-        });
-    verb.option(
-        "--max-flip", "F",
-        "say which row is the fastest with a FLIP of at most F, within --max-ms if given; exit "
-        "code 1 if no row is that close",
-        [options](const std::string& text) {
-            options->max_flip = parse_real("--max-flip", text, 0, 1);
-        });
     add_baseline_options(verb, options->baseline);
     verb.option("--truth", "T",
                 "pixels of the reference: centre (one camera ray, as techniques draw them), "

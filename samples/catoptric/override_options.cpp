@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "scene/scene_file.hpp"
 
 namespace catoptric::cli {
 
@@ -14,11 +15,13 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     const auto mirror = [&](const std::string& text) {
         overrides.mirrors.push_back(scene::read_mirror_override("--mirror", text));
     };
+    verb.heading(kCommonOptions);
     verb.repeated(
         "--mirror", "PATTERN[=R][,roughness=A]",
         "make mirrors of objects or materials with this name (* ? [...]); R is the reflectance, a "
         "number or r,g,b from 0 to 1 (1); a roughness A above 0 makes them metals; may be repeated",
         mirror);
+    verb.heading(kSceneOptionsHeading);
     verb.repeated(
         "--light", "PATTERN",
         "make lamps of emitting objects or materials with this name, also if a texture varies the "
@@ -152,6 +155,15 @@ void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
     add_scale_and_axis_options(verb, common.overrides);
     verb.option_without_value("--no-scene-file", "ignore SCENE.catoptric.json",
                               [&] { common.use_scene_file = false; });
+    verb.heading(kCommonOptions);
+    // The parser takes options in the order in which they are added, so this one wins.
+    verb.repeated("--set", "KEY=VALUE",
+                  "set a key of SCENE.catoptric.json, such as ambient=0 or lights=lamp*; wins over "
+                  "the option of that name; may be repeated",
+                  [&common](const std::string& text) {
+                      common.overrides = scene::combine_overrides(scene::read_override(text),
+                                                                  common.overrides);
+                  });
 }
 
 } // namespace catoptric::cli

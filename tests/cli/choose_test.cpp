@@ -43,7 +43,7 @@ protected:
 };
 
 TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
-    const test::ProcessResult ended = choose_between_two_techniques({"--max-error", "flip=0.5"});
+    const test::ProcessResult ended = choose_between_two_techniques({"--max-flip", "0.5"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("chosen: "));
     const json plan = read_plan(), &certificate = plan["certificate"];
@@ -266,7 +266,11 @@ TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
         EXPECT_THAT(ended.err, HasSubstr(says));
         EXPECT_FALSE(std::filesystem::exists(folder / "plan.json"));
     };
-    refused({}, "'choose' needs --max-error or --max-ms: the limit to keep");
+    refused({}, "'choose' needs --max-flip, --max-rmse or --max-ms: the limit to keep");
+    refused({"--max-flip", "2"}, "--max-flip: wanted");
+    refused({"--max-rmse", "-1"}, "--max-rmse: wanted");
+    refused({"--max-flip", ".1", "--max-rmse", ".1"}, "found several");
+    refused({"--max-error", "flip=.1", "--max-rmse", ".1"}, "found several");
     refused({"--max-error", "0.05"}, "--max-error: wanted flip=VALUE or rmse=VALUE, found '0.05'");
     refused({"--max-error", "flip=2"}, "--max-error");
     refused({"--max-error", "flip=.1", "--proof-seed", "1"},
@@ -276,7 +280,7 @@ TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
          {"--cameras-per-instant", "--training-views", "--proof-views", "--reference-seconds"})
         refused({"--max-error", "flip=.1", option, "-1"}, option + ": wanted");
     const test::ProcessResult hopeless = run_cli(
-        {"choose", "flat", "--max-error", "flip=.1", "--proof-views", "58", "-o", "plan.json"});
+        {"choose", "flat", "--max-rmse", ".1", "--proof-views", "58", "-o", "plan.json"});
     EXPECT_EQ(hopeless.exit_code, 2);
     EXPECT_THAT(hopeless.err,
                 HasSubstr("views of the proof: wanted at least 59, since fewer cannot "

@@ -18,7 +18,7 @@ TEST_F(CommandLineTest, CompletionsOfferEachOptionOfEachVerb) {
         EXPECT_THAT(bash, HasSubstr("\n    " + verb + ")\n"));
         EXPECT_THAT(zsh, HasSubstr("\n        " + verb + ":'"));
         EXPECT_THAT(fish, HasSubstr("__fish_use_subcommand -a " + verb + " -d '"));
-        const std::string help = run_cli({verb, "--help"}).out;
+        const std::string help = run_cli({verb, "--help-all"}).out;
         const std::string of_bash = bash.substr(bash.find("\n    " + verb + ")\n"));
         const std::string words = of_bash.substr(0, of_bash.find(";;"));
         const std::regex names("\n  (?:-[a-zA-Z],)?(--[a-z-]+)");

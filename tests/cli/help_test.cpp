@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 #include <span>
 #include <sstream>
 
@@ -23,17 +24,40 @@ std::vector<std::string> split_into_lines(const std::string& text) {
 
 TEST_F(CommandLineTest, HelpFitsEightyColumns) {
     std::vector<Words> asked{{"--help"}};
-    for (const std::string& verb : kProgramVerbs) asked.push_back({verb, "--help"});
+    for (const std::string& verb : kProgramVerbs)
+        asked.push_back({verb, "--help"}), asked.push_back({verb, "--help-all"});
     for (const Words& words : asked)
         for (const std::string& line : split_into_lines(run_cli(words).out))
             EXPECT_LE(line.size(), 80U) << words.front() << ": " << line;
+}
+
+/// Returns the names of all options in a text, such as "--size".
+std::set<std::string> find_option_names(const std::string& text) {
+    const std::regex name("--[a-z]+(-[a-z]+)*");
+    std::set<std::string> names;
+    for (std::sregex_iterator at(text.begin(), text.end(), name), end; at != end; ++at)
+        names.insert(at->str());
+    return names;
+}
+
+/// The help of a verb with many options describes the common ones, and names all.
+TEST_F(CommandLineTest, HelpFitsEightyLinesAndNamesAllOptions) {
+    for (const std::string& verb : kProgramVerbs) {
+        const std::string help = run_cli({verb, "--help"}).out,
+                          all = run_cli({verb, "--help-all"}).out;
+        EXPECT_LE(split_into_lines(help).size(), 80U) << verb;
+        EXPECT_THAT(find_option_names(help), testing::IsSupersetOf(find_option_names(all))) << verb;
+        EXPECT_GE(all.size(), help.size()) << verb;
+    }
+    EXPECT_THAT(run_cli({"compare", "--help"}).out, Not(HasSubstr("largest roughness")));
+    EXPECT_THAT(run_cli({"compare", "--help-all"}).out, HasSubstr("largest roughness"));
 }
 
 TEST_F(CommandLineTest, HelpNamesOptionsByLowerCaseWords) {
     const std::regex option("(^|[ ,])(--[^ ,=\\]\\[]*)"), name("--[a-z0-9]+(-[a-z0-9]+)*");
     int options = 0;
     for (const std::string& verb : kProgramVerbs)
-        for (const std::string& line : split_into_lines(run_cli({verb, "--help"}).out)) {
+        for (const std::string& line : split_into_lines(run_cli({verb, "--help-all"}).out)) {
             std::smatch found;
             if (!line.starts_with("  -") || !std::regex_search(line, found, option)) continue;
             EXPECT_TRUE(std::regex_match(found[2].str(), name)) << verb << ": " << line;
@@ -58,7 +82,7 @@ TEST_F(CommandLineTest, ExamplesOfTheHelpAreCommands) {
 
 TEST_F(CommandLineTest, HelpShowsCommonOptionsFirst) {
     for (const std::string verb : {"compare", "render"}) {
-        const std::string help = run_cli({verb, "--help"}).out;
+        const std::string help = run_cli({verb, "--help-all"}).out;
         const std::size_t common = help.find("Common options:"), scene = help.find("The scene:");
         ASSERT_NE(common, std::string::npos) << help;
         ASSERT_NE(scene, std::string::npos) << help;

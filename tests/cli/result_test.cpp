@@ -117,6 +117,10 @@ TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
         EXPECT_THAT(read_file_at_path(folder / file), testing::HasSubstr("has the least FLIP"))
             << file;
 
+    const test::ProcessResult close = compare({"--max-rmse", "1", "--max-flip", "1"});
+    EXPECT_EQ(close.exit_code, 0) << close.err;
+    EXPECT_THAT(close.out, testing::HasSubstr("Within FLIP 1 and rmse 1 on "));
+    EXPECT_EQ(json::parse(read_file_at_path(folder / "out/report.json"))["budget"]["max_rmse"], 1);
     const test::ProcessResult none = compare({"--max-ms", "0", "--max-flip", "0.5"});
     EXPECT_EQ(none.exit_code, 1) << none.err;
     EXPECT_THAT(none.out, testing::HasSubstr("No row keeps 0 ms and FLIP 0.5 on "));

@@ -239,4 +239,39 @@ TEST_F(SceneOverrides, CompareOfSeveralScenesPrintsOneJsonDocument) {
     EXPECT_EQ(ended.out, read_output_file("out/report.json"));
 }
 
+/// --set takes the keys of the file, and draws what the option of that name draws.
+TEST_F(SceneOverrides, SetTakesTheKeysOfTheSceneFile) {
+    const auto render = [&](const Words& more, const std::string& picture) {
+        Words words{"render",  "x.obj", "--technique", "raytrace:depth=1", "--size", "16x16",
+                    "--quiet", "-o",    picture};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_cli(words);
+    };
+    ASSERT_EQ(render({"--ambient", ".5", "--exposure", "1", "--mirror", "tin=.5", "--camera",
+                      "0,1,9:0,1,0:30"},
+                     "options.png")
+                  .exit_code,
+              0);
+    const test::ProcessResult set = render({"--set", "ambient=.5", "--set", "exposure=1", "--set",
+                                            "mirrors=tin=.5", "--set", "camera=0,1,9:0,1,0:30",
+                                            "--ambient", "0"},
+                                           "set.png");
+    ASSERT_EQ(set.exit_code, 0) << set.err;
+    EXPECT_EQ(read_output_file("set.png"), read_output_file("options.png"));
+    ASSERT_EQ(render({"--mirror", "tin"}, "plain.png").exit_code, 0);
+    EXPECT_NE(read_output_file("plain.png"), read_output_file("options.png"));
+    for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+             {"ambient", "--set: wanted KEY=VALUE, such as ambient=0, found 'ambient'"},
+             {"ambeint=1", "did you mean 'ambient'"},
+             {"ambient=-1", "--set: ambient: wanted a number from 0"},
+             {"ambient=much", "--set: ambient: wanted a number from 0"},
+             {"light_samples=1.5", "--set: light_samples: wanted a whole number"},
+             {"up=x", "--set: up: wanted \"y\" or \"z\""},
+             {"lights=[1]", "--set: lights: wanted a text"}}) {
+        const test::ProcessResult refused = render({"--set", text}, "x.png");
+        EXPECT_EQ(refused.exit_code, 2) << text << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr(says));
+    }
+}
+
 } // namespace

@@ -18,7 +18,7 @@ SIZES = {"--size": "32x32", "--frames": "6", "--warmup": "2", "--views": "6", "-
 ADDED = {"compare": ["--size", "--frames", "--warmup", "--reference-seconds"], "render": ["--size"], "graph": ["--size"],
          "bench": ["--size", "--frames", "--warmup"], "choose": ["--size", "--frames", "--warmup"], "views": ["--size"]}
 # An exit code of 1 is an answer with these options: a limit is exceeded, or something is slower.
-LIMITS = {"--max-ms", "--max-flip", "--max-error", "--baseline", "--compare", "--against", "--certify"}
+LIMITS = {"--max-ms", "--max-flip", "--max-rmse", "--max-error", "--baseline", "--compare", "--against", "--certify"}
 
 
 def shrink_captures(word):

@@ -51,6 +51,22 @@ TEST(RowBudget, ErrorBudgetChoosesTheFastestRowThatIsCloseEnough) {
     EXPECT_EQ(label_of_best_row_within_budget(NAN, .001), "");
 }
 
+TEST(RowBudget, BudgetOfRmseChoosesTheFastestRowThatIsCloseEnough) {
+    measure::Comparison made = make_rows_of_rising_quality();
+    for (measure::Row& row : made.rows) row.error.rmse = .1;
+    made.rows[3].error.rmse = .02; // the slow row
+    made.max_rmse = .05;
+    EXPECT_EQ(label_of_row_or_none(measure::find_best_rows_within_budget(made).row), "slow");
+    EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("Within rmse 0.05 on card: slow"));
+    made.max_flip = .15, made.max_rmse = .1;
+    EXPECT_EQ(label_of_row_or_none(measure::find_best_rows_within_budget(made).row), "middle")
+        << "the fast row keeps rmse alone";
+    made.rows[1].error.rmse = .03, made.max_flip = NAN, made.max_rmse = .01;
+    const measure::BestRowsWithinBudget none = measure::find_best_rows_within_budget(made);
+    EXPECT_EQ(none.row, nullptr);
+    EXPECT_EQ(label_of_row_or_none(none.nearest), "slow") << "the closest by rmse";
+}
+
 TEST(RowBudget, BothBudgetsChooseTheFastestRowThatKeepsBoth) {
     EXPECT_EQ(label_of_best_row_within_budget(10, .15), "middle");
     EXPECT_EQ(label_of_best_row_within_budget(4, .15), "");
