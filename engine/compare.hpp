@@ -120,7 +120,7 @@ public:
     CATOPTRIC_API explicit PlanAudit(const std::filesystem::path& file, AuditOptions options = {});
     CATOPTRIC_API ~PlanAudit();
     /// Returns whether the plans were proved for this scene. True if the file does not say it.
-    CATOPTRIC_API bool is_for_scene(const scene::Scene& scene) const;
+    CATOPTRIC_API bool is_for(const scene::Scene& scene) const;
     /// Returns the plan to render, for FrameSpec::techniques.
     CATOPTRIC_API const std::string& plan() const;
     /// Renders two references, as the first frame does otherwise, to compile shaders and to learn

@@ -13,11 +13,11 @@ namespace catoptric::embed {
 
 /// Features that the device must be created with, for Vulkan 1.3. VkDeviceCreateInfo::pNext must
 /// point to `core`, which chains them, and pEnabledFeatures must be null. No extension is needed.
-struct RequiredDeviceFeatures {
+struct RequiredFeatures {
     /// Fills the chain. Throws `no_device` with the names of features that the device lacks.
-    CATOPTRIC_API explicit RequiredDeviceFeatures(VkPhysicalDevice device);
-    RequiredDeviceFeatures(const RequiredDeviceFeatures&) = delete;
-    RequiredDeviceFeatures& operator=(const RequiredDeviceFeatures&) = delete;
+    CATOPTRIC_API explicit RequiredFeatures(VkPhysicalDevice device);
+    RequiredFeatures(const RequiredFeatures&) = delete;
+    RequiredFeatures& operator=(const RequiredFeatures&) = delete;
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan11Features v11{};
     VkPhysicalDeviceVulkan12Features v12{};
@@ -53,7 +53,7 @@ struct Target {
 /// afterwards sees the picture without a semaphore. Wait for an acquired image of a swapchain in a
 /// submit of your own before the frame, and signal for presenting in one after it. The image must
 /// live until Frame::times is known. Throws `usage` for several techniques or a wrong image.
-CATOPTRIC_API session::Frame
-render_frame_into(session::Session& session, const session::FrameSpec& spec, const Target& target);
+CATOPTRIC_API session::Frame render_into(session::Session& session, const session::FrameSpec& spec,
+                                         const Target& target);
 
 } // namespace catoptric::embed

@@ -11,7 +11,7 @@ using gpu::throw_unless_vk_success;
 namespace {
 
 VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
-    return is_depth_format(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 } // namespace

@@ -55,7 +55,7 @@ WrittenTriangleReferences write_references_in_parallel(std::span<const Triangle>
                                                        TriangleReferences into, unsigned threads) {
     std::vector<WrittenTriangleReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
                                                 kTrianglesPerTask);
-    run_in_parallel(runs.size(), threads, [&](std::size_t i) {
+    parallel_for(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kTrianglesPerTask,
                           count = std::min(kTrianglesPerTask, triangles.size() - first);
         runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,

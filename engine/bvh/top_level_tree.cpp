@@ -67,7 +67,7 @@ public:
         advise_large_pages(nodes.data(), nodes.capacity() * sizeof(vec4));
         nodes.resize(nodes.capacity(), vec4(0));
         if (!is_node) write_bvh_node_texels(&nodes[4], branches_[0], ParallelBvhBranch{});
-        run_in_parallel(branches_.size(), threads_, [&](std::size_t i) {
+        parallel_for(branches_.size(), threads_, [&](std::size_t i) {
             const ParallelBvhBranch& branch = branches_[i];
             vec4* texel = nodes.data() + 4 * branch.first_node;
             if (branch.sides != 0)
@@ -95,11 +95,11 @@ private:
             }
             cuts.push_back({i, CentroidToBinMapping(part.centres)});
         }
-        run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
+        parallel_for(pieces.size(), threads_, [&](std::size_t i) {
             pieces[i].bins.add_references(pieces[i].references, cuts[pieces[i].cut].binning);
         });
         choose_branch_split_planes(cuts, pieces);
-        run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
+        parallel_for(pieces.size(), threads_, [&](std::size_t i) {
             const ParallelBranchSplitPlan& cut = cuts[pieces[i].cut];
             if (cut.split)
                 cut.split->scatter_references_to_sides(pieces[i].references, cut.binning,
@@ -160,7 +160,7 @@ private:
         // have finished.
         std::ranges::stable_sort(order, std::greater(),
                                  [&](std::size_t i) { return branches_[i].part.count; });
-        run_in_parallel(order.size(), threads_, [&](std::size_t i) {
+        parallel_for(order.size(), threads_, [&](std::size_t i) {
             ParallelBvhBranch& branch = branches_[order[i]];
             branch.subtree = build_subtree(build_workspace_, branch.part, branch.depth);
         });

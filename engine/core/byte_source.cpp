@@ -16,17 +16,17 @@ namespace catoptric {
 
 namespace {
 
-class FileByteSource final : public RandomAccessByteSource {
+class FileSource final : public ByteSource {
 public:
-    FileByteSource(int file, std::uint64_t size, std::string name)
-        : file_descriptor_(file), size_(size), name_(std::move(name)) {}
-    ~FileByteSource() override { ::close(file_descriptor_); }
+    FileSource(int file, std::uint64_t size, std::string name)
+        : file_(file), size_(size), name_(std::move(name)) {}
+    ~FileSource() override { ::close(file_); }
 
     std::uint64_t size() const override { return size_; }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override {
         std::size_t count = 0;
         while (count < into.size()) {
-            const ssize_t more = ::pread(file_descriptor_, into.data() + count, into.size() - count,
+            const ssize_t more = ::pread(file_, into.data() + count, into.size() - count,
                                          static_cast<off_t>(offset + count));
             if (more < 0 && errno == EINTR) continue;
             check(more >= 0, Failure::io, name_, ": reading failed after ", offset + count,
@@ -38,18 +38,18 @@ public:
     }
 
 private:
-    int file_descriptor_;
+    int file_;
     std::uint64_t size_;
     std::string name_;
 };
 
 /// A source that owns its bytes.
-class OwnedMemoryByteSource final : public RandomAccessByteSource {
+class OwnedSource final : public ByteSource {
 public:
-    explicit OwnedMemoryByteSource(std::string bytes) : bytes_(std::move(bytes)) {}
+    explicit OwnedSource(std::string bytes) : bytes_(std::move(bytes)) {}
     std::uint64_t size() const override { return bytes_.size(); }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override {
-        return MemoryByteSource(bytes_).read(offset, into);
+        return MemorySource(bytes_).read(offset, into);
     }
 
 private:
@@ -58,23 +58,23 @@ private:
 
 } // namespace
 
-std::size_t MemoryByteSource::read(std::uint64_t offset, std::span<char> into) const {
+std::size_t MemorySource::read(std::uint64_t offset, std::span<char> into) const {
     if (offset >= bytes_.size()) return 0;
     const std::string_view part = bytes_.substr(offset, into.size());
     std::ranges::copy(part, into.begin());
     return part.size();
 }
 
-std::unique_ptr<RandomAccessByteSource> open_file_bytes(const std::filesystem::path& path) {
+std::unique_ptr<ByteSource> open_source(const std::filesystem::path& path) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode))
-        return std::make_unique<OwnedMemoryByteSource>(read_file(path));
+        return std::make_unique<OwnedSource>(read_file(path));
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const int error = errno;
     check(file >= 0, Failure::missing_input, path.string(),
           ": cannot be opened: ", std::generic_category().message(error));
-    return std::make_unique<FileByteSource>(file, static_cast<std::uint64_t>(facts.st_size),
-                                            path.string());
+    return std::make_unique<FileSource>(file, static_cast<std::uint64_t>(facts.st_size),
+                                        path.string());
 }
 
 } // namespace catoptric

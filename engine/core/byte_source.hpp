@@ -10,12 +10,12 @@ namespace catoptric {
 
 /// A source of bytes that are read piece by piece, so that a picture's header can be checked before
 /// the rest is in memory.
-class RandomAccessByteSource {
+class ByteSource {
 public:
-    RandomAccessByteSource() = default;
-    RandomAccessByteSource(const RandomAccessByteSource&) = delete;
-    RandomAccessByteSource& operator=(const RandomAccessByteSource&) = delete;
-    virtual ~RandomAccessByteSource() = default;
+    ByteSource() = default;
+    ByteSource(const ByteSource&) = delete;
+    ByteSource& operator=(const ByteSource&) = delete;
+    virtual ~ByteSource() = default;
 
     virtual std::uint64_t size() const = 0;
     /// Fills `into` with the bytes from `offset` on. Returns the number of bytes read, which is
@@ -24,9 +24,9 @@ public:
 };
 
 /// A source of bytes in memory. The memory must outlive it.
-class MemoryByteSource final : public RandomAccessByteSource {
+class MemorySource final : public ByteSource {
 public:
-    explicit MemoryByteSource(std::string_view bytes) : bytes_(bytes) {}
+    explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
     std::uint64_t size() const override { return bytes_.size(); }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override;
 
@@ -36,6 +36,6 @@ private:
 
 /// Opens a file without reading it. A pipe or a device cannot be read at an offset, so its bytes
 /// are read into memory. Throws `missing_input` if the file does not exist or cannot be opened.
-std::unique_ptr<RandomAccessByteSource> open_file_bytes(const std::filesystem::path& path);
+std::unique_ptr<ByteSource> open_source(const std::filesystem::path& path);
 
 } // namespace catoptric

@@ -12,19 +12,19 @@ namespace catoptric {
 /// hashes, except by chance.
 class ContentHash {
 public:
-    explicit ContentHash(std::uint64_t seed = 0) { mix_64_bit_word_into_hash(seed); }
+    explicit ContentHash(std::uint64_t seed = 0) { mix(seed); }
 
     template <typename Value>
-    ContentHash& add_value(const Value& value) {
+    ContentHash& add(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);
         return add_bytes(&value, sizeof value);
     }
     template <typename Value>
     ContentHash& add_values(std::span<const Value> values) {
-        add_value(values.size());
+        add(values.size());
         return add_bytes(values.data(), values.size_bytes());
     }
-    std::uint64_t current_hash() const { return sum_; }
+    std::uint64_t sum() const { return sum_; }
 
 private:
     ContentHash& add_bytes(const void* data, std::size_t size) {
@@ -33,13 +33,13 @@ private:
             std::uint64_t next = 0;
             const std::size_t part = size < sizeof next ? size : sizeof next;
             std::memcpy(&next, from, part);
-            mix_64_bit_word_into_hash(next);
+            mix(next);
             from += part, size -= part;
         }
         return *this;
     }
     /// Mixes a word into the running sum with SplitMix64's finaliser.
-    void mix_64_bit_word_into_hash(std::uint64_t next) {
+    void mix(std::uint64_t next) {
         std::uint64_t z = (sum_ ^ next) + 0x9e3779b97f4a7c15u;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;

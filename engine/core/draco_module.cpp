@@ -17,9 +17,9 @@ constexpr Module kDracoModule{
 
 } // namespace
 
-const DracoCodec& get_draco_codec() {
+const DracoCodec& draco_codec() {
     static const DracoCodec* const kCodec = reinterpret_cast<DracoCodecFunction>(
-        load_module_symbol(kDracoModule))();
+        load_symbol(kDracoModule))();
     return *kCodec;
 }
 

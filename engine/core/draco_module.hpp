@@ -10,12 +10,12 @@
 namespace catoptric {
 
 /// Type of the components in which the values of an attribute are wanted.
-enum class DracoComponentType : std::uint8_t { int8, uint8, int16, uint16, uint32, float32 };
+enum class DracoType : std::uint8_t { int8, uint8, int16, uint16, uint32, float32 };
 
 /// An attribute to read from Draco's data.
 struct DracoAttribute {
     std::uint32_t id = 0; ///< unique id within the data
-    DracoComponentType type = DracoComponentType::float32;
+    DracoType type = DracoType::float32;
     std::size_t width = 3;             ///< components of each value, 1 to 4
     std::vector<unsigned char> values; ///< filled: the values of all points, tightly packed
 };
@@ -42,8 +42,8 @@ struct DracoCodec {
 constexpr const char* kDracoCodecSymbol = "catoptric_draco_codec_1";
 using DracoCodecFunction = const DracoCodec* (*)();
 
-/// Returns the module's functions. The first call loads the module. Throws as load_module_symbol
+/// Returns the module's functions. The first call loads the module. Throws as load_symbol
 /// does (core/module.hpp).
-const DracoCodec& get_draco_codec();
+const DracoCodec& draco_codec();
 
 } // namespace catoptric

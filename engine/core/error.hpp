@@ -9,7 +9,7 @@
 namespace catoptric {
 
 /// Returns whether a signal caused the failure.
-constexpr bool is_failure_by_stop_signal(Failure failure) {
+constexpr bool is_signal(Failure failure) {
     return failure == Failure::hangup || failure == Failure::interrupted ||
            failure == Failure::terminated;
 }

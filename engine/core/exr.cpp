@@ -36,9 +36,9 @@ namespace {
 
 /// Collects the bytes of a file in memory, because a writer to disk may report success on a full
 /// disk.
-class ExrMemoryOutput final : public Imf::OStream {
+class ExrOutput final : public Imf::OStream {
 public:
-    ExrMemoryOutput() : OStream("memory") {}
+    ExrOutput() : OStream("memory") {}
     void write(const char data[], int size) override {
         const auto end = at_ + static_cast<std::size_t>(size);
         if (end > bytes_.size()) bytes_.resize(end);
@@ -54,7 +54,7 @@ private:
     std::size_t at_ = 0;
 };
 
-std::vector<std::string> list_exr_channel_names(const ImageSizeAndChannels& shape) {
+std::vector<std::string> exr_channels(const ImageShape& shape) {
     if (!shape.channels.empty()) return shape.channels;
     switch (shape.channel_count) {
     case 1: return {"Y"};
@@ -64,7 +64,7 @@ std::vector<std::string> list_exr_channel_names(const ImageSizeAndChannels& shap
     }
 }
 
-Imf::Header make_exr_header(const ImageSizeAndChannels& shape) {
+Imf::Header make_exr_header(const ImageShape& shape) {
     Imf::Header header(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
     header.compression() = Imf::ZIP_COMPRESSION;
     // The time is constant, so that equal pictures have equal bytes.
@@ -73,9 +73,8 @@ Imf::Header make_exr_header(const ImageSizeAndChannels& shape) {
     return header;
 }
 
-std::string encode_openexr_in_memory(const ImageSizeAndChannels& shape,
-                                     const std::vector<std::string>& channels,
-                                     std::span<const float> values) {
+std::string encode_channels(const ImageShape& shape, const std::vector<std::string>& channels,
+                            std::span<const float> values) {
     Imf::Header header = make_exr_header(shape);
     Imf::FrameBuffer frame;
     const std::size_t pixel_bytes = shape.channel_count * sizeof(float);
@@ -86,7 +85,7 @@ std::string encode_openexr_in_memory(const ImageSizeAndChannels& shape,
         frame.insert(channels[channel],
                      Imf::Slice(Imf::FLOAT, first, pixel_bytes, pixel_bytes * shape.size.x));
     }
-    ExrMemoryOutput memory;
+    ExrOutput memory;
     {
         Imf::OutputFile file(memory, header, start_exr_threads(shape.size));
         file.setFrameBuffer(frame);
@@ -97,15 +96,15 @@ std::string encode_openexr_in_memory(const ImageSizeAndChannels& shape,
 
 } // namespace
 
-std::string encode_openexr(const ImageSizeAndChannels& shape, std::span<const float> values) {
+std::string encode_openexr(const ImageShape& shape, std::span<const float> values) {
     const std::size_t count = std::size_t(shape.size.x) * shape.size.y * shape.channel_count;
-    const std::vector<std::string> channels = list_exr_channel_names(shape);
+    const std::vector<std::string> channels = exr_channels(shape);
     check(count > 0 && channels.size() == shape.channel_count && values.size() == count,
           Failure::internal, "a picture of ", shape.size.x, "x", shape.size.y,
           " cannot be written as OpenEXR: wanted a name for each channel, found ", channels.size(),
           " names for ", shape.channel_count, " channels and ", values.size(), " values");
     try {
-        return encode_openexr_in_memory(shape, channels, values);
+        return encode_channels(shape, channels, values);
     } catch (const std::bad_alloc&) {
         fail(Failure::exhausted, "not enough memory to encode OpenEXR");
     } catch (const std::exception& error) {

@@ -24,10 +24,9 @@ namespace catoptric {
 namespace {
 
 /// Lets OpenEXR read from a source of bytes.
-class ExrByteSourceInput final : public Imf::IStream {
+class ExrInput final : public Imf::IStream {
 public:
-    explicit ExrByteSourceInput(const RandomAccessByteSource& bytes)
-        : IStream("memory"), bytes_(bytes) {}
+    explicit ExrInput(const ByteSource& bytes) : IStream("memory"), bytes_(bytes) {}
     bool read(char into[], int size) override {
         const std::span<char> wanted(into, static_cast<std::size_t>(size));
         if (bytes_.read(at_, wanted) < wanted.size())
@@ -39,7 +38,7 @@ public:
     void seekg(std::uint64_t position) override { at_ = position; }
 
 private:
-    const RandomAccessByteSource& bytes_;
+    const ByteSource& bytes_;
     std::uint64_t at_ = 0;
 };
 
@@ -56,14 +55,14 @@ std::string join_names(const std::vector<std::string>& names) {
     constexpr std::size_t kMostNames = 16;
     std::string text;
     for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
-        text += (i == 0 ? "" : ", ") + escape_control_characters(names[i]);
+        text += (i == 0 ? "" : ", ") + escape(names[i]);
     if (names.size() > kMostNames)
         text += " and " + std::to_string(names.size() - kMostNames) + " more";
     return text;
 }
 
-std::vector<ExrLayer> list_part_layers(const Imf::Header& header, int part,
-                                       const std::string& part_name) {
+std::vector<ExrLayer> part_layers(const Imf::Header& header, int part,
+                                  const std::string& part_name) {
     std::map<std::string, std::set<std::string>> colours_of; // by prefix with the dot
     const Imf::ChannelList& channels = header.channels();
     for (auto at = channels.begin(); at != channels.end(); ++at) {
@@ -105,11 +104,10 @@ struct ExrContents {
             const std::string before = part_name.empty() ? "" : part_name + ": ";
             for (auto at = header.channels().begin(); at != header.channels().end(); ++at)
                 channel_names.push_back(before + at.name());
-            std::ranges::move(list_part_layers(header, part, part_name),
-                              std::back_inserter(layers));
+            std::ranges::move(part_layers(header, part, part_name), std::back_inserter(layers));
         }
     }
-    std::vector<std::string> list_layer_names() const {
+    std::vector<std::string> layer_names() const {
         std::vector<std::string> names;
         for (const ExrLayer& layer : layers)
             names.push_back(layer.name.empty() ? "(colours without a layer)" : layer.name);
@@ -122,7 +120,7 @@ struct ExrContents {
 
 [[noreturn]] void refuse_several_layers(const ExrContents& file, const std::string& name) {
     fail(Failure::bad_data, name, ": wanted one picture, found the layers ",
-         join_names(file.list_layer_names()), "; choose one with FILE:LAYER");
+         join_names(file.layer_names()), "; choose one with FILE:LAYER");
 }
 
 ExrLayer choose_layer(const ExrContents& file, const std::string& name, const std::string& wanted) {
@@ -141,7 +139,7 @@ ExrLayer choose_layer(const ExrContents& file, const std::string& name, const st
         if (named.size() == 1) return named.front();
         if (named.empty())
             fail(Failure::bad_data, name, ": wanted one of the layers ",
-                 join_names(file.list_layer_names()), ", found ", quote_text_with_escapes(wanted));
+                 join_names(file.layer_names()), ", found ", quote(wanted));
         refuse_several_layers(file, name);
     }
     const auto is_coloured = [](const ExrLayer& layer) { return layer.channels.front() == "R"; };
@@ -161,7 +159,7 @@ uvec2 window_size(const Imath::Box2i& window) {
 
 /// Throws if the display window is much larger than the stored pixels, as in a file that would
 /// cost memory for nothing.
-void check_display_window(uvec2 display, uvec2 data, const std::string& name) {
+void check_display(uvec2 display, uvec2 data, const std::string& name) {
     constexpr std::uint64_t kAlwaysAllowed = 1 << 22, kMostTimes = 64;
     const auto area = [](uvec2 size) { return std::uint64_t(size.x) * size.y; };
     check(area(display) <= kAlwaysAllowed || area(display) / kMostTimes <= area(data),
@@ -172,7 +170,7 @@ void check_display_window(uvec2 display, uvec2 data, const std::string& name) {
 
 /// Runs `work` and turns errors of OpenEXR into `bad_data`.
 template <typename Work>
-auto run_exr_work(const std::string& name, const Work& work) {
+auto run_exr(const std::string& name, const Work& work) {
     try {
         return work();
     } catch (const Error&) {
@@ -188,9 +186,9 @@ auto run_exr_work(const std::string& name, const Work& work) {
 
 } // namespace
 
-struct ExrColourReader::ExrColourState {
-    ExrColourState(const RandomAccessByteSource& bytes, const std::string& file_name, uvec2 size,
-                   const std::string& wanted)
+struct ExrColourReader::State {
+    State(const ByteSource& bytes, const std::string& file_name, uvec2 size,
+          const std::string& wanted)
         : name(file_name), input(bytes), file(input, start_exr_threads(size)),
           layer(choose_layer(ExrContents(file), name, wanted)), part(file, layer.part) {
         const Imf::Header& header = part.header();
@@ -198,30 +196,27 @@ struct ExrColourReader::ExrColourState {
         shape.channels = layer.channels;
         shape.channel_count = layer.channels.size();
         if (Imf::hasComments(header)) shape.description = Imf::comments(header);
-        check_display_window(shape.size, window_size(header.dataWindow()), name);
+        check_display(shape.size, window_size(header.dataWindow()), name);
     }
 
     std::string name;
-    ExrByteSourceInput input;
+    ExrInput input;
     Imf::MultiPartInputFile file; // destroyed before the input that it reads from
     ExrLayer layer;
     Imf::InputPart part;
-    ImageSizeAndChannels shape;
+    ImageShape shape;
 };
 
-ExrColourReader::ExrColourReader(const RandomAccessByteSource& bytes, const std::string& name,
-                                 uvec2 size, const std::string& layer)
-    : exr_state_(run_exr_work(
-          name, [&] { return std::make_unique<ExrColourState>(bytes, name, size, layer); })) {}
+ExrColourReader::ExrColourReader(const ByteSource& bytes, const std::string& name, uvec2 size,
+                                 const std::string& layer)
+    : state_(run_exr(name, [&] { return std::make_unique<State>(bytes, name, size, layer); })) {}
 ExrColourReader::~ExrColourReader() = default;
 
-const ImageSizeAndChannels& ExrColourReader::image_size_and_channels() const {
-    return exr_state_->shape;
-}
+const ImageShape& ExrColourReader::shape() const { return state_->shape; }
 
-void ExrColourReader::read_image_rows(std::uint32_t first, std::uint32_t row_count, float* values) {
-    ExrColourState& state = *exr_state_;
-    const ImageSizeAndChannels& shape = state.shape;
+void ExrColourReader::read_rows(std::uint32_t first, std::uint32_t row_count, float* values) {
+    State& state = *state_;
+    const ImageShape& shape = state.shape;
     const Imath::Box2i &data = state.part.header().dataWindow(),
                        &display = state.part.header().displayWindow();
     const std::size_t channel_count = shape.channel_count;
@@ -244,7 +239,7 @@ void ExrColourReader::read_image_rows(std::uint32_t first, std::uint32_t row_cou
                      Imf::Slice::Make(Imf::FLOAT, target + channel, {data.min.x, begin},
                                       std::int64_t(stored_width), std::int64_t(rows), pixel_bytes,
                                       pixel_bytes * stored_width));
-    run_exr_work(state.name, [&] {
+    run_exr(state.name, [&] {
         state.part.setFrameBuffer(frame);
         state.part.readPixels(begin, end);
     });

@@ -25,18 +25,18 @@ public:
     /// `layer`: empty for the file's own choice. `size`: that of the file's header, by which
     /// threads are started. `bytes` must outlive the reader. Throws `bad_data` with the names that
     /// the file has if no layer fits or several do, and for a file that cannot be opened.
-    ExrColourReader(const RandomAccessByteSource& bytes, const std::string& name, uvec2 size,
+    ExrColourReader(const ByteSource& bytes, const std::string& name, uvec2 size,
                     const std::string& layer);
     ~ExrColourReader();
 
     /// Returns the display window's size and the channels R, G, B or Y, with A if the layer has it.
-    const ImageSizeAndChannels& image_size_and_channels() const;
+    const ImageShape& shape() const;
     /// Fills `values` with the rows from `first` on. Throws `bad_data` if they cannot be decoded.
-    void read_image_rows(std::uint32_t first, std::uint32_t row_count, float* values);
+    void read_rows(std::uint32_t first, std::uint32_t row_count, float* values);
 
 private:
-    struct ExrColourState;
-    std::unique_ptr<ExrColourState> exr_state_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace catoptric

@@ -20,17 +20,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kTemporaryFileSuffix = ".partial-";
+const std::string kPartialSuffix = ".partial-";
 
 struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
-std::string describe_system_error(int error) { return std::generic_category().message(error); }
+std::string error_text(int error) { return std::generic_category().message(error); }
 
 /// Returns the path at the end of all links, which need not exist.
-fs::path resolve_all_links(fs::path path) {
+fs::path follow_links(fs::path path) {
     std::error_code error;
     for (int link = 0; link < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++link)
         path = path.parent_path() / fs::read_symlink(path, error);
@@ -38,41 +38,40 @@ fs::path resolve_all_links(fs::path path) {
 }
 
 /// Writes, flushes and closes the file. Throws `io` with `path`, not with the temporary's name.
-void write_and_close_file(FileHandle file, std::string_view content, const fs::path& path) {
+void write_whole(FileHandle file, std::string_view content, const fs::path& path) {
     const std::size_t written = content.empty()
                                     ? 0
                                     : std::fwrite(content.data(), 1, content.size(), file.get());
     const bool whole = written == content.size() && std::fflush(file.get()) == 0;
     const int error = errno;
     check(whole, Failure::io, path.string(), ": wanted to write ", content.size(),
-          " bytes: ", describe_system_error(error));
+          " bytes: ", error_text(error));
     const bool closed = std::fclose(file.release()) == 0;
     const int close_error = errno;
-    check(closed, Failure::io, path.string(),
-          ": cannot be closed: ", describe_system_error(close_error));
+    check(closed, Failure::io, path.string(), ": cannot be closed: ", error_text(close_error));
 }
 
 FileHandle open_new_file(const fs::path& temporary, const fs::path& path) {
     FileHandle file(std::fopen(temporary.c_str(), "wbx"));
     const int error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
-          ": cannot be created: ", describe_system_error(error));
+          ": cannot be created: ", error_text(error));
     return file;
 }
 
 /// Returns the path of a new temporary of this target: TARGET.partial-PROCESS-NUMBER. Threads of a
 /// process may write the same target, each through a temporary of its own.
-fs::path make_temporary_path(const fs::path& target) {
+fs::path make_temporary(const fs::path& target) {
     static std::atomic<std::uint64_t> number = 0;
     fs::path path = target;
-    path += kTemporaryFileSuffix + std::to_string(::getpid()) + "-" + std::to_string(++number);
+    path += kPartialSuffix + std::to_string(::getpid()) + "-" + std::to_string(++number);
     return path;
 }
 
 /// Removes temporaries of this target whose processes have ended. A program that gets a second
 /// signal cannot remove its own.
-void remove_stale_temporaries(const fs::path& target) {
-    const std::string beginning = target.filename().string() + kTemporaryFileSuffix;
+void remove_stale(const fs::path& target) {
+    const std::string beginning = target.filename().string() + kPartialSuffix;
     std::error_code error;
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -91,23 +90,22 @@ void remove_stale_temporaries(const fs::path& target) {
 
 } // namespace
 
-fs::path resolve_real_path(const fs::path& path) {
+fs::path real_path(const fs::path& path) {
     std::error_code error;
-    const fs::path target = fs::absolute(resolve_all_links(path), error);
+    const fs::path target = fs::absolute(follow_links(path), error);
     const fs::path real = fs::weakly_canonical(target, error);
     // An error is, for example, an unreadable folder.
     return error ? target.lexically_normal() : real;
 }
 
-PartialFile::PartialFile(fs::path path)
-    : named_(std::move(path)), target_(resolve_all_links(named_)) {
+PartialFile::PartialFile(fs::path path) : named_(std::move(path)), target_(follow_links(named_)) {
     std::error_code error;
     const fs::file_status status = fs::status(target_, error);
     check(target_.has_filename() && (!fs::exists(status) || fs::is_regular_file(status)),
           Failure::cannot_create, named_.string(), ": wanted a file name, found ",
           fs::is_directory(status) || !target_.has_filename() ? "a folder" : "a device or pipe");
-    remove_stale_temporaries(target_);
-    do temporary_ = make_temporary_path(target_);
+    remove_stale(target_);
+    do temporary_ = make_temporary(target_);
     while (fs::exists(temporary_, error)); // left by a dead process with our process id
 }
 
@@ -116,7 +114,7 @@ PartialFile::~PartialFile() {
     if (!temporary_.empty()) fs::remove(temporary_, error);
 }
 
-void PartialFile::copy_mode_of_target() const {
+void PartialFile::copy_mode() const {
     std::error_code error;
     const fs::file_status old = fs::status(target_, error);
     if (!fs::exists(old)) return;
@@ -125,7 +123,7 @@ void PartialFile::copy_mode_of_target() const {
           ": cannot be given the mode of the file in its place: ", error.message());
 }
 
-void PartialFile::replace_target() {
+void PartialFile::commit() {
     std::error_code error;
     fs::rename(temporary_, target_, error);
     check(!error, Failure::io, named_.string(), ": cannot be replaced: ", error.message());
@@ -135,23 +133,23 @@ void PartialFile::replace_target() {
 void write_file(const fs::path& path, std::string_view content) {
     look_at_stop();
     std::error_code error;
-    const fs::path target = resolve_all_links(path);
+    const fs::path target = follow_links(path);
     const fs::file_status status = fs::status(target, error);
     check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create, path.string(),
           ": wanted a file name, found a folder");
     if (!fs::exists(status) || fs::is_regular_file(status)) {
         PartialFile partial(path);
-        FileHandle file = open_new_file(partial.temporary_path(), path);
-        partial.copy_mode_of_target();
-        write_and_close_file(std::move(file), content, path);
-        return partial.replace_target();
+        FileHandle file = open_new_file(partial.temporary(), path);
+        partial.copy_mode();
+        write_whole(std::move(file), content, path);
+        return partial.commit();
     }
 
     FileHandle file(std::fopen(target.c_str(), "wb")); // the target is a device or a pipe
     const int open_error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
-          ": cannot be opened: ", describe_system_error(open_error));
-    write_and_close_file(std::move(file), content, path);
+          ": cannot be opened: ", error_text(open_error));
+    write_whole(std::move(file), content, path);
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> content) {
@@ -168,7 +166,7 @@ std::string read_file(const fs::path& path) {
     const FileHandle file(std::fopen(path.c_str(), "rb"));
     const int error = errno;
     check(file != nullptr, Failure::missing_input, path.string(),
-          ": cannot be opened: ", describe_system_error(error));
+          ": cannot be opened: ", error_text(error));
     std::string content;
     char block[1 << 16];
     while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) {

@@ -10,7 +10,7 @@ namespace catoptric {
 
 /// Returns the path at which bytes written to `path` end up: absolute, without `.` and `..`, with
 /// all links followed. The file need not exist.
-std::filesystem::path resolve_real_path(const std::filesystem::path& path);
+std::filesystem::path real_path(const std::filesystem::path& path);
 
 /// Writes `content` to `path` through a temporary file in the same folder, which is flushed, closed
 /// and renamed. Readers see the old file or the whole new one. The new file keeps the mode of the
@@ -20,8 +20,8 @@ std::filesystem::path resolve_real_path(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
-/// A file that another program writes whole or not at all: the program writes to `temporary_path`,
-/// and `replace_target` puts the finished file in place. Without that call the temporary is
+/// A file that another program writes whole or not at all: the program writes to `temporary`,
+/// and `commit` puts the finished file in place. Without that call the temporary is
 /// removed.
 class PartialFile {
 public:
@@ -33,11 +33,11 @@ public:
     PartialFile& operator=(const PartialFile&) = delete;
 
     /// Returns a path in the folder of the target at which no file exists at first.
-    const std::filesystem::path& temporary_path() const { return temporary_; }
+    const std::filesystem::path& temporary() const { return temporary_; }
     /// Gives the temporary the mode of the old file, if there is one. Throws `io`.
-    void copy_mode_of_target() const;
+    void copy_mode() const;
     /// Renames the temporary. Throws `io`.
-    void replace_target();
+    void commit();
 
 private:
     std::filesystem::path named_, target_, temporary_;

@@ -34,7 +34,7 @@ constexpr std::uint32_t bytes_per_texel(TexelFormat format) {
     return 0;
 }
 
-constexpr std::string_view texel_format_name(TexelFormat format) {
+constexpr std::string_view format_name(TexelFormat format) {
     switch (format) {
     case TexelFormat::r8_unorm: return "r8_unorm";
     case TexelFormat::rgba8_unorm: return "rgba8_unorm";
@@ -49,6 +49,6 @@ constexpr std::string_view texel_format_name(TexelFormat format) {
     return "";
 }
 
-constexpr bool is_depth_format(TexelFormat format) { return format == TexelFormat::d32f; }
+constexpr bool is_depth(TexelFormat format) { return format == TexelFormat::d32f; }
 
 } // namespace catoptric

@@ -6,8 +6,8 @@
 
 namespace catoptric {
 
-inline constexpr float kLargestFiniteHalfFloatValue = 65504;
-inline constexpr std::uint16_t kLargestFiniteHalfFloatBits = 0x7bff;
+inline constexpr float kMaxHalf = 65504;
+inline constexpr std::uint16_t kMaxHalfBits = 0x7bff;
 
 /// Returns the value of a 16-bit float (IEEE 754 binary16).
 inline float half_to_float(std::uint16_t bits) {

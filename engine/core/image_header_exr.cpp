@@ -15,24 +15,22 @@ namespace catoptric {
 
 namespace {
 
-constexpr std::size_t kMaxExrNameLength = 255;
-constexpr std::uint32_t kExrTiledFlag = 0x200, kExrDeepPartsFlag = 0x800,
-                        kExrMultiPartFlag = 0x1000;
+constexpr std::size_t kMaxNameLength = 255;
+constexpr std::uint32_t kTiledFlag = 0x200, kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
 
 /// Reads a file from front to end.
-class ExrFileCursor {
+class ExrCursor {
 public:
-    ExrFileCursor(const RandomAccessByteSource& bytes, const std::string& name)
-        : bytes_(bytes), name_(name) {}
+    ExrCursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-    [[noreturn]] void throw_bad_exr_file_error(const auto&... what) const {
+    [[noreturn]] void refuse(const auto&... what) const {
         fail(Failure::bad_data, name_, ": cannot be decoded: byte ", at_, ": ", what...);
     }
-    std::uint64_t count_bytes_left() const { return bytes_.size() - at_; }
+    std::uint64_t bytes_left() const { return bytes_.size() - at_; }
 
     std::uint32_t read_uint32() {
         std::array<char, 4> read{};
-        read_bytes_into(read);
+        read_into(read);
         std::uint32_t value = 0;
         for (std::size_t i = 0; i < 4; ++i)
             value |= std::uint32_t(static_cast<unsigned char>(read[i])) << (8 * i);
@@ -41,52 +39,49 @@ public:
     std::int32_t read_int32() { return static_cast<std::int32_t>(read_uint32()); }
     std::uint8_t read_byte() {
         std::array<char, 1> read{};
-        read_bytes_into(read);
+        read_into(read);
         return static_cast<std::uint8_t>(read[0]);
     }
     /// Returns the text up to a zero byte, and skips this byte.
     std::string read_string() {
-        std::array<char, kMaxExrNameLength + 1> read{};
+        std::array<char, kMaxNameLength + 1> read{};
         const std::string_view text(read.data(), bytes_.read(at_, read));
         const std::size_t end = text.find('\0');
-        if (end == text.npos)
-            throw_bad_exr_file_error("wanted a name of at most ", kMaxExrNameLength, " bytes");
+        if (end == text.npos) refuse("wanted a name of at most ", kMaxNameLength, " bytes");
         at_ += end + 1;
         return std::string(text.substr(0, end));
     }
     /// Returns whether a zero byte comes next, and skips it if so.
-    bool skip_exr_byte_if_zero() {
+    bool skip_zero() {
         const bool is_zero = read_byte() == 0;
         if (!is_zero) --at_;
         return is_zero;
     }
     /// Throws if fewer than `size` bytes are left.
-    void check_exr_bytes_left(std::uint64_t size, const char* what) const {
-        if (size > count_bytes_left())
-            throw_bad_exr_file_error("wanted ", size, " bytes of ", what, ", found ",
-                                     count_bytes_left());
+    void check_left(std::uint64_t size, const char* what) const {
+        if (size > bytes_left())
+            refuse("wanted ", size, " bytes of ", what, ", found ", bytes_left());
     }
     void skip_bytes(std::uint64_t size) {
-        check_exr_bytes_left(size, "an attribute");
+        check_left(size, "an attribute");
         at_ += size;
     }
-    std::uint64_t file_position() const { return at_; }
-    void seek_to_offset(std::uint64_t at) { at_ = at; }
+    std::uint64_t position() const { return at_; }
+    void seek(std::uint64_t at) { at_ = at; }
 
 private:
-    void read_bytes_into(std::span<char> into) {
-        if (bytes_.read(at_, into) < into.size())
-            throw_bad_exr_file_error("the file ends in its header");
+    void read_into(std::span<char> into) {
+        if (bytes_.read(at_, into) < into.size()) refuse("the file ends in its header");
         at_ += into.size();
     }
 
-    const RandomAccessByteSource& bytes_;
+    const ByteSource& bytes_;
     const std::string& name_;
     std::uint64_t at_ = 0;
 };
 
 /// The header of one part of the file.
-struct ExrPartHeader {
+struct ExrPart {
     std::vector<std::string> channels;
     std::uint64_t pixel_bytes = 0;
     bool is_subsampled = false;
@@ -96,19 +91,18 @@ struct ExrPartHeader {
     bool is_tiled = false;
     std::uint64_t chunk_count = 0; ///< number of chunks, as the file claims; 0 if it claims none
 
-    std::uint64_t exr_data_window_side_length(std::size_t axis) const {
+    std::uint64_t side(std::size_t axis) const {
         const std::int64_t first = window[axis], last = window[axis + 2];
         return static_cast<std::uint64_t>(std::max<std::int64_t>(0, last - first + 1));
     }
 };
 
-void read_exr_channels(ExrFileCursor& file, ExrPartHeader& part, std::uint64_t end) {
-    while (file.file_position() < end) {
+void read_channels(ExrCursor& file, ExrPart& part, std::uint64_t end) {
+    while (file.position() < end) {
         std::string name = file.read_string();
         if (name.empty()) break;
         if (std::ranges::find(part.channels, name) != part.channels.end())
-            file.throw_bad_exr_file_error("wanted one channel of each name, found two of ",
-                                          quote_text_with_escapes(name));
+            file.refuse("wanted one channel of each name, found two of ", quote(name));
         const std::uint32_t type = file.read_uint32();
         file.read_uint32(); // skips the flag for linear data
         const std::uint32_t across = file.read_uint32(), down = file.read_uint32();
@@ -119,22 +113,22 @@ void read_exr_channels(ExrFileCursor& file, ExrPartHeader& part, std::uint64_t e
 }
 
 /// Checks the strings of a vector, because OpenEXR trusts the length of each.
-void check_exr_string_vector(ExrFileCursor& file, std::uint64_t end) {
-    while (file.file_position() + 4 <= end) {
+void check_strings(ExrCursor& file, std::uint64_t end) {
+    while (file.position() + 4 <= end) {
         const std::uint32_t size = file.read_uint32();
-        if (size > end - std::min(end, file.file_position()))
-            file.throw_bad_exr_file_error("a string of ", size, " bytes");
+        if (size > end - std::min(end, file.position()))
+            file.refuse("a string of ", size, " bytes");
         file.skip_bytes(size);
     }
 }
 
-void read_exr_attribute(ExrFileCursor& file, ExrPartHeader& part, const std::string& name,
-                        const std::string& type) {
+void read_attribute(ExrCursor& file, ExrPart& part, const std::string& name,
+                    const std::string& type) {
     const std::uint32_t size = file.read_uint32();
-    file.check_exr_bytes_left(size, "an attribute");
-    const std::uint64_t end = file.file_position() + size;
+    file.check_left(size, "an attribute");
+    const std::uint64_t end = file.position() + size;
     if (name == "channels") {
-        read_exr_channels(file, part, end);
+        read_channels(file, part, end);
     } else if (name == "compression" && size == 1) {
         part.compression = file.read_byte();
     } else if (name == "dataWindow" && size == 16) {
@@ -145,28 +139,27 @@ void read_exr_attribute(ExrFileCursor& file, ExrPartHeader& part, const std::str
     } else if (name == "chunkCount" && size == 4) {
         part.chunk_count = file.read_uint32();
     } else if (type == "stringvector") {
-        check_exr_string_vector(file, end);
+        check_strings(file, end);
     } else if (type == "preview" && size >= 8) {
         const std::uint64_t width = file.read_uint32(), height = file.read_uint32();
         if (width * height > (size - 8) / 4)
-            file.throw_bad_exr_file_error("a preview of ", width, "x", height, " pixels in ", size,
-                                          " bytes");
+            file.refuse("a preview of ", width, "x", height, " pixels in ", size, " bytes");
     }
-    file.seek_to_offset(end);
+    file.seek(end);
 }
 
-ExrPartHeader read_exr_part_header(ExrFileCursor& file, bool is_tiled) {
-    ExrPartHeader part;
+ExrPart read_part(ExrCursor& file, bool is_tiled) {
+    ExrPart part;
     part.is_tiled = is_tiled;
     for (std::string name = file.read_string(); !name.empty(); name = file.read_string()) {
         const std::string type = file.read_string();
-        read_exr_attribute(file, part, name, type);
+        read_attribute(file, part, name, type);
     }
     return part;
 }
 
 /// Returns the number of lines in one chunk.
-std::uint32_t exr_lines_per_chunk(std::uint32_t compression) {
+std::uint32_t lines_per_chunk(std::uint32_t compression) {
     constexpr std::uint32_t kExrLinesPerChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
     return compression < std::size(kExrLinesPerChunk) ? kExrLinesPerChunk[compression] : 256;
 }
@@ -176,7 +169,7 @@ std::uint32_t exr_lines_per_chunk(std::uint32_t compression) {
 /// deflate. B44A stores 32 bytes in 3. PIZ's Huffman code stores 256 halves in 10 bits. DWA stores
 /// a block of 64 floats in two halves at least, one in such a code and one deflated. The limits of
 /// other compressions are not known.
-double exr_max_expansion_factor(std::uint32_t compression) {
+double max_expansion(std::uint32_t compression) {
     constexpr double kPiz = 512 * 8 / 10.0, kDwa = 256 / (2 / kPiz + 2 / 1032.0);
     constexpr double kExrMaxExpansionFactors[] = {1,  64, 1032, 1032, kPiz, 1032 * 4 / 3.0,
                                                   11, 11, kDwa, kDwa};
@@ -189,51 +182,47 @@ double exr_max_expansion_factor(std::uint32_t compression) {
 /// Returns the least bytes that the chunks of this part take. Each chunk has 8 bytes in the chunk
 /// table and 8 before its values. The result is a double, because products of claimed sizes may
 /// overflow any integer.
-double min_exr_chunk_bytes(const ExrFileCursor& file, const ExrPartHeader& part) {
-    const auto width = double(part.exr_data_window_side_length(0)),
-               height = double(part.exr_data_window_side_length(1));
-    double chunks = std::ceil(height / exr_lines_per_chunk(part.compression));
+double min_chunk_bytes(const ExrCursor& file, const ExrPart& part) {
+    const auto width = double(part.side(0)), height = double(part.side(1));
+    double chunks = std::ceil(height / lines_per_chunk(part.compression));
     if (part.is_tiled) {
         // OpenEXR allocates a whole tile, however small the picture is.
         constexpr double kMaxTileSide = 1024;
         const auto [across, down] = part.tile;
         if (across == 0 || down == 0 || across > std::max(kMaxTileSide, width) ||
             down > std::max(kMaxTileSide, height))
-            file.throw_bad_exr_file_error("wanted tiles of 1 to ", kMaxTileSide,
-                                          " pixels a side or as large as the ", "picture, found ",
-                                          across, "x", down, " for ", width, "x", height);
+            file.refuse("wanted tiles of 1 to ", kMaxTileSide, " pixels a side or as large as the ",
+                        "picture, found ", across, "x", down, " for ", width, "x", height);
         chunks = std::ceil(width / across) * std::ceil(height / down);
     }
     const double values = part.is_subsampled ? 0 : width * height * double(part.pixel_bytes);
     return 16 * std::max(chunks, double(part.chunk_count)) +
-           std::floor(values / exr_max_expansion_factor(part.compression));
+           std::floor(values / max_expansion(part.compression));
 }
 
 } // namespace
 
-ImageSizeAndChannels read_openexr_header(const RandomAccessByteSource& bytes,
-                                         const std::string& name) {
-    ExrFileCursor file(bytes, name);
+ImageShape read_openexr_header(const ByteSource& bytes, const std::string& name) {
+    ExrCursor file(bytes, name);
     file.read_uint32(); // skips the magic number
     const std::uint32_t flags = file.read_uint32();
-    check((flags & kExrDeepPartsFlag) == 0, Failure::bad_data, name,
+    check((flags & kDeepFlag) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");
-    std::vector<ExrPartHeader> parts{read_exr_part_header(file, (flags & kExrTiledFlag) != 0)};
-    if ((flags & kExrMultiPartFlag) != 0)
-        while (!file.skip_exr_byte_if_zero()) parts.push_back(read_exr_part_header(file, false));
+    std::vector<ExrPart> parts{read_part(file, (flags & kTiledFlag) != 0)};
+    if ((flags & kMultiPartFlag) != 0)
+        while (!file.skip_zero()) parts.push_back(read_part(file, false));
     double least = 0;
-    for (const ExrPartHeader& part : parts) least += min_exr_chunk_bytes(file, part);
-    const ExrPartHeader& first = parts.front();
-    check(least <= double(file.count_bytes_left()), Failure::bad_data, name, ": wanted at least ",
+    for (const ExrPart& part : parts) least += min_chunk_bytes(file, part);
+    const ExrPart& first = parts.front();
+    check(least <= double(file.bytes_left()), Failure::bad_data, name, ": wanted at least ",
           static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
-          first.exr_data_window_side_length(0), "x", first.exr_data_window_side_length(1),
-          " pixels of ", first.channels.size(), " channels, found ", file.count_bytes_left());
+          first.side(0), "x", first.side(1), " pixels of ", first.channels.size(),
+          " channels, found ", file.bytes_left());
     constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
-    return {
-        {static_cast<std::uint32_t>(std::min(first.exr_data_window_side_length(0), kMaxUint32)),
-         static_cast<std::uint32_t>(std::min(first.exr_data_window_side_length(1), kMaxUint32))},
-        first.channels.size(),
-        first.channels};
+    return {{static_cast<std::uint32_t>(std::min(first.side(0), kMaxUint32)),
+             static_cast<std::uint32_t>(std::min(first.side(1), kMaxUint32))},
+            first.channels.size(),
+            first.channels};
 }
 
 } // namespace catoptric

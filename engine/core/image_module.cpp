@@ -17,9 +17,9 @@ constexpr Module kImageModule{
 
 } // namespace
 
-const ImageCodecs& get_image_codecs() {
+const ImageCodecs& image_codecs() {
     static const ImageCodecs* const kCodecs = reinterpret_cast<ImageCodecsFunction>(
-        load_module_symbol(kImageModule))();
+        load_symbol(kImageModule))();
     return *kCodecs;
 }
 

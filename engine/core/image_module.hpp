@@ -12,7 +12,7 @@
 // picture that libpng and OpenEXR do not read (core/image_codec.hpp).
 namespace catoptric {
 
-enum class ImageCodecStatus {
+enum class CodecStatus {
     done,
     no_codec, ///< this build of OpenImageIO does not support the image format
     refused,
@@ -20,46 +20,45 @@ enum class ImageCodecStatus {
     broken ///< OpenImageIO threw something else
 };
 
-struct ImageCodecResult {
-    ImageCodecStatus answer = ImageCodecStatus::done;
+struct CodecResult {
+    CodecStatus answer = CodecStatus::done;
     std::string why = {}; ///< why the call failed, in one line; may be empty
 };
 
-enum class ImageCodecValueType { uint8, float32 };
+enum class PixelType { uint8, float32 };
 
 /// The functions of the module. The functions throw no exceptions. After a call they refer to no
 /// argument, except to the bytes of an open picture. `format` is OpenImageIO's name of a format.
 struct ImageCodecs {
     struct Picture; ///< an open picture; defined in the module
-    struct CodecPictureHeader {
+    struct Header {
         ivec2 size{0};
         int channel_count = 0;
         bool is_deep = false;
         std::vector<std::string> channels;
-        std::string description; ///< text that describes the image, see ImageSizeAndChannels
+        std::string description; ///< text that describes the image, see ImageShape
     };
-    struct PixelValueBuffer {
+    struct Pixels {
         uvec2 size{0};
         std::size_t channel_count = 0;
-        ImageCodecValueType type = ImageCodecValueType::uint8;
+        PixelType type = PixelType::uint8;
         const void* values = nullptr;
         std::vector<std::string> channels; ///< names of the channels; empty: named by the format
-        /// Text that describes the image, see ImageSizeAndChannels.
+        /// Text that describes the image, see ImageShape.
         std::string description;
     };
 
     /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is
     /// null.
-    ImageCodecResult (*open)(const RandomAccessByteSource& bytes, const std::string& format,
-                             const std::string& name, Picture*& picture,
-                             CodecPictureHeader& header) noexcept;
+    CodecResult (*open)(const ByteSource& bytes, const std::string& format, const std::string& name,
+                        Picture*& picture, Header& header) noexcept;
     /// Reads `row_count` rows from `first` on. Rows of tiled pictures may be read again from their
     /// tiles.
-    ImageCodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
-                             ImageCodecValueType type, void* values) noexcept;
+    CodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
+                        PixelType type, void* values) noexcept;
     void (*close)(Picture* picture) noexcept;
-    ImageCodecResult (*encode)(const std::string& format, const PixelValueBuffer& picture,
-                               std::string& bytes) noexcept;
+    CodecResult (*encode)(const std::string& format, const Pixels& picture,
+                          std::string& bytes) noexcept;
 };
 
 /// The only symbol that the module exports: a function that returns its `ImageCodecs`. Its number
@@ -73,6 +72,6 @@ using ImageCodecsFunction = const ImageCodecs* (*)();
 /// installed place relative to them. Throws `internal` with the searched places and what to
 /// install, or `exhausted` without memory. After an error the next call searches again. May be
 /// called from any thread.
-const ImageCodecs& get_image_codecs();
+const ImageCodecs& image_codecs();
 
 } // namespace catoptric

@@ -5,7 +5,7 @@
 namespace catoptric {
 
 /// Returns the luminance of linear RGB by Rec. 709.
-inline double compute_luminance(const dvec3& colour) {
+inline double luminance(const dvec3& colour) {
     return .2126 * colour.x + .7152 * colour.y + .0722 * colour.z;
 }
 

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the folder of the library or program that contains this function.
-fs::path find_folder_of_loaded_library() {
+fs::path find_own_folder() {
     static const char kOwnAddress = 0;
     Dl_info info{};
     link_map* own = nullptr;
@@ -32,8 +32,8 @@ fs::path find_folder_of_loaded_library() {
 
 /// Returns the module's file. In a build tree it is beside the programs and the library. Installed,
 /// it is in its own folder beside the library.
-fs::path find_module_file(const Module& module) {
-    const fs::path own = find_folder_of_loaded_library();
+fs::path find_file(const Module& module) {
+    const fs::path own = find_own_folder();
     const fs::path folders[] = {own, own / "catoptric",
                                 (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
     for (const fs::path& folder : folders)
@@ -45,8 +45,8 @@ fs::path find_module_file(const Module& module) {
 
 } // namespace
 
-void* load_module_symbol(const Module& module) {
-    const fs::path file = find_module_file(module);
+void* load_symbol(const Module& module) {
+    const fs::path file = find_file(module);
     check_address_space(module.address_space, module.library);
     // RTLD_LOCAL hides the module's symbols, because its libraries may define the same symbols as
     // other libraries of the program.

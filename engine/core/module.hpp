@@ -18,6 +18,6 @@ struct Module {
 /// Loads a module and returns the address of its symbol. The module is searched beside the library
 /// or program that contains this code, and at its installed place relative to them. Throws
 /// `internal` with the searched places and what to install, or `exhausted` without memory.
-void* load_module_symbol(const Module& module);
+void* load_symbol(const Module& module);
 
 } // namespace catoptric

@@ -24,7 +24,7 @@ inline unsigned hardware_thread_count() {
 /// the lowest number is rethrown. Before each call, looks whether the caller's work is to stop.
 /// Starting a thread costs some ten microseconds.
 template <typename Body>
-void run_in_parallel(std::size_t count, unsigned threads, const Body& body) {
+void parallel_for(std::size_t count, unsigned threads, const Body& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr error;

@@ -54,7 +54,7 @@ void write_png_metadata(png_structp png, png_infop info) {
 
 /// Writes the picture and returns whether this succeeded. libpng leaves by longjmp, so no variable
 /// here may have a destructor.
-bool write_png_image(png_structp png, png_infop info, const ImageSizeAndChannels& shape,
+bool write_png_image(png_structp png, png_infop info, const ImageShape& shape,
                      const std::uint8_t* values) {
     if (setjmp(png_jmpbuf(png))) return false;
     constexpr int kPngColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
@@ -73,7 +73,7 @@ bool write_png_image(png_structp png, png_infop info, const ImageSizeAndChannels
 
 } // namespace
 
-std::string encode_png(const ImageSizeAndChannels& shape, std::span<const std::uint8_t> values) {
+std::string encode_png(const ImageShape& shape, std::span<const std::uint8_t> values) {
     const std::size_t count = std::size_t(shape.size.x) * shape.size.y * shape.channel_count;
     check(count > 0 && shape.channel_count <= 4 && values.size() == count, Failure::internal,
           "a picture of ", shape.size.x, "x", shape.size.y,

@@ -17,7 +17,7 @@ namespace catoptric {
 namespace {
 
 struct PngSource {
-    const RandomAccessByteSource& bytes;
+    const ByteSource& bytes;
     std::uint64_t at = 0;
     std::string why;
 };
@@ -25,7 +25,7 @@ struct PngSource {
 [[noreturn]] void fail_png_read(png_structp png, png_const_charp why) {
     auto& origin = *static_cast<PngSource*>(png_get_error_ptr(png));
     try {
-        origin.why = escape_control_characters(why);
+        origin.why = escape(why);
     } catch (const std::exception&) { // reported without the reason
     }
     png_longjmp(png, 1);
@@ -73,7 +73,7 @@ bool read_png_rows(png_structp png, png_bytepp rows) {
 
 /// Converts a row of values of 8 bits, or of 16 bits with the high byte first.
 template <typename Value>
-void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
+void convert_row(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
     constexpr bool kIsFloatPixelValue = std::is_same_v<Value, float>;
     if (!is_wide) {
         if constexpr (kIsFloatPixelValue)
@@ -94,9 +94,8 @@ void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, V
 
 } // namespace
 
-struct PngReader::PngReadState {
-    PngReadState(const RandomAccessByteSource& bytes, const std::string& its_name)
-        : origin{bytes}, name(its_name) {
+struct PngReader::State {
+    State(const ByteSource& bytes, const std::string& its_name) : origin{bytes}, name(its_name) {
         png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, fail_png_read,
                                      ignore_png_read_warning);
         info = png ? png_create_info_struct(png) : nullptr;
@@ -105,12 +104,12 @@ struct PngReader::PngReadState {
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
         png_set_read_fn(png, &origin, read_png_bytes);
-        png_set_user_limits(png, ImageReader::kMaxImageSide, ImageReader::kMaxImageSide);
+        png_set_user_limits(png, ImageReader::kMaxSide, ImageReader::kMaxSide);
         limit_chunk_memory();
     }
-    ~PngReadState() { png_destroy_read_struct(&png, &info, nullptr); }
-    PngReadState(const PngReadState&) = delete;
-    PngReadState& operator=(const PngReadState&) = delete;
+    ~State() { png_destroy_read_struct(&png, &info, nullptr); }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     /// libpng allocates as many bytes as a chunk claims, before it reads them. So only chunks that
     /// change pixels are read, and none that is longer than the file.
@@ -120,13 +119,13 @@ struct PngReader::PngReadState {
         png_set_chunk_malloc_max(png, std::max(origin.bytes.size(), kMinChunkBytes));
     }
 
-    void throw_unless_valid(bool works) const {
+    void throw_unless(bool works) const {
         if (works) return;
         fail(Failure::bad_data, name, ": cannot be decoded", origin.why.empty() ? "" : ": ",
              origin.why);
     }
     /// Throws if the picture has more values than deflate can store in the file.
-    void check_size_against_file() const {
+    void check_size() const {
         const std::uint64_t bits = std::uint64_t(png_get_bit_depth(png, info)) *
                                    png_get_channels(png, info);
         const std::uint64_t row_bytes = 1 + (png_get_image_width(png, info) * bits + 7) / 8;
@@ -148,10 +147,10 @@ struct PngReader::PngReadState {
     std::vector<std::uint8_t> row, whole; ///< `row`: one row; `whole`: an interlaced picture
 };
 
-PngReader::PngReader(const RandomAccessByteSource& bytes, const std::string& name)
-    : png_state_(std::make_unique<PngReadState>(bytes, name)) {
-    PngReadState& open = *png_state_;
-    open.throw_unless_valid(read_png_header(open.png, open.info));
+PngReader::PngReader(const ByteSource& bytes, const std::string& name)
+    : state_(std::make_unique<State>(bytes, name)) {
+    State& open = *state_;
+    open.throw_unless(read_png_header(open.png, open.info));
     open.size = {png_get_image_width(open.png, open.info),
                  png_get_image_height(open.png, open.info)};
     const int colours = png_get_color_type(open.png, open.info);
@@ -164,29 +163,29 @@ PngReader::PngReader(const RandomAccessByteSource& bytes, const std::string& nam
 
 PngReader::~PngReader() = default;
 
-void PngReader::check_size_against_file() const { png_state_->check_size_against_file(); }
+void PngReader::check_size() const { state_->check_size(); }
 
-ImageSizeAndChannels PngReader::image_size_and_channels() const {
+ImageShape PngReader::shape() const {
     constexpr const char* kGreyChannelNames[] = {"Y", "A"};
     constexpr const char* kColourChannelNames[] = {"R", "G", "B", "A"};
-    const bool is_grey = png_state_->channel_count < 3;
+    const bool is_grey = state_->channel_count < 3;
     const char* const* const names = is_grey ? kGreyChannelNames : kColourChannelNames;
-    return {.size = png_state_->size,
-            .channel_count = png_state_->channel_count,
-            .channels = {names, names + png_state_->channel_count},
+    return {.size = state_->size,
+            .channel_count = state_->channel_count,
+            .channels = {names, names + state_->channel_count},
             .description = {},
-            .has_8_bit_channels = !png_state_->is_wide};
+            .is_8_bit = !state_->is_wide};
 }
 
-void PngReader::read_image_rows(std::uint32_t first, std::uint32_t row_count,
-                                ImageCodecValueType type, void* values) {
-    PngReadState& open = *png_state_;
+void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, PixelType type,
+                          void* values) {
+    State& open = *state_;
     check(first == open.next && row_count <= open.size.y - first, Failure::internal, open.name,
           ": wanted row ", open.next, " to be read next, found ", first);
     const std::size_t count = std::size_t(open.size.x) * open.channel_count;
     const std::size_t row_bytes = count * (open.is_wide ? 2 : 1);
     if (!open.is_started) {
-        open.throw_unless_valid(start_png_rows(open.png, open.info));
+        open.throw_unless(start_png_rows(open.png, open.info));
         check(png_get_rowbytes(open.png, open.info) == row_bytes, Failure::internal, open.name,
               ": wanted ", row_bytes, " bytes a row, found ",
               png_get_rowbytes(open.png, open.info));
@@ -197,7 +196,7 @@ void PngReader::read_image_rows(std::uint32_t first, std::uint32_t row_count,
             std::vector<png_bytep> rows(open.size.y);
             for (std::size_t y = 0; y < rows.size(); ++y)
                 rows[y] = open.whole.data() + y * row_bytes;
-            open.throw_unless_valid(read_png_rows(open.png, rows.data()));
+            open.throw_unless(read_png_rows(open.png, rows.data()));
         }
     }
     for (std::uint32_t y = 0; y < row_count; ++y) {
@@ -205,12 +204,11 @@ void PngReader::read_image_rows(std::uint32_t first, std::uint32_t row_count,
         if (open.is_interlaced)
             row = open.whole.data() + std::size_t(first + y) * row_bytes;
         else
-            open.throw_unless_valid(read_png_row(open.png, open.row.data()));
-        if (type == ImageCodecValueType::float32)
-            convert_png_row(row, count, open.is_wide, static_cast<float*>(values) + y * count);
+            open.throw_unless(read_png_row(open.png, open.row.data()));
+        if (type == PixelType::float32)
+            convert_row(row, count, open.is_wide, static_cast<float*>(values) + y * count);
         else
-            convert_png_row(row, count, open.is_wide,
-                            static_cast<std::uint8_t*>(values) + y * count);
+            convert_row(row, count, open.is_wide, static_cast<std::uint8_t*>(values) + y * count);
     }
     open.next += row_count;
 }

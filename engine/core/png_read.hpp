@@ -15,22 +15,21 @@ class PngReader {
 public:
     /// Reads the header. Throws `bad_data` if `bytes` is not a PNG file; the message begins with
     /// `name`. `bytes` must outlive the reader.
-    PngReader(const RandomAccessByteSource& bytes, const std::string& name);
+    PngReader(const ByteSource& bytes, const std::string& name);
     ~PngReader();
 
-    ImageSizeAndChannels image_size_and_channels() const;
+    ImageShape shape() const;
     /// Throws `bad_data` if the picture claims more than its file can hold: deflate expands one
     /// byte to at most 1032.
-    void check_size_against_file() const;
+    void check_size() const;
     /// Fills `values`, floats in [0,1] or bytes, with the rows from `first` on. Each call must
     /// continue where the last one ended. An interlaced picture is held in memory as a whole.
     /// Throws `bad_data`.
-    void read_image_rows(std::uint32_t first, std::uint32_t row_count, ImageCodecValueType type,
-                         void* values);
+    void read_rows(std::uint32_t first, std::uint32_t row_count, PixelType type, void* values);
 
 private:
-    struct PngReadState;
-    std::unique_ptr<PngReadState> png_state_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace catoptric

@@ -23,7 +23,7 @@ std::string_view take_word(std::string_view& line) {
 }
 
 template <typename Number>
-std::optional<Number> parse_whole_word(std::string_view word) {
+std::optional<Number> parse_word(std::string_view word) {
     Number value{};
     const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
     return result.ec == std::errc() && result.ptr == word.data() + word.size()
@@ -37,7 +37,7 @@ bool parse_size_line(std::string_view line, RadianceHeader& header) {
     std::string_view axes[2];
     for (int i = 0; i < 2; ++i) {
         axes[i] = take_word(line);
-        const auto count = parse_whole_word<std::uint32_t>(take_word(line));
+        const auto count = parse_word<std::uint32_t>(take_word(line));
         const bool is_axis = axes[i].size() == 2 && (axes[i][0] == '-' || axes[i][0] == '+') &&
                              (axes[i][1] == 'X' || axes[i][1] == 'Y');
         if (!is_axis || !count) return false;
@@ -50,35 +50,33 @@ bool parse_size_line(std::string_view line, RadianceHeader& header) {
 }
 
 /// Divides the factor by the numbers of EXPOSURE (one for all colours) or COLORCORR (three).
-void divide_by_correction(const std::string& name, std::string_view line, std::string_view key,
-                          RadianceHeader& header) {
+void divide_by(const std::string& name, std::string_view line, std::string_view key,
+               RadianceHeader& header) {
     const std::string_view whole = line;
     line.remove_prefix(key.size());
     std::optional<double> number;
     for (std::size_t i = 0; i < 3; ++i) {
-        if (i == 0 || key.starts_with("COLORCORR"))
-            number = parse_whole_word<double>(take_word(line));
+        if (i == 0 || key.starts_with("COLORCORR")) number = parse_word<double>(take_word(line));
         check(number && std::isfinite(*number) && *number > 0, Failure::bad_data, name,
-              ": cannot be decoded: wanted numbers above 0, found ",
-              quote_text_with_escapes(whole));
+              ": cannot be decoded: wanted numbers above 0, found ", quote(whole));
         header.factor[i] /= *number;
     }
 }
 
 void read_header_line(const std::string& name, std::string_view line, RadianceHeader& header) {
     for (const std::string_view key : {"EXPOSURE=", "COLORCORR="})
-        if (line.starts_with(key)) divide_by_correction(name, line, key, header);
+        if (line.starts_with(key)) divide_by(name, line, key, header);
     constexpr std::string_view kFormat = "FORMAT=";
     if (!line.starts_with(kFormat)) return;
     line.remove_prefix(kFormat.size());
     const std::string_view format = take_word(line);
     check(format == "32-bit_rle_rgbe", Failure::bad_data, name,
-          ": wanted FORMAT=32-bit_rle_rgbe, found ", quote_text_with_escapes(format));
+          ": wanted FORMAT=32-bit_rle_rgbe, found ", quote(format));
 }
 
 } // namespace
 
-std::vector<float> RadianceHeader::turn_pixels(std::span<const float> stored_values) const {
+std::vector<float> RadianceHeader::turn(std::span<const float> stored_values) const {
     const uvec2 picture = size();
     std::vector<float> values(stored_values.size());
     for (std::uint32_t y = 0; y < picture.y; ++y)
@@ -94,13 +92,13 @@ std::vector<float> RadianceHeader::turn_pixels(std::span<const float> stored_val
     return values;
 }
 
-void RadianceHeader::scale_pixels(std::span<float> values) const {
+void RadianceHeader::scale(std::span<float> values) const {
     if (factor == std::array<double, 3>{1, 1, 1}) return;
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = static_cast<float>(double{values[i]} * factor[i % 3]);
 }
 
-RadianceHeader read_radiance_header(const RandomAccessByteSource& bytes, const std::string& name) {
+RadianceHeader read_radiance_header(const ByteSource& bytes, const std::string& name) {
     constexpr std::size_t kMaxHeaderBytes = 1 << 16;
     std::string text(std::min<std::uint64_t>(kMaxHeaderBytes, bytes.size()), '\0');
     text.resize(bytes.read(0, text));
@@ -118,7 +116,7 @@ RadianceHeader read_radiance_header(const RandomAccessByteSource& bytes, const s
             has_size = parse_size_line(line, header);
             check(has_size, Failure::bad_data, name,
                   ": cannot be decoded: wanted a size such as -Y 512 +X 1024, found ",
-                  quote_text_with_escapes(line.substr(0, 80)));
+                  quote(line.substr(0, 80)));
         } else if (line.empty() || line == "\r") {
             is_size_next = true;
         } else {

@@ -25,12 +25,12 @@ struct RadianceHeader {
     /// Returns whether rows are stored as the picture shows them, from the top.
     bool has_usual_order() const { return !is_transposed && !starts_right && !starts_below; }
     /// Returns all pixels of three values, by rows from the top, of the stored ones.
-    std::vector<float> turn_pixels(std::span<const float> stored_values) const;
-    void scale_pixels(std::span<float> values) const;
+    std::vector<float> turn(std::span<const float> stored_values) const;
+    void scale(std::span<float> values) const;
 };
 
 /// Throws `bad_data` for a header that cannot be read, for colours in XYZ, and if fewer bytes
 /// follow than its lines take.
-RadianceHeader read_radiance_header(const RandomAccessByteSource& bytes, const std::string& name);
+RadianceHeader read_radiance_header(const ByteSource& bytes, const std::string& name);
 
 } // namespace catoptric

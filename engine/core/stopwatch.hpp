@@ -7,7 +7,7 @@ namespace catoptric {
 using SteadyClock = std::chrono::steady_clock;
 
 /// Returns the milliseconds since `begin`.
-inline double elapsed_milliseconds(SteadyClock::time_point begin) {
+inline double ms_since(SteadyClock::time_point begin) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
 }
 
@@ -20,7 +20,7 @@ public:
     Stopwatch& operator=(const Stopwatch&) = delete;
 
     /// Returns the milliseconds since construction.
-    double elapsed_ms() const { return elapsed_milliseconds(begin_); }
+    double elapsed_ms() const { return ms_since(begin_); }
 
 private:
     double& sum_ms_;

@@ -12,24 +12,23 @@ namespace catoptric {
 /// Returns the rows of a table as they were registered. A program has one table of each type of
 /// row. Call it only in the .cpp of the table.
 template <typename Row>
-std::vector<Row>& get_registered_table_entries() {
+std::vector<Row>& table_rows() {
     static std::vector<Row> rows;
     return rows;
 }
 
 /// Returns the rows sorted by what `key` returns for them.
 template <typename Row, typename Key>
-std::vector<Row> list_registered_entries_in_order(const Key& key) {
-    std::vector<Row> rows = get_registered_table_entries<Row>();
+std::vector<Row> sorted_rows(const Key& key) {
+    std::vector<Row> rows = table_rows<Row>();
     std::ranges::sort(rows, {}, [&](const Row& row) { return std::invoke(key, row); });
     return rows;
 }
 
 /// Returns the rows sorted by their members `order` and `name`.
 template <typename Row>
-std::vector<Row> list_registered_entries_in_order() {
-    return list_registered_entries_in_order<Row>(
-        [](const Row& row) { return std::pair(row.order, row.name); });
+std::vector<Row> sorted_rows() {
+    return sorted_rows<Row>([](const Row& row) { return std::pair(row.order, row.name); });
 }
 
 } // namespace catoptric

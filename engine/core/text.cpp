@@ -10,19 +10,19 @@ namespace {
 
 constexpr std::size_t kMaxQuotedBytes = 80; // longest quoted text
 
-std::string format_hexadecimal(std::uint32_t value, std::size_t digits) {
+std::string to_hex(std::uint32_t value, std::size_t digits) {
     std::string text;
     for (std::size_t i = digits; i-- > 0;) text += "0123456789abcdef"[value >> (4 * i) & 15];
     return text;
 }
 
 /// One character of UTF-8. `size` is its number of bytes, 0 for a byte that begins no character.
-struct Utf8Character {
+struct Utf8 {
     std::size_t size = 0;
     std::uint32_t code = 0;
 };
 
-Utf8Character decode_utf8_character(std::string_view text) {
+Utf8 decode_utf8(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byte(0);
     const std::size_t size = lead < 0x80   ? 1
@@ -44,23 +44,23 @@ Utf8Character decode_utf8_character(std::string_view text) {
     return {size, code};
 }
 
-bool is_terminal_control_code(std::uint32_t code) {
+bool is_control(std::uint32_t code) {
     return (code >= 0x80 && code < 0xa0) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2066 && code <= 0x2069);
 }
 
 } // namespace
 
-std::string escape_control_characters(std::string_view text, std::string_view kept) {
+std::string escape(std::string_view text, std::string_view kept) {
     std::string result;
     result.reserve(text.size());
     while (!text.empty()) {
-        const auto [size, code] = decode_utf8_character(text);
+        const auto [size, code] = decode_utf8(text);
         const bool is_kept = kept.find(text[0]) != kept.npos;
         if (!is_kept && (size == 0 || code < 0x20 || code == 0x7f))
-            result += "\\x" + format_hexadecimal(static_cast<unsigned char>(text[0]), 2);
-        else if (is_terminal_control_code(code))
-            result += "\\u{" + format_hexadecimal(code, code < 0x100 ? 2 : 4) + "}";
+            result += "\\x" + to_hex(static_cast<unsigned char>(text[0]), 2);
+        else if (is_control(code))
+            result += "\\u{" + to_hex(code, code < 0x100 ? 2 : 4) + "}";
         else
             result += text.substr(0, is_kept ? 1 : size);
         text.remove_prefix(size == 0 ? 1 : size);
@@ -68,15 +68,14 @@ std::string escape_control_characters(std::string_view text, std::string_view ke
     return result;
 }
 
-std::string quote_text_with_escapes(std::string_view text) {
-    if (text.size() <= kMaxQuotedBytes) return "'" + escape_control_characters(text) + "'";
+std::string quote(std::string_view text) {
+    if (text.size() <= kMaxQuotedBytes) return "'" + escape(text) + "'";
     std::size_t end = kMaxQuotedBytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-    return "'" + escape_control_characters(text.substr(0, end)) + "...' (" +
-           std::to_string(text.size()) + " bytes)";
+    return "'" + escape(text.substr(0, end)) + "...' (" + std::to_string(text.size()) + " bytes)";
 }
 
-std::vector<std::string> split_text(std::string_view text, std::string_view separators) {
+std::vector<std::string> split(std::string_view text, std::string_view separators) {
     std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());

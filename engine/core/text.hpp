@@ -12,13 +12,13 @@ namespace catoptric {
 /// and bytes that are not UTF-8 become `\x1b`. The controls U+0080..9F, line separators and marks
 /// that change the direction of writing become `\u{202e}`. Printable text and the bytes in `kept`
 /// are unchanged.
-std::string escape_control_characters(std::string_view text, std::string_view kept = {});
+std::string escape(std::string_view text, std::string_view kept = {});
 
-/// Returns `escape_control_characters(text)` in single quotes, for messages. Of more than 80 bytes
+/// Returns `escape(text)` in single quotes, for messages. Of more than 80 bytes
 /// only the first are returned, with the number of bytes.
-std::string quote_text_with_escapes(std::string_view text);
+std::string quote(std::string_view text);
 
 /// Returns the parts between any of `separators`: "a,,b" has three, "" has one.
-std::vector<std::string> split_text(std::string_view text, std::string_view separators);
+std::vector<std::string> split(std::string_view text, std::string_view separators);
 
 } // namespace catoptric

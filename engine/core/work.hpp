@@ -14,7 +14,7 @@
 namespace catoptric {
 
 /// Kinds of work. The first kinds are counted by shaders, in the order of shared::kWork....
-enum class CountedWorkKind : std::uint8_t {
+enum class WorkKind : std::uint8_t {
     camera_rays,
     mirror_rays,
     shadow_rays,
@@ -42,11 +42,11 @@ enum class CountedWorkKind : std::uint8_t {
     bytes,
 };
 
-struct CountedWorkKindInfo {
+struct WorkKindInfo {
     std::string_view name; ///< plural noun, as in JSON
     std::string_view help; ///< what one unit is
 };
-inline constexpr CountedWorkKindInfo kCountedWorkKinds[] = {
+inline constexpr WorkKindInfo kWorkKinds[] = {
     {"camera_rays", "rays from the camera that walked through the BVH"},
     {"mirror_rays", "rays that left a mirror"},
     {"shadow_rays", "rays to a light"},
@@ -74,46 +74,44 @@ inline constexpr CountedWorkKindInfo kCountedWorkKinds[] = {
     {"dispatches", "dispatch commands"},
     {"bytes", "bytes of attachments that passes load, clear and store, and bytes of copies"},
 };
-inline constexpr std::size_t kCountedWorkKindCount = std::size(kCountedWorkKinds);
-static_assert(static_cast<std::size_t>(CountedWorkKind::bytes) + 1 == kCountedWorkKindCount);
-static_assert(static_cast<std::size_t>(CountedWorkKind::lights) + 1 ==
-              shared::kShaderWorkKindCount);
+inline constexpr std::size_t kWorkKindCount = std::size(kWorkKinds);
+static_assert(static_cast<std::size_t>(WorkKind::bytes) + 1 == kWorkKindCount);
+static_assert(static_cast<std::size_t>(WorkKind::lights) + 1 == shared::kShaderWorkKindCount);
 
 /// Counts by kind. A kind that the device cannot count has no value.
-struct WorkCountsByKind {
-    std::array<std::optional<std::uint64_t>, kCountedWorkKindCount> values{};
+struct WorkCounts {
+    std::array<std::optional<std::uint64_t>, kWorkKindCount> values{};
 
-    std::optional<std::uint64_t>& operator[](CountedWorkKind kind) {
+    std::optional<std::uint64_t>& operator[](WorkKind kind) {
         return values[static_cast<std::size_t>(kind)];
     }
-    const std::optional<std::uint64_t>& operator[](CountedWorkKind kind) const {
+    const std::optional<std::uint64_t>& operator[](WorkKind kind) const {
         return values[static_cast<std::size_t>(kind)];
     }
-    void add_count(CountedWorkKind kind, std::uint64_t count) {
+    void add(WorkKind kind, std::uint64_t count) {
         std::optional<std::uint64_t>& value = (*this)[kind];
         value = value.value_or(0) + count;
     }
     /// Adds all counts of `other`.
-    WorkCountsByKind& operator+=(const WorkCountsByKind& other) {
-        for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+    WorkCounts& operator+=(const WorkCounts& other) {
+        for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (other.values[i]) values[i] = values[i].value_or(0) + *other.values[i];
         return *this;
     }
-    bool operator==(const WorkCountsByKind&) const = default;
+    bool operator==(const WorkCounts&) const = default;
 };
 
 /// Work of one pass.
-struct PassWorkCounts {
+struct PassWork {
     std::string name;
-    WorkCountsByKind counts;
-    bool operator==(const PassWorkCounts&) const = default;
+    WorkCounts counts;
+    bool operator==(const PassWork&) const = default;
 };
 
 /// Returns the sum over all passes whose name begins with `prefix`.
-inline WorkCountsByKind sum_work_counts_of_passes(const std::vector<PassWorkCounts>& passes,
-                                                  std::string_view prefix = {}) {
-    WorkCountsByKind sum;
-    for (const PassWorkCounts& pass : passes)
+inline WorkCounts sum_work(const std::vector<PassWork>& passes, std::string_view prefix = {}) {
+    WorkCounts sum;
+    for (const PassWork& pass : passes)
         if (pass.name.starts_with(prefix)) sum += pass.counts;
     return sum;
 }

@@ -36,12 +36,12 @@ bool copy_attribute_values(const draco::Mesh& mesh, const draco::PointAttribute&
 bool copy_attribute_values_as_wanted(const draco::Mesh& mesh, const draco::PointAttribute& from,
                                      DracoAttribute& to) {
     switch (to.type) {
-    case DracoComponentType::int8: return copy_attribute_values<std::int8_t>(mesh, from, to);
-    case DracoComponentType::uint8: return copy_attribute_values<std::uint8_t>(mesh, from, to);
-    case DracoComponentType::int16: return copy_attribute_values<std::int16_t>(mesh, from, to);
-    case DracoComponentType::uint16: return copy_attribute_values<std::uint16_t>(mesh, from, to);
-    case DracoComponentType::uint32: return copy_attribute_values<std::uint32_t>(mesh, from, to);
-    case DracoComponentType::float32: break;
+    case DracoType::int8: return copy_attribute_values<std::int8_t>(mesh, from, to);
+    case DracoType::uint8: return copy_attribute_values<std::uint8_t>(mesh, from, to);
+    case DracoType::int16: return copy_attribute_values<std::int16_t>(mesh, from, to);
+    case DracoType::uint16: return copy_attribute_values<std::uint16_t>(mesh, from, to);
+    case DracoType::uint32: return copy_attribute_values<std::uint32_t>(mesh, from, to);
+    case DracoType::float32: break;
     }
     return copy_attribute_values<float>(mesh, from, to);
 }

@@ -40,7 +40,7 @@ void add_copy_pass_to_caller_image(session::FrameGraph& frame, const Target& tar
 
 } // namespace
 
-RequiredDeviceFeatures::RequiredDeviceFeatures(VkPhysicalDevice device) {
+RequiredFeatures::RequiredFeatures(VkPhysicalDevice device) {
     const gpu::DeviceProperties info = gpu::describe_device(device);
     check(info.missing.empty(), Failure::no_device, "device '", info.name, "' lacks ",
           info.missing);
@@ -56,8 +56,8 @@ session::Engine make_engine(const Device& device, const session::EngineOptions& 
     return session::Access::make_engine(options, {.given = &given});
 }
 
-session::Frame render_frame_into(session::Session& session, const session::FrameSpec& spec,
-                                 const Target& target) {
+session::Frame render_into(session::Session& session, const session::FrameSpec& spec,
+                           const Target& target) {
     check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");

@@ -76,7 +76,7 @@ std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
         list += (i ? ", " : "") + std::to_string(i) + " '" + names[i] + "'";
     fail(
         Failure::usage, "no device '", wanted, "': there are ", names.size(),
-        ", counted from 0: ", list, suggest_nearest_name(wanted, names),
+        ", counted from 0: ", list, suggest_name(wanted, names),
         "; --device takes an index or a part of a name; a card is listed once its Vulkan driver is "
         "installed, see 'vulkaninfo --summary'");
 }

@@ -39,7 +39,7 @@ std::string describe_raster_pipeline(const RasterPipelineState& state,
                        format_shader_constants(state.constants) +
                        format_shader_constants(state.features);
     for (TexelFormat format : attachments.colour)
-        name += "/" + std::string(catoptric::texel_format_name(format));
+        name += "/" + std::string(catoptric::format_name(format));
     if (attachments.depth) name += "/depth";
     if (state.blending != Blending::none)
         name += state.blending == Blending::sum ? "/summed" : "/blended";

@@ -33,11 +33,10 @@ std::string make_shader_file_name(std::span<const std::uint32_t> words,
     for (const std::uint64_t seed : {1u, 2u}) {
         ContentHash hash(seed);
         hash.add_values(std::span(kShaderFileSignature)).add_values(std::span(tools));
-        hash.add_values(words).add_value(constants.size());
-        for (const auto& [id, bits] : constants) hash.add_value(id).add_value(bits);
+        hash.add_values(words).add(constants.size());
+        for (const auto& [id, bits] : constants) hash.add(id).add(bits);
         char text[17];
-        std::snprintf(text, sizeof text, "%016llx",
-                      static_cast<unsigned long long>(hash.current_hash()));
+        std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.sum()));
         name += text;
     }
     return name;

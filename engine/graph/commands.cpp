@@ -22,9 +22,8 @@ std::uint64_t count_bytes_of_image_part(const ImageDesc& desc, const ImageHandle
 
 } // namespace
 
-void PassCommands::add_counted_work(CountedWorkKind kind, std::uint64_t count) {
-    if (WorkCounter* const work = frame_recorder_.frame_work_counter())
-        work->add_count(kind, count);
+void PassCommands::add_counted_work(WorkKind kind, std::uint64_t count) {
+    if (WorkCounter* const work = frame_recorder_.frame_work_counter()) work->add(kind, count);
 }
 
 void PassCommands::bind_pipeline(gpu::RasterPipelineState state) {
@@ -122,13 +121,13 @@ void PassCommands::draw(std::uint32_t first_index, std::uint32_t index_count,
     const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
     if (first >= end || index_count == 0) return;
     write_bound_descriptors();
-    add_counted_work(CountedWorkKind::draws);
+    add_counted_work(WorkKind::draws);
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first_instance + first);
 }
 
 void PassCommands::draw_fullscreen_triangle() {
     write_bound_descriptors();
-    add_counted_work(CountedWorkKind::draws);
+    add_counted_work(WorkKind::draws);
     vkCmdDraw(commands_, 3, 1, 0, 0);
 }
 
@@ -140,7 +139,7 @@ void PassCommands::set_scissor(const PixelRectangle& area) {
 
 void PassCommands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     write_bound_descriptors();
-    add_counted_work(CountedWorkKind::dispatches);
+    add_counted_work(WorkKind::dispatches);
     vkCmdDispatch(commands_, x, y, z);
 }
 
@@ -153,7 +152,7 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
           "' dispatches what buffer '", pass_graph_.list_buffers()[arguments.id].name,
           "' says but does not declare it as indirect or storage");
     write_bound_descriptors();
-    add_counted_work(CountedWorkKind::dispatches);
+    add_counted_work(WorkKind::dispatches);
     vkCmdDispatchIndirect(commands_, frame_recorder_.vulkan_buffer(arguments), offset);
 }
 
@@ -169,14 +168,14 @@ void PassCommands::copy_image(ImageHandle from, ImageHandle to) {
     check_pass_declares_resource(from, "source of a copy");
     check_pass_declares_resource(to, "target of a copy");
     const ImageDesc& desc = pass_graph_.list_images()[from.id];
-    const VkImageAspectFlags aspect = is_depth_format(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                   : VK_IMAGE_ASPECT_COLOR_BIT;
+    const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                            : VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageCopy region{};
     region.srcSubresource = {aspect, from.first_mip, from.first_layer, from.layer_count};
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
     region.extent = {size_at_mip(desc.width, from.first_mip),
                      size_at_mip(desc.height, from.first_mip), 1};
-    add_counted_work(CountedWorkKind::bytes, count_bytes_of_image_part(desc, from));
+    add_counted_work(WorkKind::bytes, count_bytes_of_image_part(desc, from));
     vkCmdCopyImage(commands_, frame_recorder_.physical_image(from).image,
                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame_recorder_.physical_image(to).image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
@@ -186,7 +185,7 @@ void PassCommands::copy_image(ImageHandle from, BufferHandle to) {
     check_pass_declares_resource(from, "source of a copy");
     check_pass_declares_resource(to, "target of a copy");
     const VkBufferImageCopy region = make_copy_region(pass_graph_.list_images()[from.id], from);
-    add_counted_work(CountedWorkKind::bytes,
+    add_counted_work(WorkKind::bytes,
                      count_bytes_of_image_part(pass_graph_.list_images()[from.id], from));
     vkCmdCopyImageToBuffer(commands_, frame_recorder_.physical_image(from).image,
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame_recorder_.vulkan_buffer(to),
@@ -195,13 +194,13 @@ void PassCommands::copy_image(ImageHandle from, BufferHandle to) {
 
 void PassCommands::fill_buffer(BufferHandle buffer, std::uint32_t word) {
     check_pass_declares_resource(buffer, "target of a fill");
-    add_counted_work(CountedWorkKind::bytes, pass_graph_.list_buffers()[buffer.id].bytes);
+    add_counted_work(WorkKind::bytes, pass_graph_.list_buffers()[buffer.id].bytes);
     vkCmdFillBuffer(commands_, frame_recorder_.vulkan_buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
 void PassCommands::update_buffer(BufferHandle buffer, std::span<const std::byte> bytes) {
     check_pass_declares_resource(buffer, "target of an update");
-    add_counted_work(CountedWorkKind::bytes, bytes.size());
+    add_counted_work(WorkKind::bytes, bytes.size());
     vkCmdUpdateBuffer(commands_, frame_recorder_.vulkan_buffer(buffer), 0, bytes.size(),
                       bytes.data());
 }

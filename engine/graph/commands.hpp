@@ -135,7 +135,7 @@ private:
     WorkGroupRange begin_range(std::uint32_t first, std::uint32_t groups,
                                std::uint64_t rays_per_group);
     /// Adds to the counted work of the pass, if the frame counts work.
-    void add_counted_work(CountedWorkKind kind, std::uint64_t count = 1);
+    void add_counted_work(WorkKind kind, std::uint64_t count = 1);
     void check_pass_declares_resource(ImageHandle image, std::string_view name) const;
     void check_pass_declares_resource(BufferHandle buffer, std::string_view name) const;
     void check_binding_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;

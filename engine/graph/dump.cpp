@@ -151,7 +151,7 @@ void add_memory_placement_json(Json& json, const MemoryPlacement& placement) {
 
 Json make_image_json(const ImageDesc& desc, Lifetime lifetime, const MemoryPlacement& placement) {
     Json json{{"name", desc.name},
-              {"format", catoptric::texel_format_name(desc.format)},
+              {"format", catoptric::format_name(desc.format)},
               {"size", {desc.width, desc.height}},
               {"layers", desc.layers},
               {"cube", desc.cube}};
@@ -213,7 +213,7 @@ std::string graph_plan_to_text(const Graph& graph, const GraphPlan& plan) {
     if (!plan.images.empty()) out << "\nimages\n";
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ImageDesc& desc = graph.list_images()[i];
-        out << "  '" << desc.name << "' " << catoptric::texel_format_name(desc.format) << " "
+        out << "  '" << desc.name << "' " << catoptric::format_name(desc.format) << " "
             << desc.width << "x" << desc.height << ", "
             << format_count_with_plural_noun(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");

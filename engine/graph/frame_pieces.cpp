@@ -91,7 +91,7 @@ void FramePieces::submit_and_wait() {
     wait.pValues = &piece_;
     pieces_device_.check_wait_or_abandon(
         vkWaitSemaphores(pieces_device_.device_handle(), &wait, ~std::uint64_t{0}), doing);
-    const double ms = elapsed_milliseconds(start);
+    const double ms = ms_since(start);
     wait_ms_ += ms;
     end_submission(ms);
     slot_->end_piece();

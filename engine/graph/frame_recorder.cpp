@@ -29,7 +29,7 @@ gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filt
 }
 
 std::string describe_image_shape(const ImageDesc& desc) {
-    return std::string(texel_format_name(desc.format)) + " " + std::to_string(desc.width) + "x" +
+    return std::string(format_name(desc.format)) + " " + std::to_string(desc.width) + "x" +
            std::to_string(desc.height) + " with " + std::to_string(desc.layers) + " layer(s) and " +
            std::to_string(desc.mips) + " mip(s)";
 }
@@ -287,9 +287,9 @@ void FrameRecorder::count_attachment_traffic(const Pass& pass, const VkRendering
         const VkRenderingAttachmentInfo& attachment = use.use == ResourceUse::depth
                                                           ? depth_
                                                           : colours_[colour++];
-        work_->add_count(CountedWorkKind::bytes,
-                         count_attachment_bytes(
-                             attachment, graph_->list_images()[use.image.id].format, rendering));
+        work_->add(WorkKind::bytes,
+                   count_attachment_bytes(attachment, graph_->list_images()[use.image.id].format,
+                                          rendering));
     }
 }
 

@@ -101,7 +101,7 @@ CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
         found = shapes_.insert(shapes_.end(), std::move(made));
     }
     std::rotate(shapes_.begin(), found, found + 1);
-    compile_ms_ += elapsed_milliseconds(begin);
+    compile_ms_ += ms_since(begin);
     return *shapes_.front();
 }
 
@@ -132,7 +132,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
                          });
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
-    times.compile_ms = compile_ms_ + elapsed_milliseconds(begin) - (wait_ms_ - waited_for_place);
+    times.compile_ms = compile_ms_ + ms_since(begin) - (wait_ms_ - waited_for_place);
     times.wait_ms = wait_ms_ - waited_before;
     compile_ms_ = 0;
 
@@ -140,7 +140,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     slot.work = counts_work ? std::make_unique<WorkCounter>(runner_device_, list_pass_names(shape))
                             : nullptr;
     record_frame(graph, shape, slot, index, timing, outside.wait);
-    times.record_ms = elapsed_milliseconds(record_begin) - pieces_.wait_ms();
+    times.record_ms = ms_since(record_begin) - pieces_.wait_ms();
     times.wall_ms = pieces_.wait_ms(); // without the recording between pieces
     times.wait_ms += pieces_.wait_ms(), wait_ms_ += pieces_.wait_ms();
     slot.times = times;
@@ -218,8 +218,8 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     if (result != VK_SUCCESS)
         runner_device_.check_wait_or_abandon(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
-    const double waited = elapsed_milliseconds(begin);
-    const double ran = elapsed_milliseconds(slot.submitted);
+    const double waited = ms_since(begin);
+    const double ran = ms_since(slot.submitted);
     slot.times.wall_ms += ran;
     pieces_.end_submission(ran);
     slot.times.wait_ms += waited;
@@ -259,10 +259,10 @@ bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
     return result == VK_SUCCESS;
 }
 
-std::vector<PassWorkCounts> GraphRunner::work_counts_of_frame(SubmittedFrameTicket ticket) {
+std::vector<PassWork> GraphRunner::work_counts_of_frame(SubmittedFrameTicket ticket) {
     FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
     finish_frame_in_flight(slot);
-    return slot.work ? slot.work->read() : std::vector<PassWorkCounts>();
+    return slot.work ? slot.work->read() : std::vector<PassWork>();
 }
 
 const GraphFrameTimes& GraphRunner::wait_for_frame(SubmittedFrameTicket ticket) {

@@ -83,7 +83,7 @@ public:
 
     /// Waits for the frame and returns the work of its passes, in order of execution. Empty if the
     /// frame did not count its work.
-    std::vector<PassWorkCounts> work_counts_of_frame(SubmittedFrameTicket ticket);
+    std::vector<PassWork> work_counts_of_frame(SubmittedFrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame uses the same

@@ -9,15 +9,13 @@ namespace {
 /// A hash of the added values and their order.
 class OrderDependentHash {
 public:
-    void add_value(std::uint64_t value) {
+    void add(std::uint64_t value) {
         constexpr std::uint64_t kHashMultiplier = 0x9e3779b97f4a7c15u;
         value_ = (value_ ^ value) * kHashMultiplier;
         value_ ^= value_ >> 29;
     }
-    void add_value(std::uint32_t high, std::uint32_t low) {
-        add_value(std::uint64_t{high} << 32 | low);
-    }
-    void add_value(std::string_view text) { add_value(std::hash<std::string_view>()(text)); }
+    void add(std::uint32_t high, std::uint32_t low) { add(std::uint64_t{high} << 32 | low); }
+    void add(std::string_view text) { add(std::hash<std::string_view>()(text)); }
     std::uint64_t hash_value() const { return value_; }
 
 private:
@@ -30,33 +28,32 @@ std::uint32_t enum_to_hash_number(E value) {
 }
 
 void add_members_to_hash(OrderDependentHash& hash, const ImageDesc& desc) {
-    hash.add_value(desc.name);
-    hash.add_value(desc.width, desc.height);
-    hash.add_value(desc.layers, enum_to_hash_number(desc.format) << 1 | desc.cube);
-    hash.add_value(desc.mips);
+    hash.add(desc.name);
+    hash.add(desc.width, desc.height);
+    hash.add(desc.layers, enum_to_hash_number(desc.format) << 1 | desc.cube);
+    hash.add(desc.mips);
 }
 
 void add_members_to_hash(OrderDependentHash& hash, const ImageHandle& image) {
-    hash.add_value(image.id << 1 | image.previous, image.first_layer);
-    hash.add_value(image.layer_count);
-    hash.add_value(image.first_mip, image.mip_count);
+    hash.add(image.id << 1 | image.previous, image.first_layer);
+    hash.add(image.layer_count);
+    hash.add(image.first_mip, image.mip_count);
 }
 
 void add_members_to_hash(OrderDependentHash& hash, const Pass& pass) {
-    hash.add_value(pass.name);
-    hash.add_value(enum_to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body),
-                   pass.layer_count);
-    hash.add_value(static_cast<std::uint32_t>(pass.images.size()),
-                   static_cast<std::uint32_t>(pass.buffers.size()));
+    hash.add(pass.name);
+    hash.add(enum_to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
+    hash.add(static_cast<std::uint32_t>(pass.images.size()),
+             static_cast<std::uint32_t>(pass.buffers.size()));
     for (const ImageUse& use : pass.images) {
         add_members_to_hash(hash, use.image);
-        hash.add_value(enum_to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
-                                                         std::uint32_t{use.write} << 1 |
-                                                         use.clear.has_value());
+        hash.add(enum_to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
+                                                   std::uint32_t{use.write} << 1 |
+                                                   use.clear.has_value());
     }
     for (const BufferUse& use : pass.buffers)
-        hash.add_value(use.buffer.id << 1 | use.buffer.previous,
-                       enum_to_hash_number(use.use) << 1 | use.write);
+        hash.add(use.buffer.id << 1 | use.buffer.previous,
+                 enum_to_hash_number(use.use) << 1 | use.write);
 }
 
 /// Returns the ranges of a persistent image that have contents.
@@ -75,14 +72,14 @@ std::vector<std::uint32_t> list_ranges_with_contents(const Graph& graph, std::ui
 
 void add_image_lifetime_to_shape_hash(OrderDependentHash& hash, const Graph& graph,
                                       std::uint32_t image) {
-    hash.add_value(enum_to_hash_number(graph.image_lifetime(image)));
+    hash.add(enum_to_hash_number(graph.image_lifetime(image)));
     if (graph.image_lifetime(image) == Lifetime::imported) {
         const std::optional<ResourceUse> arrives = graph.resource_use_on_import(image);
-        hash.add_value(arrives ? 1 + enum_to_hash_number(*arrives) : 0,
-                       enum_to_hash_number(graph.resource_use_on_release(image)));
+        hash.add(arrives ? 1 + enum_to_hash_number(*arrives) : 0,
+                 enum_to_hash_number(graph.resource_use_on_release(image)));
     }
     if (graph.image_lifetime(image) == Lifetime::persistent)
-        for (const std::uint32_t end : list_ranges_with_contents(graph, image)) hash.add_value(end);
+        for (const std::uint32_t end : list_ranges_with_contents(graph, image)) hash.add(end);
 }
 
 bool have_equal_lifetimes(const Graph& a, const Graph& b, std::uint32_t image) {
@@ -112,21 +109,21 @@ bool are_equal_declarations(const Pass& a, const Pass& b) {
 
 std::uint64_t hash_graph_shape(const Graph& graph) {
     OrderDependentHash hash;
-    hash.add_value(graph.list_images().size());
+    hash.add(graph.list_images().size());
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
         add_members_to_hash(hash, graph.list_images()[i]);
         add_image_lifetime_to_shape_hash(hash, graph, i);
     }
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b) {
-        hash.add_value(graph.list_buffers()[b].name);
-        hash.add_value(graph.list_buffers()[b].bytes);
-        hash.add_value(enum_to_hash_number(graph.buffer_lifetime(b)));
+        hash.add(graph.list_buffers()[b].name);
+        hash.add(graph.list_buffers()[b].bytes);
+        hash.add(enum_to_hash_number(graph.buffer_lifetime(b)));
     }
     for (const ImageContentHashRecord& stamped : graph.list_image_content_hashes())
         add_members_to_hash(hash, stamped.part);
     for (const Pass& pass : graph.list_passes()) add_members_to_hash(hash, pass);
     for (const ImageHandle& image : graph.list_output_images()) add_members_to_hash(hash, image);
-    for (const BufferHandle& buffer : graph.list_output_buffers()) hash.add_value(buffer.id);
+    for (const BufferHandle& buffer : graph.list_output_buffers()) hash.add(buffer.id);
     return hash.hash_value();
 }
 

@@ -19,7 +19,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     gpu::record_image_barrier(commands, barrier);
-    if (is_depth_format(desc.format)) {
+    if (is_depth(desc.format)) {
         const VkClearDepthStencilValue nothing{};
         vkCmdClearDepthStencilImage(commands, image.image, barrier.newLayout, &nothing, 1, &range);
     } else {

@@ -3,7 +3,7 @@
 namespace catoptric::graph {
 
 VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
-    return is_depth_format(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 VkImageCreateInfo make_image_create_info(const ImageDesc& desc) {
@@ -17,8 +17,8 @@ VkImageCreateInfo make_image_create_info(const ImageDesc& desc) {
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                    VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    create.usage |= is_depth_format(desc.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                                 : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    create.usage |= is_depth(desc.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                          : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     // Vulkan requires storage images only for these formats (table of mandatory formats).
     if (desc.format == TexelFormat::rgba32f || desc.format == TexelFormat::rgba16f ||
         desc.format == TexelFormat::r32f || desc.format == TexelFormat::r32ui ||

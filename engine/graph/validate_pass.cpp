@@ -55,10 +55,10 @@ void check_resource_handle(const Graph& graph, const Pass& pass, const ResourceA
 
 void check_attachment_format(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     const TexelFormat format = graph.list_images()[a.id].format;
-    if (is_depth_format(format) == (a.use == ResourceUse::depth)) return;
+    if (is_depth(format) == (a.use == ResourceUse::depth)) return;
     fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
-         resource_use_name(a.use), ", but its format ", texel_format_name(format), " is a ",
-         is_depth_format(format) ? "depth" : "colour", " format");
+         resource_use_name(a.use), ", but its format ", format_name(format), " is a ",
+         is_depth(format) ? "depth" : "colour", " format");
 }
 
 /// Error texts are built only on failure, because most passes are valid.

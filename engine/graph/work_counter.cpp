@@ -12,9 +12,8 @@ constexpr VkQueryPipelineStatisticFlags kPipelineStatisticFlags =
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
-constexpr CountedWorkKind kWorkKindsFromPipelineStatistics[] = {
-    CountedWorkKind::vertices, CountedWorkKind::primitives, CountedWorkKind::fragments,
-    CountedWorkKind::invocations};
+constexpr WorkKind kWorkKindsFromPipelineStatistics[] = {
+    WorkKind::vertices, WorkKind::primitives, WorkKind::fragments, WorkKind::invocations};
 constexpr std::size_t kPipelineStatisticCount = std::size(kWorkKindsFromPipelineStatistics);
 constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
                                               sizeof(std::uint32_t);
@@ -49,11 +48,10 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
             {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     }
-    for (const CountedWorkKind kind :
-         {CountedWorkKind::draws, CountedWorkKind::dispatches, CountedWorkKind::bytes})
-        add_count(kind, 0);
-    add_count(CountedWorkKind::frames, pass_ == 0 ? 1 : 0);
-    add_count(CountedWorkKind::passes, 1);
+    for (const WorkKind kind : {WorkKind::draws, WorkKind::dispatches, WorkKind::bytes})
+        add(kind, 0);
+    add(WorkKind::frames, pass_ == 0 ? 1 : 0);
+    add(WorkKind::passes, 1);
     if (statistics_) vkCmdBeginQuery(commands, statistics_, static_cast<std::uint32_t>(pass_), 0);
 }
 
@@ -97,12 +95,12 @@ VkDescriptorBufferInfo WorkCounter::shader_counts() const {
     return {buffer_.buffer_handle(), pass_ * stride_, kShaderCounterBytes};
 }
 
-std::vector<PassWorkCounts> WorkCounter::read() {
+std::vector<PassWork> WorkCounter::read() {
     const std::vector<std::byte> bytes = buffer_.read_contents();
     std::vector<std::uint64_t> results;
     if (statistics_) results = read_statistics(0, static_cast<std::uint32_t>(passes_.size()));
     for (std::size_t i = 0; i < passes_.size(); ++i) {
-        WorkCountsByKind& counts = passes_[i].counts;
+        WorkCounts& counts = passes_[i].counts;
         // Of each count, the low word comes first.
         std::uint32_t words[shared::kShaderWorkKindCount][2];
         std::memcpy(words, bytes.data() + i * stride_, kShaderCounterBytes);

@@ -27,19 +27,17 @@ public:
     void pause_pass(VkCommandBuffer commands);
     void resume_pass(VkCommandBuffer commands);
     /// Adds to a count of the pass that is being recorded.
-    void add_count(CountedWorkKind kind, std::uint64_t count) {
-        passes_[pass_].counts.add_count(kind, count);
-    }
+    void add(WorkKind kind, std::uint64_t count) { passes_[pass_].counts.add(kind, count); }
     /// Returns the buffer and the part of it in which the shaders of this pass count.
     VkDescriptorBufferInfo shader_counts() const;
     /// Returns the counts of all passes. The frame must have ended.
-    std::vector<PassWorkCounts> read();
+    std::vector<PassWork> read();
 
 private:
     std::vector<std::uint64_t> read_statistics(std::uint32_t first, std::uint32_t count) const;
 
     gpu::GpuDevice& graph_device_;
-    std::vector<PassWorkCounts> passes_;
+    std::vector<PassWork> passes_;
     std::size_t pass_ = 0;
     /// Results of the query in ended pieces, for each pass, in the order of its bits.
     std::vector<std::array<std::uint64_t, 4>> paused_;

@@ -21,8 +21,7 @@ namespace {
 /// Lets OpenImageIO read from a source of bytes.
 class ByteSourceProxy final : public OIIO::Filesystem::IOProxy {
 public:
-    explicit ByteSourceProxy(const RandomAccessByteSource& bytes)
-        : IOProxy("", Read), bytes_(bytes) {}
+    explicit ByteSourceProxy(const ByteSource& bytes) : IOProxy("", Read), bytes_(bytes) {}
 
     const char* proxytype() const override { return "catoptric"; }
     std::size_t size() const override { return bytes_.size(); }
@@ -41,7 +40,7 @@ public:
     }
 
 private:
-    const RandomAccessByteSource& bytes_;
+    const ByteSource& bytes_;
 };
 
 } // namespace
@@ -57,9 +56,8 @@ namespace {
 
 /// Sets the proxy from which the picture is read. The JPEG reader of OpenImageIO 2.4 accepts only
 /// OpenImageIO's own proxies, so it gets a copy of all bytes.
-void attach_byte_source_to_image_input(ImageCodecs::Picture& picture,
-                                       const RandomAccessByteSource& bytes,
-                                       const std::string& format) {
+void attach_source(ImageCodecs::Picture& picture, const ByteSource& bytes,
+                   const std::string& format) {
     if (format != "jpeg") {
         picture.proxy = std::make_unique<ByteSourceProxy>(bytes);
         return;
@@ -70,53 +68,52 @@ void attach_byte_source_to_image_input(ImageCodecs::Picture& picture,
     picture.proxy = std::make_unique<OIIO::Filesystem::IOMemReader>(copy.data(), copy.size());
 }
 
-OIIO::TypeDesc to_oiio_type(ImageCodecValueType type) {
-    return type == ImageCodecValueType::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
+OIIO::TypeDesc to_oiio_type(PixelType type) {
+    return type == PixelType::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
 }
 
 /// Returns OpenImageIO's error message, in one line.
 template <typename Codec>
-ImageCodecResult read_last_oiio_error(const Codec& codec) {
+CodecResult last_error(const Codec& codec) {
     std::string text = codec.geterror();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return {ImageCodecStatus::refused, std::move(text)};
+    return {CodecStatus::refused, std::move(text)};
 }
 
 /// Returns the result of `work`, with exceptions turned into results.
 template <typename Work>
-ImageCodecResult run_codec_and_catch_exceptions(const Work& work) noexcept {
+CodecResult run_codec(const Work& work) noexcept {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {ImageCodecStatus::out_of_memory};
+        return {CodecStatus::out_of_memory};
     } catch (const std::exception& error) {
-        return {ImageCodecStatus::broken, error.what()};
+        return {CodecStatus::broken, error.what()};
     } catch (...) {
-        return {ImageCodecStatus::broken, "with an exception of its own"};
+        return {CodecStatus::broken, "with an exception of its own"};
     }
 }
 
-constexpr const char* kImageDescriptionMetadataName = "ImageDescription";
+constexpr const char* kDescriptionName = "ImageDescription";
 
-ImageCodecResult open_codec_picture(const RandomAccessByteSource& bytes, const std::string& format,
-                                    const std::string& name, ImageCodecs::Picture*& picture,
-                                    ImageCodecs::CodecPictureHeader& header) noexcept {
+CodecResult open_picture(const ByteSource& bytes, const std::string& format,
+                         const std::string& name, ImageCodecs::Picture*& picture,
+                         ImageCodecs::Header& header) noexcept {
     picture = nullptr;
-    return run_codec_and_catch_exceptions([&]() -> ImageCodecResult {
+    return run_codec([&]() -> CodecResult {
         auto opened = std::make_unique<ImageCodecs::Picture>();
-        attach_byte_source_to_image_input(*opened, bytes, format);
+        attach_source(*opened, bytes, format);
         opened->input = OIIO::ImageInput::create(format);
-        if (!opened->input) return {ImageCodecStatus::no_codec};
+        if (!opened->input) return {CodecStatus::no_codec};
         OIIO::ImageSpec hints, spec;
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
         opened->input->set_ioproxy(opened->proxy.get());
-        if (!opened->input->open(name, spec, hints)) return read_last_oiio_error(*opened->input);
-        header = {
-            {spec.width, spec.height},
-            spec.nchannels,
-            spec.deep,
-            spec.channelnames,
-            std::string(opened->input->spec().get_string_attribute(kImageDescriptionMetadataName))};
+        if (!opened->input->open(name, spec, hints)) return last_error(*opened->input);
+        header = {{spec.width, spec.height},
+                  spec.nchannels,
+                  spec.deep,
+                  spec.channelnames,
+                  std::string(opened->input->spec().get_string_attribute(kDescriptionName))};
         opened->channel_count = spec.nchannels;
         picture = opened.release();
         return {};
@@ -140,10 +137,9 @@ bool read_tile_rows(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t 
     return true;
 }
 
-ImageCodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t first,
-                                   std::uint32_t row_count, ImageCodecValueType type,
-                                   void* values) noexcept {
-    return run_codec_and_catch_exceptions([&]() -> ImageCodecResult {
+CodecResult read_rows(ImageCodecs::Picture& picture, std::uint32_t first, std::uint32_t row_count,
+                      PixelType type, void* values) noexcept {
+    return run_codec([&]() -> CodecResult {
         OIIO::ImageInput& input = *picture.input;
         const OIIO::ImageSpec& spec = input.spec();
         const int from = spec.y + static_cast<int>(first);
@@ -153,19 +149,18 @@ ImageCodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t 
                                  : input.read_scanlines(
                                        0, 0, from, from + static_cast<int>(row_count), 0, 0,
                                        picture.channel_count, to_oiio_type(type), values);
-        if (!is_read) return read_last_oiio_error(input);
+        if (!is_read) return last_error(input);
         return {};
     });
 }
 
-void close_codec_picture(ImageCodecs::Picture* picture) noexcept { delete picture; }
+void close_picture(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
 /// Encodes to memory, because OpenImageIO's writers report success on a full disk. The engine
 /// itself writes PNG and OpenEXR files. Tests compare its files with those of this function.
-ImageCodecResult encode_picture(const std::string& format,
-                                const ImageCodecs::PixelValueBuffer& picture,
-                                std::string& bytes) noexcept {
-    return run_codec_and_catch_exceptions([&]() -> ImageCodecResult {
+CodecResult encode_picture(const std::string& format, const ImageCodecs::Pixels& picture,
+                           std::string& bytes) noexcept {
+    return run_codec([&]() -> CodecResult {
         const OIIO::TypeDesc type = to_oiio_type(picture.type);
         OIIO::ImageSpec spec(static_cast<int>(picture.size.x), static_cast<int>(picture.size.y),
                              static_cast<int>(picture.channel_count), type);
@@ -174,24 +169,21 @@ ImageCodecResult encode_picture(const std::string& format,
         spec.attribute("oiio:ColorSpace", format == "png" ? "sRGB" : "Linear");
         spec.attribute("oiio:UnassociatedAlpha", 1);
         if (!picture.channels.empty()) spec.channelnames = picture.channels;
-        if (!picture.description.empty())
-            spec.attribute(kImageDescriptionMetadataName, picture.description);
+        if (!picture.description.empty()) spec.attribute(kDescriptionName, picture.description);
         OIIO::Filesystem::IOVecOutput memory;
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-        if (!output) return {ImageCodecStatus::no_codec};
+        if (!output) return {CodecStatus::no_codec};
         output->set_ioproxy(&memory);
         if (!output->open("memory." + format, spec) || !output->write_image(type, picture.values) ||
             !output->close())
-            return read_last_oiio_error(*output);
+            return last_error(*output);
         bytes.assign(memory.buffer().begin(), memory.buffer().end());
         return {};
     });
 }
 
-constexpr ImageCodecs kOpenImageIoCodecs{.open = open_codec_picture,
-                                         .read = read_picture_rows,
-                                         .close = close_codec_picture,
-                                         .encode = encode_picture};
+constexpr ImageCodecs kOpenImageIoCodecs{
+    .open = open_picture, .read = read_rows, .close = close_picture, .encode = encode_picture};
 
 } // namespace
 

@@ -57,17 +57,15 @@ ValuePerWorkKind solve_for_nonnegative_costs(const UnitCostNormalEquations& equa
     return found;
 }
 
-double work_count_of_kind(const WorkCountsByKind& counts, CountedWorkKind kind) {
+double work_count_of_kind(const WorkCounts& counts, WorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
 }
 
-bool is_ray_tracing_work_kind(CountedWorkKind kind) {
-    return kind <= CountedWorkKind::triangle_lanes;
-}
+bool is_ray_tracing_work_kind(WorkKind kind) { return kind <= WorkKind::triangle_lanes; }
 
 /// Returns the predicted time with each unit cost at an end of its range: rays at the low end and
 /// all other work at the high end, or the other way round.
-double predict_time_at_cost_bounds(const DeviceCosts& costs, const WorkCountsByKind& counts,
+double predict_time_at_cost_bounds(const DeviceCosts& costs, const WorkCounts& counts,
                                    bool rays_are_cheap) {
     double ms = 0;
     for (const WorkUnitCost& unit : costs.units) {
@@ -112,7 +110,7 @@ double UnitCostFitQuality::share_of_predictions_within_factor(double factor) con
     return samples.empty() ? 0 : static_cast<double>(within) / static_cast<double>(samples.size());
 }
 
-PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& counts) {
+PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
     PredictedTime time;
     for (const WorkUnitCost& unit : costs.units) {
         const double millions = work_count_of_kind(counts, unit.kind) * 1e-6; // ns to ms
@@ -148,7 +146,7 @@ find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& ro
                                                                   : kUnknownFrameTime);
             continue;
         }
-        const WorkCountsByKind counts = total_work_counts_of_row(row);
+        const WorkCounts counts = total_work_counts_of_row(row);
         const bool is_known = has_counted_work(row);
         front.times.push_back(
             is_known ? predict_time(costs, counts)
@@ -167,7 +165,7 @@ find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& ro
 }
 
 DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samples,
-                           std::span<const CountedWorkKind> kinds) {
+                           std::span<const WorkKind> kinds) {
     check(samples.size() >= kinds.size() && !kinds.empty(), Failure::usage, "fitting the costs of ",
           kinds.size(), " kinds of work: wanted at least as many measured rows, found ",
           samples.size());
@@ -177,7 +175,7 @@ DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samp
         check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
               "': wanted a time above 0 ms, found ", sample.ms);
         ValuePerWorkKind& row = rows.emplace_back();
-        for (const CountedWorkKind kind : kinds)
+        for (const WorkKind kind : kinds)
             row.push_back(work_count_of_kind(sample.counts, kind) / sample.ms);
         all.add_sample(row, 1);
     }

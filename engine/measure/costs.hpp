@@ -22,7 +22,7 @@ std::string_view cost_origin_name(UnitCostOrigin origin);
 
 /// Cost of one unit of a kind of work, nanoseconds.
 struct WorkUnitCost {
-    CountedWorkKind kind = CountedWorkKind::fragments;
+    WorkKind kind = WorkKind::fragments;
     double ns = 0;
     Interval range; ///< smallest and largest value that the source supports; unknown if it has none
     std::string source; ///< publication or command from which the value follows
@@ -31,7 +31,7 @@ struct WorkUnitCost {
 /// A row whose time was measured, for a fit.
 struct TimedWorkSample {
     std::string name;
-    WorkCountsByKind counts;
+    WorkCounts counts;
     double ms = 0;
 };
 
@@ -59,7 +59,7 @@ struct DeviceCosts {
 struct PredictedTime {
     double ms = 0, low = 0, high = 0;
 };
-PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& counts);
+PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts);
 /// Returns the interval of measured by predicted time in which 90 % of the rows of the fit lie.
 /// Unknown without a fit.
 Interval find_prediction_error(const DeviceCosts& costs);
@@ -87,6 +87,6 @@ find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& ro
 /// UnitCostFitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time
 /// that is not positive. Costs O(samples kinds^2) and little more.
 DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samples,
-                           std::span<const CountedWorkKind> kinds);
+                           std::span<const WorkKind> kinds);
 
 } // namespace catoptric::measure

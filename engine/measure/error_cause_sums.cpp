@@ -30,7 +30,7 @@ struct FiniteMirrorPixels {
             const std::uint32_t hit = hits[places[i]];
             (second_mirror_of_hit_word(hit) ? sums.mirror_in_mirror
                                             : sums.first_order) += values[i];
-            sums.per_mirror[first_mirror_of_hit_word(hit).zero_based_mirror_index()] += values[i];
+            sums.per_mirror[first_mirror_of_hit_word(hit).index()] += values[i];
         }
         return sums;
     }
@@ -51,7 +51,7 @@ FiniteMirrorPixels list_counted_pixels(std::span<const std::uint32_t> hits,
     }
     for (std::size_t i = 0; i < pixels.places.size(); ++i) {
         pixels.mirrors = std::max<std::size_t>(
-            pixels.mirrors, first_mirror_of_hit_word(hits[pixels.places[i]]).mirror_number());
+            pixels.mirrors, first_mirror_of_hit_word(hits[pixels.places[i]]).number());
         pixels.counts.push_back(std::isfinite(whole[i]) &&
                                 std::ranges::all_of(causes, [i](const PixelErrorCause& cause) {
                                     return std::isfinite(cause.part[i]) &&

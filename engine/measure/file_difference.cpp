@@ -104,8 +104,8 @@ PictureFileDifference compare_picture_files(const std::filesystem::path& a,
     if (!mask_file.empty()) mask = read_mask(mask_file, width, height);
 
     const bool is_of_bytes = is_png(a) || is_png(b);
-    const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bit_channels() &&
-                                   reader_of_second_picture.has_8_bit_channels();
+    const bool is_light_of_bytes = exposure_stops == 0 && of_a.is_8_bit() &&
+                                   reader_of_second_picture.is_8_bit();
     PictureRowReadWindow window_a(std::move(of_a)), window_b(std::move(reader_of_second_picture));
     PictureDifferenceSum sum(width,
                              static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

@@ -436,7 +436,7 @@ std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int 
         }
     };
     const unsigned threads = std::min(hardware_thread_count(), static_cast<unsigned>(tile_count));
-    run_in_parallel(threads, threads, work);
+    parallel_for(threads, threads, work);
     return map;
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kExrChannelSuffixes{".R", ".G", ".B"};
 
 /// Returns the index of a channel. Throws `bad_data` if the file lacks it.
-std::size_t find_channel(const ImageSizeAndChannels& shape, const std::string& channel,
+std::size_t find_channel(const ImageShape& shape, const std::string& channel,
                          const std::string& file) {
     const auto found = std::ranges::find(shape.channels, channel);
     check(found != shape.channels.end(), Failure::bad_data, file, ": wanted the channel ", channel,
@@ -27,7 +27,7 @@ std::size_t find_channel(const ImageSizeAndChannels& shape, const std::string& c
 void write_picture_layers(const LayeredPictureFile& file, const std::filesystem::path& path) {
     check(!file.layers.empty(), Failure::internal, "a file of layers wants a layer, found none");
     const Picture& first = file.layers.front().picture;
-    ImageSizeAndChannels shape{
+    ImageShape shape{
         {static_cast<std::uint32_t>(first.width), static_cast<std::uint32_t>(first.height)},
         3 * file.layers.size(),
         {},
@@ -48,13 +48,13 @@ void write_picture_layers(const LayeredPictureFile& file, const std::filesystem:
 
 LayeredPictureFile read_picture_layers(const std::filesystem::path& path,
                                        std::span<const std::string> names) {
-    const std::unique_ptr<RandomAccessByteSource> bytes = open_file_bytes(path);
+    const std::unique_ptr<ByteSource> bytes = open_source(path);
     std::array<char, 16> start{};
     const std::size_t count = bytes->read(0, start);
-    check(detect_image_format({start.data(), count}) == "openexr", Failure::bad_data, path.string(),
+    check(detect_format({start.data(), count}) == "openexr", Failure::bad_data, path.string(),
           ": wanted an OpenEXR file, found something else");
     ImageReader exr_reader(*bytes, "openexr", path.string());
-    const ImageSizeAndChannels& shape = exr_reader.image_size_and_channels();
+    const ImageShape& shape = exr_reader.shape();
     LayeredPictureFile file{.description = shape.description};
     std::vector<std::size_t> channels;
     for (const std::string& name : names) {

@@ -17,7 +17,7 @@ bool is_row_metric(const Metric& quantity) {
 }
 
 std::vector<Metric> list_metrics_in_order() {
-    std::vector<Metric> rows = list_registered_entries_in_order<Metric>();
+    std::vector<Metric> rows = sorted_rows<Metric>();
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
               "two metrics have the name '", row.name, "'");
@@ -49,7 +49,7 @@ constexpr RowPixelMask kRowPixelMasks[] = {
 
 RegisteredMetric::RegisteredMetric(Metric quantity) {
     if (!is_row_metric(quantity)) quantity.mask = "each";
-    get_registered_table_entries<Metric>().push_back(std::move(quantity));
+    table_rows<Metric>().push_back(std::move(quantity));
 }
 
 const std::vector<Metric>& list_metrics() {

@@ -16,19 +16,19 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the format by the first bytes, not by the file name.
-std::string detect_picture_format(const RandomAccessByteSource& bytes, const std::string& name) {
+std::string detect_picture_format(const ByteSource& bytes, const std::string& name) {
     std::array<char, 16> first{};
     const std::size_t count = bytes.read(0, first);
-    std::string format = detect_image_format({first.data(), count});
+    std::string format = detect_format({first.data(), count});
     check(format == "openexr" || format == "hdr" || format == "png", Failure::bad_data, name,
           ": wanted an OpenEXR, Radiance or PNG picture, found ", bytes.size(),
           " bytes of something else");
     return format;
 }
 
-ImageReader::ImageShapeCheckCallback
-make_shape_check(const std::string& name, const PictureReader::PictureSizeCheck& judge) {
-    return [&name, &judge](const ImageSizeAndChannels& shape) {
+ImageReader::ShapeCheck make_shape_check(const std::string& name,
+                                         const PictureReader::PictureSizeCheck& judge) {
+    return [&name, &judge](const ImageShape& shape) {
         if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
         check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMaxPictureValues,
               Failure::bad_data, name, ": wanted at most ", kMaxPictureValues, " values, found ",
@@ -61,7 +61,7 @@ private:
     std::array<float, 256> table_{};
 };
 
-ImageSizeAndChannels rgb_float_image_shape(const Picture& picture) {
+ImageShape rgb_float_image_shape(const Picture& picture) {
     return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
              static_cast<std::uint32_t>(std::max(picture.height, 0))},
             3,
@@ -82,14 +82,14 @@ PictureLocation locate_picture(const std::filesystem::path& path) {
 
 struct PictureReader::PictureReadState {
     PictureReadState(const PictureLocation& at, const PictureSizeCheck& judge)
-        : file_name(at.file.string()), bytes(open_file_bytes(at.file)),
+        : file_name(at.file.string()), bytes(open_source(at.file)),
           format(detect_picture_format(*bytes, file_name)),
           image_reader(*bytes, format, file_name, make_shape_check(file_name, judge),
                        ImageColours{at.layer}),
-          rgb(find_colour_channels(image_reader.image_size_and_channels(), file_name).rgb) {}
+          rgb(find_colour_channels(image_reader.shape(), file_name).rgb) {}
 
     std::string file_name;
-    std::unique_ptr<RandomAccessByteSource> bytes;
+    std::unique_ptr<ByteSource> bytes;
     std::string format; ///< "openexr", "hdr" or "png"
     ImageReader image_reader;
     /// Indices of the channels; the same index three times for grey.
@@ -104,10 +104,10 @@ PictureReader::PictureReader(PictureReader&&) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
 
 int PictureReader::picture_width() const {
-    return static_cast<int>(open_picture_->image_reader.image_size_and_channels().size.x);
+    return static_cast<int>(open_picture_->image_reader.shape().size.x);
 }
 int PictureReader::height() const {
-    return static_cast<int>(open_picture_->image_reader.image_size_and_channels().size.y);
+    return static_cast<int>(open_picture_->image_reader.shape().size.y);
 }
 std::string PictureReader::format() const {
     return open_picture_->format == "png"   ? "PNG"
@@ -115,24 +115,21 @@ std::string PictureReader::format() const {
                                             : "OpenEXR";
 }
 
-bool PictureReader::has_8_bit_channels() const {
-    return open_picture_->image_reader.image_size_and_channels().has_8_bit_channels;
-}
+bool PictureReader::is_8_bit() const { return open_picture_->image_reader.shape().is_8_bit; }
 
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
     static const PngToLinearLightDecoder kDecoded;
     // Pixels that are read at once; at least a row.
     constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 15;
     const bool is_stored = open_picture_->format == "png"; // PNGs store sRGB values
-    const std::size_t channel_count =
-        open_picture_->image_reader.image_size_and_channels().channel_count;
+    const std::size_t channel_count = open_picture_->image_reader.shape().channel_count;
     const auto columns = static_cast<std::size_t>(picture_width());
     const std::size_t most = std::max<std::size_t>(1, kPixelsPerBlock / columns) * columns;
     auto row = static_cast<std::uint32_t>(first);
     while (!pixels.empty()) {
         const std::size_t count = std::min(most, pixels.size());
         open_picture_->values.resize(count * channel_count);
-        open_picture_->image_reader.read_image_rows(row, open_picture_->values);
+        open_picture_->image_reader.read_rows(row, open_picture_->values);
         const auto [red, green, blue] = open_picture_->rgb;
         const float* value = open_picture_->values.data();
         if (is_stored)
@@ -159,7 +156,7 @@ Picture read_picture(const std::filesystem::path& path,
 bool is_png(const std::filesystem::path& path) {
     std::string start(8, '\0');
     std::ifstream file(locate_picture(path).file, std::ios::binary);
-    return file.read(start.data(), 8) && detect_image_format(start) == "png";
+    return file.read(start.data(), 8) && detect_format(start) == "png";
 }
 
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
@@ -187,7 +184,7 @@ std::string encode_exr(const Picture& picture, const std::string& text) {
 std::string encode_exr_with_channels(const Picture& picture,
                                      std::span<const ExtraPictureChannel> channels,
                                      const std::string& text) {
-    ImageSizeAndChannels shape = rgb_float_image_shape(picture);
+    ImageShape shape = rgb_float_image_shape(picture);
     shape.description = text;
     shape.channel_count += channels.size();
     if (!channels.empty()) shape.channels = {"R", "G", "B"};

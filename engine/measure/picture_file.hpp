@@ -40,8 +40,8 @@ public:
 
     int picture_width() const;
     int height() const;
-    std::string format() const;      ///< "OpenEXR", "Radiance" or "PNG"
-    bool has_8_bit_channels() const; ///< whether it is a PNG of at most 8 bits a value
+    std::string format() const; ///< "OpenEXR", "Radiance" or "PNG"
+    bool is_8_bit() const;      ///< whether it is a PNG of at most 8 bits a value
     /// Fills `pixels` with as many whole rows as it holds, beginning at row `first`. Each call must
     /// continue where the last one ended.
     void read_rows(int first, std::span<vec3> pixels);

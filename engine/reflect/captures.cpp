@@ -4,32 +4,29 @@ namespace catoptric::reflect {
 
 namespace {
 
-ShadowKnobs::Method read_shadow_method(const TechniqueKnobSettings& settings) {
+ShadowKnobs::Method read_shadow_method(const KnobSettings& settings) {
     using enum ShadowKnobs::Method;
     constexpr ShadowKnobs::Method kRasterShadowMethods[] = {map, none},
                                   kTracedShadows[] = {ray, map, none};
-    if (settings.has_knob(kShadowKnob))
-        return kRasterShadowMethods[settings.knob_value_as_integer(kShadowKnob)];
-    return settings.has_knob(kTracedShadowKnob)
-               ? kTracedShadows[settings.knob_value_as_integer(kTracedShadowKnob)]
-               : none;
+    if (settings.has(kShadowKnob)) return kRasterShadowMethods[settings.integer(kShadowKnob)];
+    return settings.has(kTracedShadowKnob) ? kTracedShadows[settings.integer(kTracedShadowKnob)]
+                                           : none;
 }
 
 /// Returns the value of a knob, or nothing if there is no such knob or its special word is set.
-std::optional<std::uint32_t> find_knob_number(const TechniqueKnobSettings& settings,
-                                              const TechniqueKnob& knob) {
-    if (!settings.has_knob(knob) || settings.is_special(knob)) return std::nullopt;
-    return static_cast<std::uint32_t>(settings.knob_value_as_integer(knob));
+std::optional<std::uint32_t> find_knob_number(const KnobSettings& settings, const Knob& knob) {
+    if (!settings.has(knob) || settings.is_special(knob)) return std::nullopt;
+    return static_cast<std::uint32_t>(settings.integer(knob));
 }
 
 /// Returns whether the second choice of a knob with two choices is selected.
-bool has_second_choice_of_knob(const TechniqueKnobSettings& settings, const TechniqueKnob& knob) {
-    return settings.has_knob(knob) && settings.knob_value_as_integer(knob) == 1;
+bool has_second_choice_of_knob(const KnobSettings& settings, const Knob& knob) {
+    return settings.has(knob) && settings.integer(knob) == 1;
 }
 
 } // namespace
 
-SharedKnobs read_shared_knobs(const TechniqueKnobSettings& settings) {
+SharedKnobs read_shared_knobs(const KnobSettings& settings) {
     constexpr TexelFormat kDistanceFormats[] = {TexelFormat::r32f, TexelFormat::r16f,
                                                 TexelFormat::r8_unorm};
     SharedKnobs knobs;
@@ -37,48 +34,39 @@ SharedKnobs read_shared_knobs(const TechniqueKnobSettings& settings) {
     knobs.shadow.edge = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
     knobs.shadow.is_soft = has_second_choice_of_knob(settings, kSoftShadowKnob);
     knobs.capture.face = find_knob_number(settings, kCaptureFaceKnob);
-    knobs.capture.chooses_face = settings.has_knob(kCaptureFaceKnob) && !knobs.capture.face;
+    knobs.capture.chooses_face = settings.has(kCaptureFaceKnob) && !knobs.capture.face;
     knobs.capture.stores_floats = has_second_choice_of_knob(settings, kCaptureColourKnob);
-    if (settings.has_knob(kCaptureDistanceKnob))
-        knobs.capture.distance =
-            kDistanceFormats[settings.knob_value_as_integer(kCaptureDistanceKnob)];
-    if (settings.has_knob(kDistanceRangeKnob))
-        knobs.capture.range = settings.numeric_knob_value(kDistanceRangeKnob);
+    if (settings.has(kCaptureDistanceKnob))
+        knobs.capture.distance = kDistanceFormats[settings.integer(kCaptureDistanceKnob)];
+    if (settings.has(kDistanceRangeKnob)) knobs.capture.range = settings.number(kDistanceRangeKnob);
     knobs.search.continues = find_knob_number(settings, kContinuedSearchesKnob).value_or(0);
     knobs.search.by_object = has_second_choice_of_knob(settings, kCaptureTexelLookupKnob);
     knobs.search.asks_all = has_second_choice_of_knob(settings, kSearchedCapturesKnob);
     knobs.search.leaves_out_spheres = has_second_choice_of_knob(settings, kMirrorsInCapturesKnob);
-    if (settings.has_knob(kRoughMirrorMethodKnob)) {
-        knobs.rough.lookup = settings.knob_value_as_enum<RoughKnobs::Lookup>(
-            kRoughMirrorMethodKnob);
-        knobs.rough.taps = static_cast<std::uint32_t>(
-            settings.knob_value_as_integer(kFilterTapsKnob));
-        knobs.rough.rays = static_cast<std::uint32_t>(
-            settings.knob_value_as_integer(kRoughRaysKnob));
+    if (settings.has(kRoughMirrorMethodKnob)) {
+        knobs.rough.lookup = settings.get<RoughKnobs::Lookup>(kRoughMirrorMethodKnob);
+        knobs.rough.taps = static_cast<std::uint32_t>(settings.integer(kFilterTapsKnob));
+        knobs.rough.rays = static_cast<std::uint32_t>(settings.integer(kRoughRaysKnob));
     }
-    if (settings.has_knob(kBlurLawKnob))
-        knobs.rough.law = settings.knob_value_as_enum<RoughKnobs::Law>(kBlurLawKnob);
-    if (settings.has_knob(kGlassRefractionModelKnob))
-        knobs.refract = static_cast<std::uint32_t>(
-            settings.knob_value_as_integer(kGlassRefractionModelKnob));
-    if (settings.has_knob(kLightProbesKnob)) {
-        knobs.light.indirect = settings.knob_value_as_enum<LightKnobs::Indirect>(
-            kIndirectLightKnob);
-        knobs.light.occlusion = settings.knob_value_as_enum<LightKnobs::Occlusion>(
-            kAmbientOcclusionKnob);
+    if (settings.has(kBlurLawKnob)) knobs.rough.law = settings.get<RoughKnobs::Law>(kBlurLawKnob);
+    if (settings.has(kGlassRefractionModelKnob))
+        knobs.refract = static_cast<std::uint32_t>(settings.integer(kGlassRefractionModelKnob));
+    if (settings.has(kLightProbesKnob)) {
+        knobs.light.indirect = settings.get<LightKnobs::Indirect>(kIndirectLightKnob);
+        knobs.light.occlusion = settings.get<LightKnobs::Occlusion>(kAmbientOcclusionKnob);
         knobs.light.most_probes = *find_knob_number(settings, kLightProbesKnob);
     }
     knobs.others.face = find_knob_number(settings, kCaptureForOtherMirrorsKnob);
-    knobs.others.is_black = settings.has_knob(kCaptureForOtherMirrorsKnob) && !knobs.others.face;
+    knobs.others.is_black = settings.has(kCaptureForOtherMirrorsKnob) && !knobs.others.face;
     return knobs;
 }
 
-int count_shadow_passes(int lights, const TechniqueKnobSettings& settings) {
+int count_shadow_passes(int lights, const KnobSettings& settings) {
     return read_shadow_method(settings) == ShadowKnobs::Method::map ? lights : 0;
 }
 
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
-                                            const TechniqueKnobSettings& settings) {
+                                            const KnobSettings& settings) {
     const SharedKnobs knobs = read_shared_knobs(settings);
     render::CaptureOptions options;
     options.face = knobs.capture.face ? *knobs.capture.face
@@ -118,7 +106,7 @@ void remove_images_of_camera_view(render::MirrorShader& look) {
 }
 
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
-                                         const TechniqueKnobSettings& settings) {
+                                         const KnobSettings& settings) {
     render::MirrorShader look;
     look.fragment = std::move(fragment);
     const auto set = [&](const char* constant, int value) {
@@ -129,7 +117,7 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
                                          {&kSearchedCapturesKnob, "asks_others"},
                                          {&kShownDebugPictureKnob, "show"},
                                          {&kGlassRefractionModelKnob, "refract_model"}})
-        if (settings.has_knob(*knob)) set(constant, settings.knob_value_as_integer(*knob));
+        if (settings.has(*knob)) set(constant, settings.integer(*knob));
     // Among mirrors with the same technique, either all captures hold surface numbers or none does.
     // All mirrors are checked, because some may have no capture.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
@@ -144,13 +132,13 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
 
 render::MirrorShader make_search_shader(const Technique& technique,
                                         const MirrorShadingInputs& around,
-                                        const TechniqueKnobSettings& settings) {
+                                        const KnobSettings& settings) {
     render::MirrorShader look = make_capture_shader(around, technique.search, settings);
-    for (const TechniqueKnob& knob : technique.knobs) {
-        if (std::ranges::find(kCommonSearchKnobs, knob.name, &TechniqueKnob::name) !=
+    for (const Knob& knob : technique.knobs) {
+        if (std::ranges::find(kCommonSearchKnobs, knob.name, &Knob::name) !=
             kCommonSearchKnobs.end())
             continue;
-        const double value = settings.numeric_knob_value(knob);
+        const double value = settings.number(knob);
         if (knob.is_real)
             look.constants.emplace_back(knob.name, static_cast<float>(value));
         else

@@ -16,14 +16,14 @@ inline constexpr std::array<std::string_view, 3> kCaptureDistanceChoices{"r32f",
 inline constexpr std::array<std::string_view, 2> kCaptureColourChoices{"half", "float"};
 inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
-inline constexpr TechniqueKnob kCaptureFaceKnob{
+inline constexpr Knob kCaptureFaceKnob{
     .name = "face",
     .help = "edge of a capture's face in texels; auto: as fine as the picture's pixels",
     .low = 1,
     .high = 16384,
     .value = 256,
     .special = "auto"};
-inline constexpr TechniqueKnob kCaptureForOtherMirrorsKnob{
+inline constexpr Knob kCaptureForOtherMirrorsKnob{
     .name = "capture",
     .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
             "mirrors show this mirror; none: black in other mirrors",
@@ -31,45 +31,44 @@ inline constexpr TechniqueKnob kCaptureForOtherMirrorsKnob{
     .high = 16384,
     .value = 256,
     .special = "none"};
-inline constexpr TechniqueKnob kCaptureColourKnob{
+inline constexpr Knob kCaptureColourKnob{
     .name = "colour",
     .help = "format of captured colour: half (up to 65504) or float",
     .high = 1,
     .choices = kCaptureColourChoices};
-inline constexpr TechniqueKnob kShadowKnob{.name = "shadow",
-                                           .help = "shadows: from shadow maps or none",
-                                           .high = 1,
-                                           .choices = kShadowChoices};
+inline constexpr Knob kShadowKnob{.name = "shadow",
+                                  .help = "shadows: from shadow maps or none",
+                                  .high = 1,
+                                  .choices = kShadowChoices};
 inline constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
-inline constexpr TechniqueKnob kTracedShadowKnob{
-    .name = "shadow",
-    .help = "shadows: from rays, from shadow maps, or none",
-    .high = 2,
-    .choices = kTracedShadowChoices};
-inline constexpr TechniqueKnob kShadowMapEdgeKnob{.name = "shadow_map",
-                                                  .help = "edge of a shadow map's face in texels",
-                                                  .low = 1,
-                                                  .high = 16384,
-                                                  .value = 1024};
+inline constexpr Knob kTracedShadowKnob{.name = "shadow",
+                                        .help = "shadows: from rays, from shadow maps, or none",
+                                        .high = 2,
+                                        .choices = kTracedShadowChoices};
+inline constexpr Knob kShadowMapEdgeKnob{.name = "shadow_map",
+                                         .help = "edge of a shadow map's face in texels",
+                                         .low = 1,
+                                         .high = 16384,
+                                         .value = 1024};
 inline constexpr std::array<std::string_view, 2> kSoftShadowChoices{"none", "pcss"};
-inline constexpr TechniqueKnob kSoftShadowKnob{
+inline constexpr Knob kSoftShadowKnob{
     .name = "soft",
     .help = "shadows of lamps in shadow maps: none (hard, as from a point), or pcss (soft by the "
             "lamp's size; shadows of rays stay hard; judge it by --truth paths)",
     .high = 1,
     .choices = kSoftShadowChoices};
-inline constexpr TechniqueKnob kCaptureDistanceKnob{.name = "distance",
-                                                    .help = "format of captured distances",
-                                                    .high = 2,
-                                                    .choices = kCaptureDistanceChoices};
-inline constexpr TechniqueKnob kDistanceRangeKnob{
+inline constexpr Knob kCaptureDistanceKnob{.name = "distance",
+                                           .help = "format of captured distances",
+                                           .high = 2,
+                                           .choices = kCaptureDistanceChoices};
+inline constexpr Knob kDistanceRangeKnob{
     .name = "range",
     .help = "largest distance that distance=unorm8 can store, in world units",
     .low = 1,
     .high = 1000000,
     .value = 200};
 
-inline constexpr TechniqueKnob kContinuedSearchesKnob{
+inline constexpr Knob kContinuedSearchesKnob{
     .name = "continue",
     .help =
         "number of further mirrors through which a reflected ray is followed before the look-up",
@@ -83,26 +82,26 @@ inline constexpr std::array<std::string_view, 2> kMirrorsInCapturesChoices{"capt
 inline constexpr std::array<std::string_view, 3> kShownDebugPictureChoices{"colour", "state",
                                                                            "residual"};
 
-inline constexpr TechniqueKnob kCaptureTexelLookupKnob{
+inline constexpr Knob kCaptureTexelLookupKnob{
     .name = "lookup",
     .help = "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
             "show the same object",
     .high = 1,
     .value = 1,
     .choices = kCaptureTexelLookupChoices};
-inline constexpr TechniqueKnob kSearchedCapturesKnob{
+inline constexpr Knob kSearchedCapturesKnob{
     .name = "captures",
     .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
             "answers unknown)",
     .high = 1,
     .choices = kSearchedCapturesChoices};
-inline constexpr TechniqueKnob kMirrorsInCapturesKnob{
+inline constexpr Knob kMirrorsInCapturesKnob{
     .name = "mirrors",
     .help = "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
             "are followed)",
     .high = 1,
     .choices = kMirrorsInCapturesChoices};
-inline constexpr TechniqueKnob kShownDebugPictureKnob{
+inline constexpr Knob kShownDebugPictureKnob{
     .name = "show",
     .help = "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
             "(blue); residual of the search",
@@ -115,7 +114,7 @@ inline constexpr std::array<std::string_view, 5> kRoughMirrorMethodChoices{
     "none", "mips", "prefilter", "rays", "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
                                                                  "cone", "exact"};
-inline constexpr TechniqueKnob kRoughMirrorMethodKnob{
+inline constexpr Knob kRoughMirrorMethodKnob{
     .name = "rough",
     .help =
         "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
@@ -124,13 +123,13 @@ inline constexpr TechniqueKnob kRoughMirrorMethodKnob{
     .high = 4,
     .value = 2,
     .choices = kRoughMirrorMethodChoices};
-inline constexpr TechniqueKnob kFilterTapsKnob{
+inline constexpr Knob kFilterTapsKnob{
     .name = "taps",
     .help = "samples of each texel for rough=prefilter, and for wide lobes of fast",
     .low = 1,
     .high = 2048,
     .value = 32};
-inline constexpr TechniqueKnob kRoughRaysKnob{
+inline constexpr Knob kRoughRaysKnob{
     .name = "rays",
     .help =
         "directions of each rough pixel: searches for rough=rays, rays where a tracer completes "
@@ -138,7 +137,7 @@ inline constexpr TechniqueKnob kRoughRaysKnob{
     .low = 1,
     .high = 1024,
     .value = 16};
-inline constexpr TechniqueKnob kBlurLawKnob{
+inline constexpr Knob kBlurLawKnob{
     .name = "law",
     .help =
         "how the blur of rough=mips, prefilter and fast depends on the distance of the reflected "
@@ -150,7 +149,7 @@ inline constexpr TechniqueKnob kBlurLawKnob{
 /// Names of the models of glass, in the order of shared::kRefract....
 inline constexpr std::array<std::string_view, 8> kGlassRefractionModelChoices{
     "none", "auto", "thin", "sphere", "box", "traced", "backface", "screen"};
-inline constexpr TechniqueKnob kGlassRefractionModelKnob{
+inline constexpr Knob kGlassRefractionModelKnob{
     .name = "refract",
     .help =
         "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
@@ -176,7 +175,7 @@ inline std::uint32_t choose_refraction_model_of_other_views(std::uint32_t refrac
 void remove_images_of_camera_view(render::MirrorShader& look);
 
 inline constexpr std::array<std::string_view, 2> kIndirectLightChoices{"ambient", "captures"};
-inline constexpr TechniqueKnob kIndirectLightKnob{
+inline constexpr Knob kIndirectLightKnob{
     .name = "indirect",
     .help = "light between surfaces: ambient (--ambient and the whole environment, the same "
             "everywhere), or captures (light probes: small captures on a grid; judge it by --truth "
@@ -185,14 +184,14 @@ inline constexpr TechniqueKnob kIndirectLightKnob{
     .choices = kIndirectLightChoices};
 inline constexpr std::array<std::string_view, 3> kAmbientOcclusionChoices{"none", "screen",
                                                                           "captures"};
-inline constexpr TechniqueKnob kAmbientOcclusionKnob{
+inline constexpr Knob kAmbientOcclusionKnob{
     .name = "ao",
     .help = "what hides the environment, --ambient and light of indirect=captures from diffuse "
             "surfaces: none, screen (near surfaces, only in the camera's view), or captures (light "
             "probes, in all views; not with indirect=captures)",
     .high = 2,
     .choices = kAmbientOcclusionChoices};
-inline constexpr TechniqueKnob kLightProbesKnob{
+inline constexpr Knob kLightProbesKnob{
     .name = "probes",
     .help = "most light probes of the grid, for indirect=captures and ao=captures",
     .low = 27,
@@ -212,33 +211,33 @@ inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,       kCaptureC
                                                kShadowMapEdgeKnob,     kSoftShadowKnob};
 
 template <std::size_t N>
-constexpr std::array<TechniqueKnob, N + kCommonSearchKnobs.size()>
-list_search_knobs(const std::array<TechniqueKnob, N>& own) {
-    std::array<TechniqueKnob, N + kCommonSearchKnobs.size()> knobs{};
+constexpr std::array<Knob, N + kCommonSearchKnobs.size()>
+list_search_knobs(const std::array<Knob, N>& own) {
+    std::array<Knob, N + kCommonSearchKnobs.size()> knobs{};
     std::ranges::copy(kCommonSearchKnobs, std::ranges::copy(own, knobs.begin()).out);
     return knobs;
 }
 
 /// Returns the number of shadow passes: one for each light, or 0 with `shadow=none`.
-int count_shadow_passes(int lights, const TechniqueKnobSettings& settings);
+int count_shadow_passes(int lights, const KnobSettings& settings);
 
 /// Returns the options of a capture from the knobs: face edge, colour format and, for techniques
 /// with these knobs, distance format and surface numbers. Throws `Failure::no_device` for
 /// `colour=float` on a device that cannot filter 32-bit floats.
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
-                                            const TechniqueKnobSettings& settings);
+                                            const KnobSettings& settings);
 
 /// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
 /// knobs `continue`, `lookup`, `captures`, `show` and `refract`, where they exist, become shader
 /// constants.
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
-                                         const TechniqueKnobSettings& settings);
+                                         const KnobSettings& settings);
 
 /// Returns the shader with which mirrors are drawn by a technique that searches captures, and its
 /// constants. The technique's own knobs become shader constants of the same names.
 render::MirrorShader make_search_shader(const Technique& technique,
                                         const MirrorShadingInputs& around,
-                                        const TechniqueKnobSettings& settings);
+                                        const KnobSettings& settings);
 
 /// Consecutive layers of an array of cube maps.
 struct CaptureCubeRange {
@@ -273,7 +272,7 @@ find_outdated_cubes(graph::Graph& graph, const render::MirrorCaptures& captures,
 
 /// Returns the scene passes R of techniques with one capture per mirror: N + 2 with one light.
 inline int count_capture_passes_with_feedback(int mirrors, int lights,
-                                              const TechniqueKnobSettings& settings) {
+                                              const KnobSettings& settings) {
     return mirrors + count_shadow_passes(lights, settings) + 1;
 }
 

@@ -6,11 +6,11 @@
 namespace catoptric::reflect {
 
 RegisteredFeature::RegisteredFeature(const FrameFeature& feature) {
-    get_registered_table_entries<const FrameFeature*>().push_back(&feature);
+    table_rows<const FrameFeature*>().push_back(&feature);
 }
 
 std::vector<const FrameFeature*> list_features() {
-    return list_registered_entries_in_order<const FrameFeature*>(
+    return sorted_rows<const FrameFeature*>(
         [](const FrameFeature* row) { return std::pair(row->order, row->name); });
 }
 

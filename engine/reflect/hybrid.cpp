@@ -9,14 +9,14 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kForcedSearchResultChoices{"search", "unknown"};
 enum class ForcedSearchResult { search, unknown };
-constexpr TechniqueKnob kForcedSearchResultKnob{
+constexpr Knob kForcedSearchResultKnob{
     .name = "force",
     .help = "pixels to trace: those for which the search answers unknown, or all",
     .high = 1,
     .choices = kForcedSearchResultChoices};
 constexpr auto kHybridKnobs = [] {
     auto knobs = list_search_knobs(std::array{kForcedSearchResultKnob});
-    std::ranges::find(knobs, kGlassRefractionModelKnob.name, &TechniqueKnob::name)->value =
+    std::ranges::find(knobs, kGlassRefractionModelKnob.name, &Knob::name)->value =
         shared::kRefractTraced;
     return knobs;
 }();
@@ -24,7 +24,7 @@ constexpr auto kHybridKnobs = [] {
 /// Searches that end on glass or a blended surface are left to rays: the captured colour there
 /// holds what the capture's centre sees behind the surface.
 render::CaptureOptions make_hybrid_capture_options(const render::FrameInputs& inputs,
-                                                   const TechniqueKnobSettings& settings) {
+                                                   const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.blended_alpha = 0;
     options.surfaces = options.surfaces || inputs.scene.has_blended_surfaces() ||
@@ -35,11 +35,11 @@ render::CaptureOptions make_hybrid_capture_options(const render::FrameInputs& in
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
 MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                       const TechniqueKnobSettings& settings,
+                                       const KnobSettings& settings,
                                        const MirrorShadingInputs& around) {
     MirrorShadingSetup look = make_pyramid_shading(graph, inputs, settings, around);
-    const bool traces_all = settings.knob_value_as_enum<ForcedSearchResult>(
-                                kForcedSearchResultKnob) == ForcedSearchResult::unknown;
+    const bool traces_all = settings.get<ForcedSearchResult>(kForcedSearchResultKnob) ==
+                            ForcedSearchResult::unknown;
     if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
     const bool is_rough = std::ranges::any_of(

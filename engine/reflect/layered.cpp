@@ -6,27 +6,26 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr TechniqueKnob kSearchStepsKnob{
-    .name = "steps",
-    .help = "number of steps of equal angle along the reflected ray",
-    .low = 1,
-    .high = 256,
-    .value = 16};
+constexpr Knob kSearchStepsKnob{.name = "steps",
+                                .help = "number of steps of equal angle along the reflected ray",
+                                .low = 1,
+                                .high = 256,
+                                .value = 16};
 constexpr auto kLayeredKnobs = list_search_knobs(std::array{kSearchStepsKnob});
 
 render::CaptureOptions choose_layered_capture_options(const render::FrameInputs& inputs,
-                                                      const TechniqueKnobSettings& settings) {
+                                                      const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.second_layer = true;
     return options;
 }
 
 MirrorShadingSetup make_layered_shading(graph::Graph&, const render::FrameInputs&,
-                                        const TechniqueKnobSettings& settings,
+                                        const KnobSettings& settings,
                                         const MirrorShadingInputs& around) {
     MirrorShadingSetup look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back(
-        "steps", static_cast<std::uint32_t>(settings.knob_value_as_integer(kSearchStepsKnob)));
+        "steps", static_cast<std::uint32_t>(settings.integer(kSearchStepsKnob)));
     // Mirrors with this shader never look into captures without a second layer. For such captures,
     // the colour image is bound as a placeholder.
     const auto bind_layer_images = [&](const char* name, auto&& image) {
@@ -58,7 +57,7 @@ constexpr Technique kLayeredTechnique{
     .compared = kLayeredDefaultRows,
     // The number of scene passes R is 2 N + 2 for N mirrors.
     .scene_passes =
-        [](int mirrors, int lights, const TechniqueKnobSettings& settings) {
+        [](int mirrors, int lights, const KnobSettings& settings) {
             return count_capture_passes_with_feedback(2 * mirrors, lights, settings);
         },
     .capture = choose_layered_capture_options,

@@ -7,11 +7,11 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr auto kMarchKnobs = list_search_knobs(
-    std::array{TechniqueKnob{.name = "steps",
-                             .help = "number of steps of equal angle along the reflected ray",
-                             .low = 1,
-                             .high = 256,
-                             .value = 16}});
+    std::array{Knob{.name = "steps",
+                    .help = "number of steps of equal angle along the reflected ray",
+                    .low = 1,
+                    .high = 256,
+                    .value = 16}});
 
 constexpr std::string_view kMarchDefaultRows[] = {"march"};
 

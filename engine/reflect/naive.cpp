@@ -8,13 +8,12 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr TechniqueKnob kBouncesKnob{
-    .name = "bounces",
-    .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
-    .low = 0,
-    .high = 8,
-    .value = 3};
-constexpr TechniqueKnob kNaiveKnobs[] = {
+constexpr Knob kBouncesKnob{.name = "bounces",
+                            .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
+                            .low = 0,
+                            .high = 8,
+                            .value = 3};
+constexpr Knob kNaiveKnobs[] = {
     kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,         kGlassRefractionModelKnob,
     kIndirectLightKnob, kLightProbesKnob, kAmbientOcclusionKnob,      kShadowKnob,
     kShadowMapEdgeKnob, kSoftShadowKnob,  kCaptureForOtherMirrorsKnob};
@@ -22,12 +21,12 @@ constexpr TechniqueKnob kNaiveKnobs[] = {
 /// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
 /// technique `naive`, because only these look into its captures.
 MirrorShadingSetup make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const TechniqueKnobSettings& settings,
+                                      const KnobSettings& settings,
                                       const MirrorShadingInputs& around) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // without a fragment shader, the mirror is black
-    const int bounces = settings.knob_value_as_integer(kBouncesKnob);
+    const int bounces = settings.integer(kBouncesKnob);
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
         if (bounce == bounces) of_others.face = 0;
@@ -59,8 +58,8 @@ constexpr Technique kNaiveTechnique{
     .knobs = kNaiveKnobs,
     .compared = kNaiveDefaultRows,
     .scene_passes =
-        [](int mirrors, int lights, const TechniqueKnobSettings& settings) {
-            return mirrors * settings.knob_value_as_integer(kBouncesKnob) +
+        [](int mirrors, int lights, const KnobSettings& settings) {
+            return mirrors * settings.integer(kBouncesKnob) +
                    count_shadow_passes(lights, settings) + 1;
         },
     .look = make_naive_shading};

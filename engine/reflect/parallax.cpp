@@ -11,33 +11,33 @@ constexpr const char* kParallaxShader = "reflect/parallax.frag";
 constexpr std::array<std::string_view, 3> kOmittedParallaxRuleChoices{"none", "saturation",
                                                                       "void_test"};
 enum class OmittedParallaxRule { none, saturation, void_test };
-constexpr TechniqueKnob kOmittedParallaxRuleKnob{
+constexpr Knob kOmittedParallaxRuleKnob{
     .name = "without",
     .help = "rule of robustness to leave out, to measure its cost",
     .high = 2,
     .choices = kOmittedParallaxRuleChoices};
-constexpr TechniqueKnob kParallaxKnobs[] = {kCaptureFaceKnob,
-                                            kCaptureColourKnob,
-                                            kCaptureDistanceKnob,
-                                            kDistanceRangeKnob,
-                                            kRoughMirrorMethodKnob,
-                                            kBlurLawKnob,
-                                            kFilterTapsKnob,
-                                            kRoughRaysKnob,
-                                            kGlassRefractionModelKnob,
-                                            kIndirectLightKnob,
-                                            kLightProbesKnob,
-                                            kAmbientOcclusionKnob,
-                                            kShadowKnob,
-                                            kShadowMapEdgeKnob,
-                                            kSoftShadowKnob,
-                                            kOmittedParallaxRuleKnob};
+constexpr Knob kParallaxKnobs[] = {kCaptureFaceKnob,
+                                   kCaptureColourKnob,
+                                   kCaptureDistanceKnob,
+                                   kDistanceRangeKnob,
+                                   kRoughMirrorMethodKnob,
+                                   kBlurLawKnob,
+                                   kFilterTapsKnob,
+                                   kRoughRaysKnob,
+                                   kGlassRefractionModelKnob,
+                                   kIndirectLightKnob,
+                                   kLightProbesKnob,
+                                   kAmbientOcclusionKnob,
+                                   kShadowKnob,
+                                   kShadowMapEdgeKnob,
+                                   kSoftShadowKnob,
+                                   kOmittedParallaxRuleKnob};
 
 render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
-                                                     const TechniqueKnobSettings& settings) {
+                                                     const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
-    options.saturates = settings.knob_value_as_enum<OmittedParallaxRule>(
-                            kOmittedParallaxRuleKnob) != OmittedParallaxRule::saturation;
+    options.saturates = settings.get<OmittedParallaxRule>(kOmittedParallaxRuleKnob) !=
+                        OmittedParallaxRule::saturation;
     return options;
 }
 
@@ -54,10 +54,10 @@ constexpr Technique kParallaxTechnique{
     .scene_passes = count_capture_passes_with_feedback,
     .capture = make_parallax_capture_options,
     .in_captures = kParallaxShader,
-    .look = [](graph::Graph&, const render::FrameInputs&, const TechniqueKnobSettings& settings,
+    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings& settings,
                const MirrorShadingInputs& around) {
         MirrorShadingSetup look{make_capture_shader(around, kParallaxShader, settings), {}};
-        if (settings.knob_value_as_enum<OmittedParallaxRule>(kOmittedParallaxRuleKnob) ==
+        if (settings.get<OmittedParallaxRule>(kOmittedParallaxRuleKnob) ==
             OmittedParallaxRule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;

@@ -52,7 +52,7 @@ std::string quote_mirror_names(const std::vector<std::string>& names) {
     constexpr std::size_t kMaxListedMirrors = 20;
     std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
     for (std::size_t i = 0; i < std::min(names.size(), kMaxListedMirrors); ++i)
-        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_text_with_escapes(names[i]);
+        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote(names[i]);
     return list + (names.size() > kMaxListedMirrors ? ", ..." : "");
 }
 
@@ -62,7 +62,7 @@ TechniquePlanRule parse_plan_rule(const std::string& text, std::string_view plan
           "plan '", plan, "': wanted PATTERN=TECHNIQUE, found '", text, "'");
     TechniquePlanRule rule{text.substr(0, equals),
                            parse_technique_choice(std::string_view(text).substr(equals + 1))};
-    for (const std::string& item : split_text(rule.pattern, ","))
+    for (const std::string& item : split(rule.pattern, ","))
         check(!item.empty(), Failure::usage, "plan '", plan, "': pattern '", rule.pattern,
               "' has an empty entry");
     return rule;
@@ -82,16 +82,16 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
 /// for shadows and light from `choice`.
 TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
-    const TechniqueKnobSettings defaults(choice.technique->knobs);
-    for (const TechniqueKnob* const knob :
+    const KnobSettings defaults(choice.technique->knobs);
+    for (const Knob* const knob :
          {&kShadowKnob, &kShadowMapEdgeKnob, &kSoftShadowKnob, &kIndirectLightKnob,
           &kLightProbesKnob, &kAmbientOcclusionKnob}) {
-        if (!rest.settings.has_knob(*knob) ||
-            (knob == &kIndirectLightKnob && !rest.settings.has_knob(kLightProbesKnob)))
+        if (!rest.settings.has(*knob) ||
+            (knob == &kIndirectLightKnob && !rest.settings.has(kLightProbesKnob)))
             continue; // raytrace has other settings for light
-        const std::string value = choice.settings.format_current_knob_value(*knob);
-        if (value == defaults.format_current_knob_value(*knob)) continue;
-        rest.settings.set_knob_from_text(rest.technique->name, knob->name, value);
+        const std::string value = choice.settings.format(*knob);
+        if (value == defaults.format(*knob)) continue;
+        rest.settings.set(rest.technique->name, knob->name, value);
         rest.label += (rest.label.find(':') == std::string::npos ? ":" : ",") +
                       std::string(knob->name) + "=" + value;
     }
@@ -152,7 +152,7 @@ TechniquePlan parse_plan(std::string_view text) {
                 .is_technique = true,
                 .reasons = {}};
     TechniquePlan plan{.label = std::string(text), .rules = {}, .reasons = {}};
-    for (const std::string& rule : split_text(text, kPlanRuleSeparators))
+    for (const std::string& rule : split(text, kPlanRuleSeparators))
         if (!rule.empty()) plan.rules.push_back(parse_plan_rule(rule, text));
     return plan;
 }
@@ -174,7 +174,7 @@ TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
     };
     std::vector<MostPreciseMatchingRule> best(names.size());
     for (const TechniquePlanRule& rule : plan.rules) {
-        for (const std::string& item : split_text(rule.pattern, ",")) {
+        for (const std::string& item : split(rule.pattern, ",")) {
             bool matches = false;
             for (std::size_t i = 0; i < names.size(); ++i) {
                 const MirrorPatternPrecision rank = find_mirror_pattern_precision(item, i,
@@ -184,12 +184,12 @@ TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
             }
             check(matches, Failure::usage, "plan '", plan.label, "': pattern '", item,
                   "' matches no mirror; the scene has ", quote_mirror_names(names),
-                  suggest_nearest_name(item, names));
+                  suggest_name(item, names));
         }
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
         check(best[i].rule != nullptr, Failure::usage, "plan '", plan.label,
-              "': no rule for mirror ", i + 1, " ", quote_text_with_escapes(names[i]),
+              "': no rule for mirror ", i + 1, " ", quote(names[i]),
               "; '*=TECHNIQUE' takes the rest");
         assignment.of_mirror.push_back(find_choice_index(best[i].rule->choice, assignment.choices));
         assignment.patterns.push_back(best[i].rule->pattern);

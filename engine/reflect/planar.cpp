@@ -21,19 +21,18 @@ std::span<const std::string_view> list_rest_techniques() {
     return kNames;
 }
 
-constexpr TechniqueKnob kPlanarBouncesKnob{
+constexpr Knob kPlanarBouncesKnob{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
     .low = 0,
     .high = 16,
     .value = 2};
-constexpr TechniqueKnob kNonPlanarMirrorTechniqueKnob{
-    .name = "rest",
-    .help = "technique of mirrors that are not flat",
-    .find_choices = list_rest_techniques};
+constexpr Knob kNonPlanarMirrorTechniqueKnob{.name = "rest",
+                                             .help = "technique of mirrors that are not flat",
+                                             .find_choices = list_rest_techniques};
 constexpr std::array<std::string_view, 4> kPlanarRoughChoices{"none", "mips", "prefilter", "rest"};
 constexpr int kRoughByRest = 3; // index of "rest"
-constexpr TechniqueKnob kPlanarRoughKnob{
+constexpr Knob kPlanarRoughKnob{
     .name = "rough",
     .help = "look-up of rough mirrors in their view: none (sharp), mips (one box-filtered level), "
             "prefilter (directions of the GGX lobe, each in a box-filtered level), rest (the "
@@ -42,30 +41,29 @@ constexpr TechniqueKnob kPlanarRoughKnob{
     .value = 2,
     .choices = kPlanarRoughChoices};
 constexpr std::array<std::string_view, 2> kPlanarLawChoices{"none", "cone"};
-constexpr TechniqueKnob kPlanarLawKnob{
+constexpr Knob kPlanarLawKnob{
     .name = "law",
     .help = "how the blur of a rough mirror depends on the distance of the reflected surface: none "
             "(it does not), or cone",
     .high = kPlanarLawChoices.size() - 1,
     .value = 1,
     .choices = kPlanarLawChoices};
-constexpr TechniqueKnob kPlanarTapsKnob{.name = "taps",
-                                        .help = "look-ups of each rough pixel for rough=prefilter",
-                                        .low = 1,
-                                        .high = 1024,
-                                        .value = 16};
-constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob, kNonPlanarMirrorTechniqueKnob,
-                                          kPlanarRoughKnob,   kPlanarLawKnob,
-                                          kPlanarTapsKnob,    kIndirectLightKnob,
-                                          kLightProbesKnob,   kAmbientOcclusionKnob,
-                                          kShadowKnob,        kShadowMapEdgeKnob,
-                                          kSoftShadowKnob,    kCaptureForOtherMirrorsKnob};
+constexpr Knob kPlanarTapsKnob{.name = "taps",
+                               .help = "look-ups of each rough pixel for rough=prefilter",
+                               .low = 1,
+                               .high = 1024,
+                               .value = 16};
+constexpr Knob kPlanarKnobs[] = {kPlanarBouncesKnob, kNonPlanarMirrorTechniqueKnob,
+                                 kPlanarRoughKnob,   kPlanarLawKnob,
+                                 kPlanarTapsKnob,    kIndirectLightKnob,
+                                 kLightProbesKnob,   kAmbientOcclusionKnob,
+                                 kShadowKnob,        kShadowMapEdgeKnob,
+                                 kSoftShadowKnob,    kCaptureForOtherMirrorsKnob};
 
 std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance,
-                                              const TechniqueKnobSettings& settings) {
+                                              const KnobSettings& settings) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);
-    if (flats.is_rough && settings.knob_value_as_integer(kPlanarRoughKnob) == kRoughByRest)
-        return "rough";
+    if (flats.is_rough && settings.integer(kPlanarRoughKnob) == kRoughByRest) return "rough";
     if (flats.flat_area_share(tolerance) >= scene::kMinFlatAreaShare) return {};
     char text[96] = "not flat";
     if (flats.flat_area_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatAreaShare)
@@ -74,13 +72,13 @@ std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, dou
     return text;
 }
 
-MirroredViewOptions read_mirrored_view_options(const TechniqueKnobSettings& settings) {
+MirroredViewOptions read_mirrored_view_options(const KnobSettings& settings) {
     MirroredViewOptions options;
-    options.bounces = settings.knob_value_as_integer(kPlanarBouncesKnob);
-    if (settings.knob_value_as_integer(kPlanarRoughKnob) != kRoughByRest)
-        options.rough = settings.knob_value_as_enum<RoughKnobs::Lookup>(kPlanarRoughKnob);
-    if (settings.knob_value_as_integer(kPlanarLawKnob) == 1) options.law = RoughKnobs::Law::cone;
-    options.taps = static_cast<std::uint32_t>(settings.knob_value_as_integer(kPlanarTapsKnob));
+    options.bounces = settings.integer(kPlanarBouncesKnob);
+    if (settings.integer(kPlanarRoughKnob) != kRoughByRest)
+        options.rough = settings.get<RoughKnobs::Lookup>(kPlanarRoughKnob);
+    if (settings.integer(kPlanarLawKnob) == 1) options.law = RoughKnobs::Law::cone;
+    options.taps = static_cast<std::uint32_t>(settings.integer(kPlanarTapsKnob));
     return options;
 }
 
@@ -94,10 +92,10 @@ constexpr Technique kPlanarTechnique{
     .knobs = kPlanarKnobs,
     .compared = kPlanarDefaultRows,
     .scene_passes =
-        [](int, int lights, const TechniqueKnobSettings& settings) {
+        [](int, int lights, const KnobSettings& settings) {
             return count_shadow_passes(lights, settings) + 1;
         },
-    .look = [](graph::Graph&, const render::FrameInputs&, const TechniqueKnobSettings&,
+    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
                const MirrorShadingInputs&) { return MirrorShadingSetup{}; },
     .mirrored_views = read_mirrored_view_options,
     .unfit = describe_why_mirror_is_not_planar,

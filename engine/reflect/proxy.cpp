@@ -8,13 +8,13 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kProxyShapeChoices{"box", "sphere"};
-constexpr TechniqueKnob kProxyShapeKnob{.name = "shape",
-                                        .help = "shape that approximates the surroundings",
-                                        .high = 1,
-                                        .choices = kProxyShapeChoices};
+constexpr Knob kProxyShapeKnob{.name = "shape",
+                               .help = "shape that approximates the surroundings",
+                               .high = 1,
+                               .choices = kProxyShapeChoices};
 constexpr auto kProxyKnobs = [] {
     auto knobs = list_search_knobs(std::array{kProxyShapeKnob});
-    std::ranges::find(knobs, kContinuedSearchesKnob.name, &TechniqueKnob::name)->value =
+    std::ranges::find(knobs, kContinuedSearchesKnob.name, &Knob::name)->value =
         0; // as published: rays are not followed through other mirrors
     return knobs;
 }();
@@ -59,13 +59,13 @@ add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inp
 
 MirrorShadingSetup make_mirror_shading_by_proxies(graph::Graph& graph,
                                                   const render::FrameInputs& inputs,
-                                                  const TechniqueKnobSettings& settings,
+                                                  const KnobSettings& settings,
                                                   const MirrorShadingInputs& around) {
     MirrorShadingSetup look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies",
                                      add_proxy_shape_fitting_pass(graph, inputs, around.captures));
     look.mirror.constants.emplace_back(
-        "shape", static_cast<std::uint32_t>(settings.knob_value_as_integer(kProxyShapeKnob)));
+        "shape", static_cast<std::uint32_t>(settings.integer(kProxyShapeKnob)));
     return look;
 }
 

@@ -13,7 +13,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kPyramidKnobs = list_search_knobs(std::array<TechniqueKnob, 0>{});
+constexpr auto kPyramidKnobs = list_search_knobs(std::array<Knob, 0>{});
 
 /// Returns the topmost level, which has one cell per face. Must match texel_edge_of_pyramid_level
 /// and topmost_level_of_pyramid in shaders/reflect/pyramid.glsl.
@@ -36,11 +36,11 @@ std::uint64_t hash_distance_pyramid_content(const render::MirrorCaptures& captur
                                             std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
     return ContentHash()
-        .add_value(captures.drawings[mirror])
-        .add_value(options.distance.value_or(options.colour))
-        .add_value(options.stored_unit)
-        .add_value(options.leaves_out_spheres)
-        .current_hash();
+        .add(captures.drawings[mirror])
+        .add(options.distance.value_or(options.colour))
+        .add(options.stored_unit)
+        .add(options.leaves_out_spheres)
+        .sum();
 }
 
 /// Returns the cubes of the array whose stored bounds are out of date, as runs.
@@ -109,7 +109,7 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
 } // namespace
 
 MirrorShadingSetup make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const TechniqueKnobSettings& settings,
+                                        const KnobSettings& settings,
                                         const MirrorShadingInputs& around) {
     MirrorShadingSetup look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
     look.mirror.images.emplace_back("bounds", add_pyramid_passes(graph, inputs, *around.captures));

@@ -6,7 +6,7 @@
 namespace catoptric::reflect {
 
 MirrorShadingSetup make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const TechniqueKnobSettings& settings,
+                                        const KnobSettings& settings,
                                         const MirrorShadingInputs& around);
 
 } // namespace catoptric::reflect

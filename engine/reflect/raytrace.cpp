@@ -20,19 +20,18 @@ enum class IndirectLightMethod { none, paths };
 enum class TracedSphereShape { mesh, exact };
 enum class FirstHitMethod { ray, raster };
 enum class RayHitPrecision { f32, f64 };
-constexpr TechniqueKnob kRayDepthKnob{
-    .name = "depth",
-    .help = "largest number of mirror bounces; longer paths end black",
-    .low = 0,
-    .high = 64,
-    .value = 8};
-constexpr TechniqueKnob kSamplesPerPixelKnob{
+constexpr Knob kRayDepthKnob{.name = "depth",
+                             .help = "largest number of mirror bounces; longer paths end black",
+                             .low = 0,
+                             .high = 64,
+                             .value = 8};
+constexpr Knob kSamplesPerPixelKnob{
     .name = "samples",
     .help = "rays per pixel: 1 = the centre, n*n = a regular grid, other numbers = stratified",
     .low = 1,
     .high = 65536,
     .value = 1};
-constexpr TechniqueKnob kLobeRaysKnob{
+constexpr Knob kLobeRaysKnob{
     .name = "rays",
     .help =
         "rays of each sample, whose directions are drawn from the lobes of rough surfaces (GGX, "
@@ -40,21 +39,21 @@ constexpr TechniqueKnob kLobeRaysKnob{
     .low = 0,
     .high = 65536,
     .value = 0};
-constexpr TechniqueKnob kLobeSeedKnob{
+constexpr Knob kLobeSeedKnob{
     .name = "seed",
     .help = "seed of the directions drawn for rays=N, in addition to --seed; pictures of two seeds "
             "are independent draws",
     .low = 0,
     .high = 999'999'999,
     .value = 0};
-constexpr TechniqueKnob kLampSamplingKnob{
+constexpr Knob kLampSamplingKnob{
     .name = "lamps",
     .help =
         "how rays of rough surfaces find lamps: sampled = beside each ray, one to a point drawn "
         "on a lamp (next-event estimation; not with sphere=exact or hit=f64); met = by chance",
     .high = 1,
     .choices = kLampSamplingChoices};
-constexpr TechniqueKnob kIndirectKnob{
+constexpr Knob kIndirectKnob{
     .name = "indirect",
     .help = "light between surfaces: none = lamps are points, and ambient light stands in; paths = "
             "path tracing, for which rays also leave diffuse surfaces (rays=0 counts as 1; depth "
@@ -62,108 +61,103 @@ constexpr TechniqueKnob kIndirectKnob{
     .high = 1,
     .choices = kIndirectChoices};
 constexpr std::int64_t kMaxPathsPerPixel = 65536; // largest number for a pixel: samples times rays
-constexpr TechniqueKnob kExactSphereKnob{.name = "sphere",
-                                         .help = "shape of balls: triangles or exact spheres",
-                                         .high = 1,
-                                         .choices = kExactSphereChoices};
-constexpr TechniqueKnob kFirstHitKnob{
+constexpr Knob kExactSphereKnob{.name = "sphere",
+                                .help = "shape of balls: triangles or exact spheres",
+                                .high = 1,
+                                .choices = kExactSphereChoices};
+constexpr Knob kFirstHitKnob{
     .name = "first",
     .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
     .high = 1,
     .choices = kFirstHitChoices};
-constexpr TechniqueKnob kHitPrecisionKnob{.name = "hit",
-                                          .help = "precision of hit points: single or double",
-                                          .high = 1,
-                                          .choices = kHitPrecisionChoices};
-constexpr TechniqueKnob kOmittedTracerRuleKnob{
+constexpr Knob kHitPrecisionKnob{.name = "hit",
+                                 .help = "precision of hit points: single or double",
+                                 .high = 1,
+                                 .choices = kHitPrecisionChoices};
+constexpr Knob kOmittedTracerRuleKnob{
     .name = "without",
     .help = "rule of robustness to leave out, to measure its cost",
     .high = 5,
     .choices = kOmittedTracerRuleChoices};
-constexpr TechniqueKnob kRaytraceKnobs[] = {kRayDepthKnob,
-                                            kSamplesPerPixelKnob,
-                                            kLobeRaysKnob,
-                                            kLobeSeedKnob,
-                                            kLampSamplingKnob,
-                                            kIndirectKnob,
-                                            kTracedShadowKnob,
-                                            kExactSphereKnob,
-                                            kFirstHitKnob,
-                                            kHitPrecisionKnob,
-                                            kOmittedTracerRuleKnob,
-                                            kShadowMapEdgeKnob,
-                                            kCaptureForOtherMirrorsKnob};
+constexpr Knob kRaytraceKnobs[] = {kRayDepthKnob,
+                                   kSamplesPerPixelKnob,
+                                   kLobeRaysKnob,
+                                   kLobeSeedKnob,
+                                   kLampSamplingKnob,
+                                   kIndirectKnob,
+                                   kTracedShadowKnob,
+                                   kExactSphereKnob,
+                                   kFirstHitKnob,
+                                   kHitPrecisionKnob,
+                                   kOmittedTracerRuleKnob,
+                                   kShadowMapEdgeKnob,
+                                   kCaptureForOtherMirrorsKnob};
 
-bool are_first_hits_rasterised(const TechniqueKnobSettings& settings) {
-    return settings.knob_value_as_enum<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
+bool are_first_hits_rasterised(const KnobSettings& settings) {
+    return settings.get<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
 }
 
-bool is_path_traced(const TechniqueKnobSettings& settings) {
-    return settings.knob_value_as_enum<IndirectLightMethod>(kIndirectKnob) ==
-           IndirectLightMethod::paths;
+bool is_path_traced(const KnobSettings& settings) {
+    return settings.get<IndirectLightMethod>(kIndirectKnob) == IndirectLightMethod::paths;
 }
 
-TracerSettings make_ray_tracer_settings(const TechniqueKnobSettings& settings,
+TracerSettings make_ray_tracer_settings(const KnobSettings& settings,
                                         const render::ShadingLights& lighting) {
     const ShadowKnobs::Method shadow = read_shared_knobs(settings).shadow.method;
-    return {.depth = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRayDepthKnob)),
-            .samples = settings.knob_value_as_integer(kSamplesPerPixelKnob),
-            .rays = static_cast<std::uint32_t>(std::max(
-                settings.knob_value_as_integer(kLobeRaysKnob), is_path_traced(settings) ? 1 : 0)),
-            .samples_lamps = settings.knob_value_as_enum<LampSamplingMethod>(kLampSamplingKnob) ==
+    return {.depth = static_cast<std::uint32_t>(settings.integer(kRayDepthKnob)),
+            .samples = settings.integer(kSamplesPerPixelKnob),
+            .rays = static_cast<std::uint32_t>(
+                std::max(settings.integer(kLobeRaysKnob), is_path_traced(settings) ? 1 : 0)),
+            .samples_lamps = settings.get<LampSamplingMethod>(kLampSamplingKnob) ==
                              LampSamplingMethod::sampled,
             .paths = is_path_traced(settings),
-            .seed = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeSeedKnob)),
+            .seed = static_cast<std::uint32_t>(settings.integer(kLobeSeedKnob)),
             // A scene without lights needs neither a shadow map nor shadow rays.
             .shadow = shadow == ShadowKnobs::Method::none ? TracerSettings::TracedShadow::none
                       : shadow == ShadowKnobs::Method::map && lighting.shadow_map
                           ? TracerSettings::TracedShadow::map
                           : TracerSettings::TracedShadow::ray,
             .lighting = lighting,
-            .exact_spheres = settings.knob_value_as_enum<TracedSphereShape>(kExactSphereKnob) ==
+            .exact_spheres = settings.get<TracedSphereShape>(kExactSphereKnob) ==
                              TracedSphereShape::exact,
             .first_raster = are_first_hits_rasterised(settings),
-            .doubles = settings.knob_value_as_enum<RayHitPrecision>(kHitPrecisionKnob) ==
-                       RayHitPrecision::f64,
-            .without = static_cast<std::uint32_t>(
-                settings.knob_value_as_integer(kOmittedTracerRuleKnob))};
+            .doubles = settings.get<RayHitPrecision>(kHitPrecisionKnob) == RayHitPrecision::f64,
+            .without = static_cast<std::uint32_t>(settings.integer(kOmittedTracerRuleKnob))};
 }
 
-std::string describe_raytrace_knob_conflict(const TechniqueKnobSettings& settings) {
-    if (settings.knob_value_as_integer(kLobeRaysKnob) *
-            std::int64_t{settings.knob_value_as_integer(kSamplesPerPixelKnob)} >
+std::string describe_raytrace_knob_conflict(const KnobSettings& settings) {
+    if (settings.integer(kLobeRaysKnob) * std::int64_t{settings.integer(kSamplesPerPixelKnob)} >
         kMaxPathsPerPixel)
-        return "rays=" + settings.format_current_knob_value(kLobeRaysKnob) +
-               " for each of samples=" + settings.format_current_knob_value(kSamplesPerPixelKnob) +
+        return "rays=" + settings.format(kLobeRaysKnob) +
+               " for each of samples=" + settings.format(kSamplesPerPixelKnob) +
                ": wanted at most 65536 in all";
     if (is_path_traced(settings)) {
         if (are_first_hits_rasterised(settings))
             return "indirect=paths lights the first surface by rays; wanted first=ray, found "
                    "first=raster";
-        if (settings.knob_value_as_enum<RayHitPrecision>(kHitPrecisionKnob) == RayHitPrecision::f64)
+        if (settings.get<RayHitPrecision>(kHitPrecisionKnob) == RayHitPrecision::f64)
             return "indirect=paths computes points in single precision; wanted hit=f32, found "
                    "hit=f64";
     }
     if (!are_first_hits_rasterised(settings)) return {};
-    if (settings.knob_value_as_integer(kSamplesPerPixelKnob) > 1)
+    if (settings.integer(kSamplesPerPixelKnob) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
-               settings.format_current_knob_value(kSamplesPerPixelKnob);
-    if (settings.knob_value_as_enum<TracedSphereShape>(kExactSphereKnob) ==
-        TracedSphereShape::exact)
+               settings.format(kSamplesPerPixelKnob);
+    if (settings.get<TracedSphereShape>(kExactSphereKnob) == TracedSphereShape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};
 }
 
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
-int count_scene_passes(int, int lights, const TechniqueKnobSettings& settings) {
+int count_scene_passes(int, int lights, const KnobSettings& settings) {
     if (!are_first_hits_rasterised(settings)) return count_shadow_passes(lights, settings);
     return 1 +
            (read_shared_knobs(settings).shadow.method == ShadowKnobs::Method::none ? 0 : lights);
 }
 
 TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const TechniqueKnobSettings& settings,
+                                        const KnobSettings& settings,
                                         const render::ShadingLights& lighting) {
     const TracedPicture traced = add_picture_tracing(graph, inputs,
                                                      make_ray_tracer_settings(settings, lighting));
@@ -171,7 +165,7 @@ TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::Frame
 }
 
 MirrorShadingSetup make_ray_traced_shading(graph::Graph&, const render::FrameInputs& inputs,
-                                           const TechniqueKnobSettings& settings,
+                                           const KnobSettings& settings,
                                            const MirrorShadingInputs& around) {
     MirrorShadingSetup look;
     look.tracer = make_ray_tracer_settings(settings, around.lighting);

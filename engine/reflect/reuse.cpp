@@ -7,11 +7,10 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
-constexpr TechniqueKnob kReuseKnobs[] = {
-    kCaptureFaceKnob,   kCaptureColourKnob, kRoughMirrorMethodKnob,
-    kFilterTapsKnob,    kRoughRaysKnob,     kGlassRefractionModelKnob,
-    kIndirectLightKnob, kLightProbesKnob,   kAmbientOcclusionKnob,
-    kShadowKnob,        kShadowMapEdgeKnob, kSoftShadowKnob};
+constexpr Knob kReuseKnobs[] = {kCaptureFaceKnob,   kCaptureColourKnob, kRoughMirrorMethodKnob,
+                                kFilterTapsKnob,    kRoughRaysKnob,     kGlassRefractionModelKnob,
+                                kIndirectLightKnob, kLightProbesKnob,   kAmbientOcclusionKnob,
+                                kShadowKnob,        kShadowMapEdgeKnob, kSoftShadowKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 

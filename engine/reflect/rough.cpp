@@ -230,12 +230,11 @@ void RoughLevels::add_passes(graph::Graph& graph) const {
 void RoughLevels::add_passes_of_level_filter(graph::Graph& graph, const LevelFilterKind& filter,
                                              const FilteredCaptures& filtered) const {
     const auto hash_of = [&](std::uint32_t mirror) {
-        if (!filtered.is_read[mirror])
-            return ContentHash().add_value(std::uint64_t{0}).current_hash();
+        if (!filtered.is_read[mirror]) return ContentHash().add(std::uint64_t{0}).sum();
         return ContentHash()
-            .add_value(captures_->drawings[mirror])
-            .add_value(captures_->options[mirror].colour)
-            .current_hash();
+            .add(captures_->drawings[mirror])
+            .add(captures_->options[mirror].colour)
+            .sum();
     };
     const std::string name = filtered_capture_levels_name(level_frame_inputs_, filter.rough,
                                                           filter.taps);

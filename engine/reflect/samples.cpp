@@ -42,10 +42,10 @@ std::vector<vec2> make_sample_offsets(int count, std::uint64_t seed) {
 /// few rays shares no ray with a reference of many.
 std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
     ContentHash hash;
-    hash.add_value(seed).add_value(tracer.rays).add_value(tracer.samples);
-    if (tracer.seed != 0) hash.add_value(tracer.seed);
-    if (tracer.paths) hash.add_value(tracer.paths);
-    const std::uint64_t mixed = hash.current_hash();
+    hash.add(seed).add(tracer.rays).add(tracer.samples);
+    if (tracer.seed != 0) hash.add(tracer.seed);
+    if (tracer.paths) hash.add(tracer.paths);
+    const std::uint64_t mixed = hash.sum();
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
 

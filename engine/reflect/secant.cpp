@@ -6,21 +6,20 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr TechniqueKnob kSecantStepsKnob{
-    .name = "steps",
-    .help = "number of secant steps after the first; 0 equals parallax",
-    .low = 0,
-    .high = 8,
-    .value = 2};
+constexpr Knob kSecantStepsKnob{.name = "steps",
+                                .help = "number of secant steps after the first; 0 equals parallax",
+                                .low = 0,
+                                .high = 8,
+                                .value = 2};
 constexpr auto kSecantKnobs = list_search_knobs(std::array{kSecantStepsKnob});
 
 MirrorShadingSetup make_secant_shading(graph::Graph&, const render::FrameInputs&,
-                                       const TechniqueKnobSettings& settings,
+                                       const KnobSettings& settings,
                                        const MirrorShadingInputs& around) {
-    const int steps = settings.knob_value_as_integer(kSecantStepsKnob);
+    const int steps = settings.integer(kSecantStepsKnob);
     if (steps == 0) { // `parallax` has no knobs of a search
         MirrorShadingSetup look{
-            make_capture_shader(around, "reflect/parallax.frag", TechniqueKnobSettings({})), {}};
+            make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})), {}};
         look.mirror.constants.emplace_back("refract_model", read_shared_knobs(settings).refract);
         return look;
     }

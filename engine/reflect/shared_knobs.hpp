@@ -89,6 +89,6 @@ struct SharedKnobs {
     std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
 };
 
-SharedKnobs read_shared_knobs(const TechniqueKnobSettings& settings);
+SharedKnobs read_shared_knobs(const KnobSettings& settings);
 
 } // namespace catoptric::reflect

@@ -21,11 +21,11 @@ RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
                 "`picture` exactly if it draws the whole picture");
     check_trait((technique.search != nullptr) != (technique.look != nullptr),
                 "either `search` or `look`");
-    get_registered_table_entries<const Technique*>().push_back(&technique);
+    table_rows<const Technique*>().push_back(&technique);
 }
 
 std::vector<const Technique*> list_techniques() {
-    return list_registered_entries_in_order<const Technique*>(
+    return sorted_rows<const Technique*>(
         [](const Technique* row) { return std::pair(row->order, row->name); });
 }
 
@@ -37,8 +37,8 @@ const Technique& find_technique(std::string_view name) {
     }
     std::string all;
     for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
-    fail(Failure::usage, "no technique '", name, "'", suggest_nearest_name(name, names),
-         "; there are ", all);
+    fail(Failure::usage, "no technique '", name, "'", suggest_name(name, names), "; there are ",
+         all);
 }
 
 std::string TechniqueChoice::file_name() const {
@@ -51,15 +51,15 @@ std::string TechniqueChoice::file_name() const {
 
 void TechniqueChoice::update_shared_knobs_from_settings() {
     shared = read_shared_knobs(settings);
-    rest = technique->rest ? std::make_shared<const TechniqueChoice>(parse_technique_choice(
-                                 settings.selected_knob_choice_name(*technique->rest)))
+    rest = technique->rest ? std::make_shared<const TechniqueChoice>(
+                                 parse_technique_choice(settings.choice_name(*technique->rest)))
                            : nullptr;
 }
 
 TechniqueChoice parse_technique_choice(std::string_view text) {
     const auto colon = text.find(':');
     const Technique& technique = find_technique(text.substr(0, colon));
-    TechniqueChoice choice{&technique, TechniqueKnobSettings(technique.knobs), std::string(text)};
+    TechniqueChoice choice{&technique, KnobSettings(technique.knobs), std::string(text)};
     std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
     while (colon != std::string_view::npos) {
         const auto comma = rest.find(',');
@@ -67,8 +67,7 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
         const auto equals = item.find('=');
         check(equals != std::string_view::npos, Failure::usage, "technique '", text, "': '", item,
               "' should read knob=value");
-        choice.settings.set_knob_from_text(technique.name, item.substr(0, equals),
-                                           item.substr(equals + 1));
+        choice.settings.set(technique.name, item.substr(0, equals), item.substr(equals + 1));
         if (comma == std::string_view::npos) break;
         rest = rest.substr(comma + 1);
     }

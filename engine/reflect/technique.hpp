@@ -75,16 +75,16 @@ struct Technique {
     std::string_view summary; ///< one sentence for `list` and the report
     int order = 0;            ///< position in lists and tables
     TechniqueTraits traits = {};
-    std::span<const TechniqueKnob> knobs;
+    std::span<const Knob> knobs;
     /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
     /// Returns the scene passes R per frame as the seed report counts them. A cube counts once.
     /// Tests compare R with the planned frame.
-    int (*scene_passes)(int mirrors, int lights, const TechniqueKnobSettings& settings) = nullptr;
+    int (*scene_passes)(int mirrors, int lights, const KnobSettings& settings) = nullptr;
     /// Returns the options of the technique's captures, if they are shared
     /// (TechniqueTraits::captures). Mirrors in them are drawn by the shader `in_captures`.
     render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
-                                      const TechniqueKnobSettings& settings) = nullptr;
+                                      const KnobSettings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
     bool reads_whole_cubes = false;    ///< captures need all six faces
     /// Path of a fragment shader that needs only the captures. If set, `look` is null
@@ -92,31 +92,33 @@ struct Technique {
     const char* search = nullptr;
     /// Returns how the technique draws its mirrors, and declares the passes that this needs.
     MirrorShadingSetup (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
-                               const TechniqueKnobSettings& settings,
+                               const KnobSettings& settings,
                                const MirrorShadingInputs& around) = nullptr;
     /// Returns how flat mirrors show mirrored views, if the technique draws some
     /// (reflect/mirrored.cpp).
-    MirroredViewOptions (*mirrored_views)(const TechniqueKnobSettings& settings) = nullptr;
+    MirroredViewOptions (*mirrored_views)(const KnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
     /// `tolerance`: scene::compute_flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance,
-                         const TechniqueKnobSettings& settings) =
-        [](const scene::FlatFaces&, double, const TechniqueKnobSettings&) { return std::string(); };
+                         const KnobSettings& settings) =
+        [](const scene::FlatFaces&, double, const KnobSettings&) { return std::string(); };
     /// Knob whose choice is the technique that draws the mirrors that are unfit; null: `unfit` is.
-    const TechniqueKnob* rest = nullptr;
+    const Knob* rest = nullptr;
     /// Returns why the technique cannot draw with these settings together, as words after
     /// "technique '...': "; empty: it can.
-    std::string (*conflict)(const TechniqueKnobSettings& settings) =
-        [](const TechniqueKnobSettings&) { return std::string(); };
+    std::string (*conflict)(const KnobSettings& settings) = [](const KnobSettings&) {
+        return std::string();
+    };
     /// Returns whether the tracer of `look` completes a rasterised view in which all mirrors have
     /// this technique. The tracer then also draws surfaces that reflect without being mirrors, and
     /// pixels whose shadow the shadow map leaves open. `picture` is not used.
-    bool (*completes_view)(const TechniqueKnobSettings& settings) =
-        [](const TechniqueKnobSettings&) { return false; };
+    bool (*completes_view)(const KnobSettings& settings) = [](const KnobSettings&) {
+        return false;
+    };
     /// Declares the whole picture without a rasterised view, if all mirrors have this technique
     /// (TechniqueTraits::draws_whole_picture).
     TechniqueOutputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
-                                const TechniqueKnobSettings& settings,
+                                const KnobSettings& settings,
                                 const render::ShadingLights& lighting) = nullptr;
 };
 
@@ -134,7 +136,7 @@ const Technique& find_technique(std::string_view name);
 /// A technique with a value for each knob.
 struct TechniqueChoice {
     const Technique* technique = nullptr;
-    TechniqueKnobSettings settings{{}};
+    KnobSettings settings{{}};
     std::string label;       ///< the technique as the user wrote it
     SharedKnobs shared = {}; ///< read from `settings`
     std::shared_ptr<const TechniqueChoice>

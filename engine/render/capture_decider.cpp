@@ -25,9 +25,9 @@ CaptureUpdateDecider::CaptureUpdateDecider(const GpuScene& scene,
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         lit.add_values(std::span(scene.shadowless_backdrops_of_light(light)));
         for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
-            lit.add_value(scene.list_views()[scene.shadow_view_index(light) + face]);
+            lit.add(scene.list_views()[scene.shadow_view_index(light) + face]);
     }
-    shadow_views_ = lit.current_hash();
+    shadow_views_ = lit.sum();
 }
 
 bool CaptureUpdateDecider::had_same_capture_layout_before(std::uint32_t mirror) const {
@@ -102,10 +102,9 @@ CaptureUpdateDecider::decide_capture_face_work(std::uint32_t mirror, std::uint32
     const require::MirrorRequirements& needs = model_.mirrors[mirror];
     ContentHash shown =
         ContentHash(shadow_views_)
-            .add_value(gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face]);
-    for (const std::uint32_t other : seen) shown.add_value(other);
-    const std::uint64_t content_hash =
-        ContentHash(shown).add_value(needs.content_hashes[face]).current_hash();
+            .add(gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face]);
+    for (const std::uint32_t other : seen) shown.add(other);
+    const std::uint64_t content_hash = ContentHash(shown).add(needs.content_hashes[face]).sum();
     now = had_same_capture_layout_before(mirror) ? before_->faces[mirror][face]
                                                  : CachedCaptureFace();
     const bool shows_same = now.drawing > 0 && now.content_hash == content_hash;
@@ -120,7 +119,7 @@ CaptureUpdateDecider::decide_capture_face_work(std::uint32_t mirror, std::uint32
         return CaptureFaceUpdateKind::clear;
     }
     now = {content_hash, drawing_number_of_capture_face(content_hash, seen), false,
-           ContentHash(shown).add_value(needs.settings[face]).current_hash(), needs.pieces};
+           ContentHash(shown).add(needs.settings[face]).sum(), needs.pieces};
     return shows_same && compares_ ? CaptureFaceUpdateKind::compare : CaptureFaceUpdateKind::draw;
 }
 
@@ -152,12 +151,12 @@ std::uint64_t
 CaptureUpdateDecider::drawing_number_of_capture_face(std::uint64_t content_hash,
                                                      const std::vector<std::uint32_t>& seen) const {
     ContentHash number;
-    number.add_value(content_hash);
+    number.add(content_hash);
     for (const std::uint32_t other : seen)
         for (std::uint32_t face = 0; face < 6; ++face)
-            number.add_value(
-                had_same_capture_layout_before(other) ? before_->faces[other][face].drawing : 0);
-    return std::max<std::uint64_t>(number.current_hash(), kClearedCaptureFaceHash + 1);
+            number.add(had_same_capture_layout_before(other) ? before_->faces[other][face].drawing
+                                                             : 0);
+    return std::max<std::uint64_t>(number.sum(), kClearedCaptureFaceHash + 1);
 }
 
 } // namespace catoptric::render

@@ -90,7 +90,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                               .store = {{"distance_scale", 1 / options.stored_unit}},
                               .peeled = peeled};
     if (options.colour == TexelFormat::rgba16f && options.saturates)
-        drawing.store.emplace_back("largest_colour", kLargestFiniteHalfFloatValue);
+        drawing.store.emplace_back("largest_colour", kMaxHalf);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == TexelFormat::r8_unorm)
         drawing.store.emplace_back("stored_rounding", kUnorm8Rounding);

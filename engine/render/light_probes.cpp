@@ -102,8 +102,7 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                      .layers = 6,
                      .lighting = lighting,
                      .looks = looks,
-                     .store = {{"distance_scale", 1.0f},
-                               {"largest_colour", kLargestFiniteHalfFloatValue}},
+                     .store = {{"distance_scale", 1.0f}, {"largest_colour", kMaxHalf}},
                      .peeled = {}}](graph::PassCommands& commands) {
             record_light_probe_capture(commands, scene, drawing, shows_surfaces);
         });

@@ -111,8 +111,7 @@ void MaterialParameterLists::fill_texture_texels(const scene::Scene& now, std::u
             images.push_back((*texture)->image);
             count += images.back()->texels.size();
             check(count <= most, Failure::exhausted, "scene '", now.name, "': its images up to ",
-                  quote_text_with_escapes(images.back()->name), " take ", count,
-                  " texels, the device allows ", most);
+                  quote(images.back()->name), " take ", count, " texels, the device allows ", most);
         }
     }
     if (images == images_ && any_lobes_ == has_lobe_table_ && texels_filled_) return;

@@ -186,8 +186,7 @@ MirroredViewImages add_mirrored_view(graph::Graph& graph, const FrameInputs& inp
                               .looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks)),
                               .store = {},
                               .peeled = {}};
-    if (wanted.has_levels)
-        drawing.store.emplace_back("largest_colour", kLargestFiniteHalfFloatValue);
+    if (wanted.has_levels) drawing.store.emplace_back("largest_colour", kMaxHalf);
     pass.writes(colour, ResourceUse::colour, kClearColourBlack);
     if (wanted.has_distances) {
         constexpr float kNoSurface = std::numeric_limits<float>::infinity();

@@ -23,16 +23,15 @@ std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::Require
                                    std::uint32_t light, std::uint32_t face) {
     const require::LightRequirements& needs = model.lights[light];
     ContentHash content_hash;
-    content_hash.add_value(needs.has_map);
-    if (!needs.has_map || face >= scene.drawn_shadow_faces(light))
-        return content_hash.current_hash();
+    content_hash.add(needs.has_map);
+    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return content_hash.sum();
     const shared::View& view = scene.list_views()[scene.shadow_view_index(light) + face];
-    content_hash.add_value(needs.content_hash).add_value(view);
+    content_hash.add(needs.content_hash).add(view);
     content_hash.add_values(std::span(scene.shadowless_backdrops_of_light(light)));
     for (const require::ShadowCaster& caster : model.casters)
         if (may_view_show_box(view, scene.list_draw_ranges()[caster.object]))
-            content_hash.add_value(caster.object).add_value(caster.content_hash);
-    return content_hash.current_hash();
+            content_hash.add(caster.object).add(caster.content_hash);
+    return content_hash.sum();
 }
 
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears

@@ -183,10 +183,10 @@ FilteredSkyLevels filter_environment(const scene::Environment& environment) {
 /// Returns a hash of everything that the levels depend on.
 std::uint64_t hash_environment_map(const scene::Environment& environment) {
     return ContentHash()
-        .add_value(environment.studio)
-        .add_value(environment.size)
+        .add(environment.studio)
+        .add(environment.size)
         .add_values(std::span(environment.texels))
-        .current_hash();
+        .sum();
 }
 
 } // namespace

@@ -48,9 +48,8 @@ Json find_scene_report(const Json& document, const Comparison& comparison,
     for (const Json& scene : scenes) // two scenes may have one name, but not one hash
         if (find_json_member(find_json_member(scene, "scene"), "hash") == comparison.scene.hash)
             return scene;
-    fail(Failure::bad_data, file, ": wanted the scene ",
-         quote_text_with_escapes(comparison.scene.name), " as it is now (", comparison.scene.hash,
-         "), found others");
+    fail(Failure::bad_data, file, ": wanted the scene ", quote(comparison.scene.name),
+         " as it is now (", comparison.scene.hash, "), found others");
 }
 
 /// Throws unless a member of an object is null or has the wanted kind.
@@ -113,7 +112,7 @@ void check_baseline_has_same_settings(const Json& before, const Json& now,
         // Other programs may have written the members in another order.
         check(b.is_null() || nlohmann::json(a) == nlohmann::json(b), Failure::bad_data, file,
               ": wanted a baseline with the same ", name, " as now (", write(b), "), found ",
-              a.is_null() ? "nothing" : quote_text_with_escapes(write(a)));
+              a.is_null() ? "nothing" : quote(write(a)));
     };
     for (const char* name : {"hash", "camera"})
         check_equal(std::string("scene.") + name,

@@ -126,8 +126,7 @@ struct BenchmarkJsonEntry {
         const std::string unit = read_text("time_unit");
         for (const auto& [name, ms] : kTimeUnits)
             if (unit == name) return ms;
-        fail(Failure::bad_data, place, ".time_unit: wanted ns, us, ms or s, found ",
-             quote_text_with_escapes(unit));
+        fail(Failure::bad_data, place, ".time_unit: wanted ns, us, ms or s, found ", quote(unit));
     }
     /// Returns whether the entry is a round: it is no aggregate and reports no error.
     bool is_benchmark_single_round() const {

@@ -47,8 +47,7 @@ struct CostJsonValue {
         for (const auto& [name, value] : json.items())
             check(std::ranges::find(names, name) != names.end(), Failure::bad_data, place,
                   place.ends_with(":") ? "" : ":", " wanted the members ",
-                  fmt::format("{}", fmt::join(names, ", ")), ", found ",
-                  quote_text_with_escapes(name));
+                  fmt::format("{}", fmt::join(names, ", ")), ", found ", quote(name));
     }
     std::vector<CostJsonValue> list_elements() const {
         if (!json.is_array() || json.empty())
@@ -72,15 +71,15 @@ struct CostJsonValue {
     }
 };
 
-CountedWorkKind read_work_kind(const CostJsonValue& value) {
+WorkKind read_work_kind(const CostJsonValue& value) {
     const std::string name = value.read_text();
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i) {
-        if (kCountedWorkKinds[i].name == name) return static_cast<CountedWorkKind>(i);
-        names.emplace_back(kCountedWorkKinds[i].name);
+    for (std::size_t i = 0; i < kWorkKindCount; ++i) {
+        if (kWorkKinds[i].name == name) return static_cast<WorkKind>(i);
+        names.emplace_back(kWorkKinds[i].name);
     }
     fail(Failure::bad_data, value.place, ": wanted a kind of work, found '", name, "'",
-         suggest_nearest_name(name, names));
+         suggest_name(name, names));
 }
 
 measure::UnitCostOrigin read_cost_origin(const CostJsonValue& value) {
@@ -148,7 +147,7 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
         check(std::ranges::find(costs.units, unit.kind, &measure::WorkUnitCost::kind) ==
                   costs.units.end(),
               Failure::bad_data, value.place, ".work: '",
-              kCountedWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
+              kWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
         costs.units.push_back(unit);
     }
     if (const CostJsonValue fit = document.find_member("fit"); !fit.json.is_null())
@@ -176,7 +175,7 @@ std::string to_json(const measure::DeviceCosts& costs) {
               {"origin", measure::cost_origin_name(costs.origin)}};
     if (!costs.note.empty()) json["note"] = costs.note;
     json["costs"] = make_list_json(costs.units, [](const measure::WorkUnitCost& unit) {
-        Json one{{"work", kCountedWorkKinds[static_cast<std::size_t>(unit.kind)].name},
+        Json one{{"work", kWorkKinds[static_cast<std::size_t>(unit.kind)].name},
                  {"ns", make_number_json(unit.ns)}};
         if (unit.range.is_known()) one["range"] = make_interval_json(unit.range);
         if (!unit.source.empty()) one["source"] = unit.source;
@@ -200,7 +199,7 @@ measure::DeviceCosts read_costs_file(const std::filesystem::path& file) {
         }
         fail(Failure::missing_input, file.string(),
              ": there is no such file: wanted costs of a device, as a file or one of ",
-             fmt::format("{}", fmt::join(names, ", ")), suggest_nearest_name(file.string(), names));
+             fmt::format("{}", fmt::join(names, ", ")), suggest_name(file.string(), names));
     }
     return read_costs_document(read_costs_json(file, "costs of a device"), file.string());
 }
@@ -236,8 +235,8 @@ PictureRowTimes read_row_times_file(const std::filesystem::path& file) {
         auto& [name, list] = times.rows.emplace_back();
         name = row.find_member("row").read_text();
         check(std::ranges::count(times.rows, name, &PictureRowTimes::TimedPictureRow::row) == 1,
-              Failure::bad_data, row.place, ": wanted each row once, found ",
-              quote_text_with_escapes(name), " again");
+              Failure::bad_data, row.place, ": wanted each row once, found ", quote(name),
+              " again");
         const CostJsonValue ms = row.find_member("ms");
         if (ms.json.is_array())
             for (const CostJsonValue& one : ms.list_elements())

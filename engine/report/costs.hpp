@@ -32,7 +32,7 @@ const std::vector<KnownCosts>& list_known_costs();
 /// Times of rows that were measured on another device, by techniques of this program.
 struct OtherDeviceTimes {
     std::string device, note;
-    std::vector<CountedWorkKind> kinds; ///< the kinds of work whose costs are to be fitted
+    std::vector<WorkKind> kinds; ///< the kinds of work whose costs are to be fitted
     struct TimedRowElsewhere {
         std::string technique;
         double ms = 0;

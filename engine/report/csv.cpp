@@ -116,11 +116,10 @@ void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& ro
                                               (mask.title.empty() || metric.each_mask_in_table);
                                    });
     for (std::size_t i = 0; i < mirrors; ++i)
-        add_difference_metrics(
-            line,
-            "mirror_" + std::to_string(MirrorId::mirror_id_from_list_index(i).mirror_number()),
-            i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{},
-            [](const measure::Metric&) { return false; });
+        add_difference_metrics(line, "mirror_" + std::to_string(MirrorId::from_index(i).number()),
+                               i < row.error_per_mirror.size() ? row.error_per_mirror[i]
+                                                               : measure::Difference{},
+                               [](const measure::Metric&) { return false; });
 }
 
 void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& row,

@@ -24,7 +24,7 @@ std::string encode_base64(std::string_view bytes) {
 
 std::string escape_html(std::string_view text) {
     std::string result;
-    for (const char c : escape_control_characters(text, "\n")) {
+    for (const char c : escape(text, "\n")) {
         switch (c) {
         case '&': result += "&amp;"; break;
         case '<': result += "&lt;"; break;

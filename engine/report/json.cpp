@@ -41,7 +41,7 @@ Json make_interval_json(const measure::Interval& interval) {
 std::string describe_json_value(const Json& value) {
     if (value.is_null()) return "nothing";
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
-    return quote_text_with_escapes(value.dump(-1, ' ', true, Json::error_handler_t::replace));
+    return quote(value.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
 Json make_device_json(const DeviceFacts& device) {
@@ -304,9 +304,8 @@ void add_error_fields_json(Json& json, const measure::Errors& errors) {
                                                                     errors.*mask.error);
     Json& list = json["error_per_mirror"] = Json::array();
     for (std::size_t i = 0; i < errors.error_per_mirror.size(); ++i)
-        list.push_back(add_difference_metrics_json(
-            {{"mirror", MirrorId::mirror_id_from_list_index(i).mirror_number()}},
-            errors.error_per_mirror[i]));
+        list.push_back(add_difference_metrics_json({{"mirror", MirrorId::from_index(i).number()}},
+                                                   errors.error_per_mirror[i]));
 }
 
 std::string serialise_json(const Json& document) {

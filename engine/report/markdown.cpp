@@ -11,7 +11,7 @@ namespace catoptric::report {
 
 std::string escape_markdown(const std::string& text) {
     std::string result;
-    for (const char c : escape_control_characters(text, "\n")) {
+    for (const char c : escape(text, "\n")) {
         if (std::string_view("\\`*_[]<>|#&~").find(c) != std::string_view::npos) result += '\\';
         result += c == '\n' ? ' ' : c;
     }

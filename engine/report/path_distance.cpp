@@ -38,7 +38,7 @@ std::string describe_path_distance(const measure::PathDistance& distance,
     if (!distance.is_known())
         return fmt::format("How far the reference itself is from path tracing is not known: {}. To "
                            "find out: {}, with the same options for scene and camera.",
-                           distance.unknown, escape_control_characters(distance.command));
+                           distance.unknown, escape(distance.command));
     const bool shows_mirror = !std::isnan(distance.flip);
     const measure::Interval interval = measure::find_path_distance_interval(distance);
     const std::string where = fmt::format(
@@ -53,8 +53,7 @@ std::string describe_path_distance(const measure::PathDistance& distance,
                        "path tracing ({}).{} To judge rows by path tracing: {}.",
                        format_fixed(shows_mirror ? distance.flip : distance.flip_all, 3),
                        format_fixed(interval.low, 3), format_fixed(interval.high, 3), where,
-                       describe_rows_with_less_flip(rows, less),
-                       escape_control_characters(distance.command));
+                       describe_rows_with_less_flip(rows, less), escape(distance.command));
 }
 
 Json make_path_distance_json(const measure::PathDistance& distance) {

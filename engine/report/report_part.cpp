@@ -5,11 +5,9 @@
 namespace catoptric::report {
 
 RegisteredReportPart::RegisteredReportPart(const ReportPart& part) {
-    get_registered_table_entries<ReportPart>().push_back(part);
+    table_rows<ReportPart>().push_back(part);
 }
 
-std::vector<ReportPart> list_report_parts() {
-    return list_registered_entries_in_order<ReportPart>();
-}
+std::vector<ReportPart> list_report_parts() { return sorted_rows<ReportPart>(); }
 
 } // namespace catoptric::report

@@ -353,8 +353,7 @@ ReportTable make_mirror_table(const Comparison& comparison) {
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     for (std::size_t i = 0; i < mirrors; ++i)
-        table.columns.push_back(
-            "Mirror " + std::to_string(MirrorId::mirror_id_from_list_index(i).mirror_number()));
+        table.columns.push_back("Mirror " + std::to_string(MirrorId::from_index(i).number()));
     for (const Row& row : comparison.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back(1, row.label);
         for (const measure::Difference& error : row.error_per_mirror)

@@ -31,7 +31,7 @@ bool is_spreadsheet_formula(const std::string& text) {
 } // namespace
 
 std::string escape_csv_field(const std::string& field) {
-    std::string shown = escape_control_characters(field, "\n");
+    std::string shown = escape(field, "\n");
     if (is_spreadsheet_formula(shown)) shown.insert(0, "'");
     if (shown.find_first_of("\",\n") == std::string::npos) return shown;
     std::string result = "\"";

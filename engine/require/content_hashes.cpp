@@ -36,8 +36,8 @@ void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t 
     shadow_edge_ = shadow_edge, has_soft_shadows_ = has_soft_shadows;
     ContentHash all(static_hash_);
     for (const std::size_t mover : world.list_moving_objects())
-        all.add_value(world.list_objects()[mover].content_hash);
-    all_ = all.current_hash();
+        all.add(world.list_objects()[mover].content_hash);
+    all_ = all.sum();
     const std::size_t movers = world.list_moving_objects().size(),
                       mirrors = world.list_mirror_objects().size();
     is_much_ = movers * world.list_point_lights().size() * world.list_objects().size() >
@@ -58,7 +58,7 @@ ContentHashes::content_hashes_of_mirror_faces(const VisibilityScene& world, std:
     faces.made_at = changes_;
     faces.pieces = nullptr;
     if (is_much_ || own.has_moved || own.box.empty())
-        faces.content_hashes.fill(ContentHash(all_).add_value(mirror).current_hash());
+        faces.content_hashes.fill(ContentHash(all_).add(mirror).sum());
     else
         combine_capture_face_hashes(world, faces, mirror);
     return faces;
@@ -100,21 +100,17 @@ void ContentHashes::combine_capture_face_hashes(const VisibilityScene& world,
                              to = bounds_relative_to_centre(centre, landing.shade.to);
         add(cube_faces_that_may_show_box(box) & cube_faces_that_may_show_hull(from, to),
             ContentHash(world.list_objects()[landing.caster].content_hash)
-                .add_value(landing.receiver)
-                .current_hash(),
+                .add(landing.receiver)
+                .sum(),
             [&](int face) {
                 return intersect_face_parts(face_part_containing(face, box),
                                             face_part_containing(face, from, to));
             });
     }
     for (std::size_t face = 0; face < 6; ++face) {
-        faces.settings[face] = ContentHash(static_hash_)
-                                   .add_value(own.content_hash)
-                                   .add_value(mirror)
-                                   .add_value(face)
-                                   .current_hash();
-        faces.content_hashes[face] =
-            ContentHash(faces.settings[face]).add_value(sums[face]).current_hash();
+        faces.settings[face] =
+            ContentHash(static_hash_).add(own.content_hash).add(mirror).add(face).sum();
+        faces.content_hashes[face] = ContentHash(faces.settings[face]).add(sums[face]).sum();
     }
     if (are_many) return;
     pieces->sort_moving_face_pieces();

@@ -22,7 +22,7 @@ std::string format_numbered_items(const std::string& one, const NumberedItemList
 }
 
 std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
-    return quote_text_with_escapes(scene.objects[object].name);
+    return quote(scene.objects[object].name);
 }
 
 /// Returns the reason why mirrors are invisible, as text. `seen`: number of visible mirrors.
@@ -151,9 +151,9 @@ std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::
     std::vector<std::string> names;
     for (const scene::Object& object : scene.objects)
         if (scene::emitted_radiance(scene.materials[object.material]) != vec3(0))
-            names.push_back(quote_text_with_escapes(object.name));
+            names.push_back(quote(object.name));
     for (const scene::PunctualLight& punctual : scene.punctual)
-        names.push_back(quote_text_with_escapes(punctual.name));
+        names.push_back(quote(punctual.name));
     return names.size() == count ? names[light] : "";
 }
 

@@ -100,8 +100,7 @@ void add_mirror(PlanCandidate& candidate, FrameWork& work, const MirrorCostInput
         const double rays = known.estimate_pixels_of_mirror_paths(known.is_glass[mirror] ? first
                                                                                          : hidden),
                      ray_nodes = rays * sharp.nodes / std::max(1.0, sharp.rays);
-        work.add_rays(
-            {CountedWorkKind::mirror_rays, rays, ray_nodes, ray_nodes * kIncoherentLanes, true});
+        work.add_rays({WorkKind::mirror_rays, rays, ray_nodes, ray_nodes * kIncoherentLanes, true});
     }
     const double error = way == MirrorDrawMethod::planes ? kTechniqueErrorTable.planar
                          : is_searched                   ? find_search_error(known, mirror)
@@ -194,17 +193,17 @@ PlanCandidate make_traced_candidate(const MirrorCostInputs& known, const UnitCos
         work.add_list();
     } else {
         work.add_traced_picture();
-        work.add_rays({CountedWorkKind::camera_rays, scale * camera.rays, scale * camera.nodes,
+        work.add_rays({WorkKind::camera_rays, scale * camera.rays, scale * camera.nodes,
                        scale * camera.node_lanes});
     }
     const double times = scale * std::max(1, lobe_rays);
     const double sharp_lanes = has_lobes       ? sharp.nodes * kIncoherentLanes
                                : is_rasterised ? sharp.nodes * kListedLanes
                                                : sharp.node_lanes;
-    work.add_rays({CountedWorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
+    work.add_rays({WorkKind::mirror_rays, times * sharp.rays, times * sharp.nodes,
                    times * sharp_lanes, is_rasterised});
     if (has_lobes)
-        work.add_rays({CountedWorkKind::mirror_rays, times * rough.rays, times * rough.nodes,
+        work.add_rays({WorkKind::mirror_rays, times * rough.rays, times * rough.nodes,
                        times * rough.nodes * kIncoherentLanes, is_rasterised});
     candidate.ms = predict_ms(work.work(), costs);
     for (std::size_t i = 0; i < known.mirror_count(); ++i)

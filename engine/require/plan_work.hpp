@@ -23,7 +23,7 @@ PictureCounts count_picture(const RequiredWorkModelInput& question, const Mirror
 
 /// Rays of a kind, and the nodes that they visit.
 struct RayWork {
-    CountedWorkKind kind = CountedWorkKind::mirror_rays;
+    WorkKind kind = WorkKind::mirror_rays;
     double rays = 0, nodes = 0, node_lanes = 0;
     bool has_shadow_maps = false; ///< the points that they meet look up shadow maps, without rays
 };
@@ -54,7 +54,7 @@ public:
     const WorkValues& work() const { return work_; }
 
 private:
-    using enum CountedWorkKind;
+    using enum WorkKind;
     void add_shaded_pixels(double points);
     PictureCounts picture_;
     WorkValues work_;

@@ -52,7 +52,7 @@ void RequiredWorkModelBuilder::Impl::find_visible_mirrors(const PictureFrustum& 
             if (needs.is_seen || !sight.may_light_path_reach_object(world, waiting[next], i))
                 continue;
             needs.is_seen = true;
-            needs.seen_in = MirrorId::mirror_id_from_list_index(waiting[next]);
+            needs.seen_in = MirrorId::from_index(waiting[next]);
             waiting.push_back(i);
         }
 }
@@ -112,8 +112,7 @@ void RequiredWorkModelBuilder::Impl::find_lights_needing_shadow_maps(
     model.casters = content_hashes.list_shadow_casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorRequirements::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        model.lights[i].content_hash =
-            ContentHash(world.static_content_hash()).add_value(i).current_hash();
+        model.lights[i].content_hash = ContentHash(world.static_content_hash()).add(i).sum();
         model.lights[i].has_map = std::ranges::any_of(
             world.list_objects(), [&](const VisibilityObject& thing) {
                 return !thing.box.empty() &&

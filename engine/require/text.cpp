@@ -18,8 +18,8 @@ std::string format_mirror_numbers(const std::vector<std::uint32_t>& mirrors) {
 
 std::string describe_capture_needs(const MirrorRequirements& needs, const scene::Mesh& mesh) {
     if (!needs.is_captured) return "not seen";
-    std::string text = needs.seen_in ? "in the view of mirror " +
-                                           std::to_string(needs.seen_in.mirror_number())
+    std::string text = needs.seen_in
+                           ? "in the view of mirror " + std::to_string(needs.seen_in.number())
                        : !has_few_mesh_triangles(mesh) ? "its bounds are in the camera's view"
                                                        : "in the camera's view";
     text += "; captured, ";
@@ -66,8 +66,7 @@ std::string describe_model(const RequiredWorkModel& model, const scene::Scene& s
         std::size_t end = i + 1;
         while (end < model.mirrors.size() && text_of(end) == needs) ++end;
         if (end == i + 1)
-            text << "  mirror " << end << " "
-                 << quote_text_with_escapes(scene.objects[mirrors[i]].name);
+            text << "  mirror " << end << " " << quote(scene.objects[mirrors[i]].name);
         else
             text << "  mirrors " << i + 1 << "-" << end;
         text << ": " << needs << "\n";

@@ -57,8 +57,7 @@ UnitCostsOfDevice find_unit_costs(std::string_view name, std::string_view driver
 
 double predict_ms(const WorkValues& counts, const UnitCosts& costs) {
     double ns = 0;
-    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
-        ns += counts.values[i] * costs.ns.values[i];
+    for (std::size_t i = 0; i < kWorkKindCount; ++i) ns += counts.values[i] * costs.ns.values[i];
     return ns * 1e-6;
 }
 

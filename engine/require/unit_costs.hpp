@@ -12,10 +12,10 @@ namespace catoptric::require {
 
 /// A number for each kind of work: estimated counts, or costs.
 struct WorkValues {
-    std::array<double, kCountedWorkKindCount> values{};
+    std::array<double, kWorkKindCount> values{};
 
-    double& operator[](CountedWorkKind kind) { return values[static_cast<std::size_t>(kind)]; }
-    double operator[](CountedWorkKind kind) const { return values[static_cast<std::size_t>(kind)]; }
+    double& operator[](WorkKind kind) { return values[static_cast<std::size_t>(kind)]; }
+    double operator[](WorkKind kind) const { return values[static_cast<std::size_t>(kind)]; }
 };
 
 struct UnitCosts {

@@ -148,12 +148,12 @@ void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_
         thing.middle = scene::transform_point_to_world(thing.place, mesh.box.centre());
     thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;
     ContentHash content_hash;
-    content_hash.add_value(index)
-        .add_value(meshes_[thing.mesh].content_hash)
-        .add_value(thing.material)
-        .add_value(thing.place);
-    if (thing.sphere) content_hash.add_value(thing.sphere->centre).add_value(thing.sphere->radius);
-    thing.content_hash = content_hash.current_hash();
+    content_hash.add(index)
+        .add(meshes_[thing.mesh].content_hash)
+        .add(thing.material)
+        .add(thing.place);
+    if (thing.sphere) content_hash.add(thing.sphere->centre).add(thing.sphere->radius);
+    thing.content_hash = content_hash.sum();
 }
 
 void VisibilityScene::move_to_instant(const scene::Scene& now) {
@@ -210,13 +210,11 @@ void VisibilityScene::find_occluder_walls() {
 
 void VisibilityScene::update_static_content_hash() {
     ContentHash content_hash;
-    content_hash.add_value(materials_stamp_)
-        .add_value(environment_stamp_)
-        .add_value(things_.size());
+    content_hash.add(materials_stamp_).add(environment_stamp_).add(things_.size());
     for (const VisibilityObject& thing : things_)
-        content_hash.add_value(thing.is_mover ? 0 : thing.content_hash);
-    for (const scene::PointLight& light : lights_) content_hash.add_value(hash_point_light(light));
-    static_hash_ = content_hash.current_hash();
+        content_hash.add(thing.is_mover ? 0 : thing.content_hash);
+    for (const scene::PointLight& light : lights_) content_hash.add(hash_point_light(light));
+    static_hash_ = content_hash.sum();
 }
 
 } // namespace catoptric::require

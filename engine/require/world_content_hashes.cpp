@@ -23,9 +23,9 @@ public:
         const auto [entry, is_new] = known_.try_emplace(image.get(), 0);
         if (!is_new || !image) return entry->second;
         ContentHash content_hash;
-        content_hash.add_value(image->size);
+        content_hash.add(image->size);
         hash_value_list(content_hash, image->texels);
-        return entry->second = content_hash.current_hash();
+        return entry->second = content_hash.sum();
     }
 
 private:
@@ -34,13 +34,11 @@ private:
 
 void hash_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
                   ContentHashOfImages& images) {
-    content_hash.add_value(texture.has_value());
+    content_hash.add(texture.has_value());
     if (!texture) return;
-    content_hash.add_value(images[texture->image])
-        .add_value(texture->wrap_u)
-        .add_value(texture->wrap_v);
-    content_hash.add_value(texture->nearest).add_value(texture->srgb).add_value(texture->uv_set);
-    content_hash.add_value(texture->u_row).add_value(texture->v_row);
+    content_hash.add(images[texture->image]).add(texture->wrap_u).add(texture->wrap_v);
+    content_hash.add(texture->nearest).add(texture->srgb).add(texture->uv_set);
+    content_hash.add(texture->u_row).add(texture->v_row);
 }
 
 } // namespace
@@ -51,7 +49,7 @@ std::uint64_t hash_mesh(const scene::Mesh& mesh) {
         hash_value_list(content_hash, mesh.triangles);
     hash_value_list(content_hash, mesh.uv[0]), hash_value_list(content_hash, mesh.uv[1]),
         hash_value_list(content_hash, mesh.colours);
-    return content_hash.current_hash();
+    return content_hash.sum();
 }
 
 std::uint64_t hash_materials(const std::vector<scene::Material>& materials) {
@@ -62,28 +60,28 @@ std::uint64_t hash_materials(const std::vector<scene::Material>& materials) {
         if constexpr (std::is_same_v<Member, std::optional<scene::Texture>>)
             hash_texture(content_hash, member, images);
         else if constexpr (std::is_same_v<Member, std::optional<vec3>>)
-            content_hash.add_value(member.has_value()).add_value(member.value_or(vec3(0)));
+            content_hash.add(member.has_value()).add(member.value_or(vec3(0)));
         else if constexpr (!std::is_same_v<Member, std::string>) // no picture shows a name
-            content_hash.add_value(member);
+            content_hash.add(member);
     };
     for (const scene::Material& material : materials)
         scene::visit_material_members(material, add_member);
-    return content_hash.current_hash();
+    return content_hash.sum();
 }
 
 std::uint64_t hash_environment(const scene::Environment* environment) {
     if (environment == nullptr) return 0;
     ContentHash content_hash(1);
-    content_hash.add_value(environment->studio).add_value(environment->size);
+    content_hash.add(environment->studio).add(environment->size);
     hash_value_list(content_hash, environment->texels);
-    content_hash.add_value(environment->scale).add_value(environment->rotation_degrees);
-    return content_hash.current_hash();
+    content_hash.add(environment->scale).add(environment->rotation_degrees);
+    return content_hash.sum();
 }
 
 std::uint64_t hash_point_light(const scene::PointLight& light) {
     ContentHash content_hash;
-    scene::visit_light_members(light, [&](const auto& member) { content_hash.add_value(member); });
-    return content_hash.current_hash();
+    scene::visit_light_members(light, [&](const auto& member) { content_hash.add(member); });
+    return content_hash.sum();
 }
 
 } // namespace catoptric::require

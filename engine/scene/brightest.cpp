@@ -17,7 +17,7 @@ namespace {
 
 /// Returns how strongly one light lights a surface at `point` that faces it, without shadows.
 double light_strength_at_point(const dvec3& point, const PointLight& light) {
-    const double emitted = compute_luminance(dvec3(light.emission)) * light.area;
+    const double emitted = luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
     const dvec3 way = point - light.position;
     const double square = glm::dot(way, way), distance = std::sqrt(square);
@@ -115,10 +115,8 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
             if (!is_object) punctual.push_back(scene.punctual[index - objects]);
             continue;
         }
-        std::string place = is_object
-                                ? "object " + quote_text_with_escapes(scene.objects[index].name)
-                                : "light " +
-                                      quote_text_with_escapes(scene.punctual[index - objects].name);
+        std::string place = is_object ? "object " + quote(scene.objects[index].name)
+                                      : "light " + quote(scene.punctual[index - objects].name);
         if (!thing.kept.empty())
             place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
                      std::to_string(thing.points) + " parts";

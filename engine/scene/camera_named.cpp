@@ -13,8 +13,7 @@ namespace {
 
 double parse_camera_number(const std::string& text, const SettingOrigin& by) {
     const std::optional<double> value = parse_number(text);
-    check(value.has_value(), by.failure, by.where, ": wanted a finite number, found ",
-          quote_text_with_escapes(text));
+    check(value.has_value(), by.failure, by.where, ": wanted a finite number, found ", quote(text));
     return *value;
 }
 
@@ -22,25 +21,23 @@ double parse_number_within(const std::string& text, double low, double high,
                            const SettingOrigin& by) {
     const std::optional<double> value = parse_number(text);
     check(value && *value >= low && *value <= high, by.failure, by.where,
-          ": wanted a finite number from ", low, " to ", high, ", found ",
-          quote_text_with_escapes(text));
+          ": wanted a finite number from ", low, " to ", high, ", found ", quote(text));
     return *value;
 }
 
 dvec3 parse_point(const std::string& text, const SettingOrigin& by) {
-    const std::vector<std::string> parts = split_text(text, ",");
-    check(parts.size() == 3, by.failure, by.where, ": wanted a point X,Y,Z, found ",
-          quote_text_with_escapes(text));
+    const std::vector<std::string> parts = split(text, ",");
+    check(parts.size() == 3, by.failure, by.where, ": wanted a point X,Y,Z, found ", quote(text));
     return {parse_camera_number(parts[0], by), parse_camera_number(parts[1], by),
             parse_camera_number(parts[2], by)};
 }
 
 Camera parse_placed_camera(const std::string& text, const SettingOrigin& by) {
-    const std::vector<std::string> parts = split_text(text, ":");
+    const std::vector<std::string> parts = split(text, ":");
     check(parts.size() == 3, by.failure, by.where,
           ": wanted EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees) or "
           "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), found ",
-          quote_text_with_escapes(text));
+          quote(text));
     Camera camera{
         .name = text, .eye = parse_point(parts[0], by), .target = parse_point(parts[1], by)};
     if (parts[2].starts_with("h="))
@@ -58,8 +55,7 @@ std::string list_camera_names(const std::vector<Camera>& cameras) {
     constexpr std::size_t kMaxListedCameras = 20;
     std::string list;
     for (std::size_t i = 0; i < std::min(cameras.size(), kMaxListedCameras); ++i)
-        list += (i ? ", " : "") + std::to_string(i) + " " +
-                quote_text_with_escapes(cameras[i].name);
+        list += (i ? ", " : "") + std::to_string(i) + " " + quote(cameras[i].name);
     if (cameras.size() > kMaxListedCameras)
         list += " and " + std::to_string(cameras.size() - kMaxListedCameras) + " more";
     return list.empty() ? "none" : list;
@@ -84,10 +80,10 @@ Camera find_camera_by_name(const std::string& text, const Scene& scene, const Se
     if (is_index && !text.empty() && std::stoul(text) < scene.cameras.size())
         return scene.cameras[std::stoul(text)];
     names.emplace_back("seeded");
-    fail(by.failure, by.where, ": scene ", quote_text_with_escapes(scene.name), " has no camera ",
-         quote_text_with_escapes(text), "; it has: ", list_camera_names(scene.cameras),
+    fail(by.failure, by.where, ": scene ", quote(scene.name), " has no camera ", quote(text),
+         "; it has: ", list_camera_names(scene.cameras),
          "; or seeded, EX,EY,EZ:TX,TY,TZ:FOV, or EX,EY,EZ:TX,TY,TZ:h=HEIGHT",
-         suggest_nearest_name(text, names));
+         suggest_name(text, names));
 }
 
 std::string format_camera(const Camera& camera) {

@@ -28,8 +28,8 @@ public:
     template <typename... Parts>
     void require(bool ok, const Parts&... parts) const {
         if (!ok)
-            fail(Failure::bad_data, "scene ", quote_text_with_escapes(scene_.name), ": ", list_,
-                 "[", index_, "] ", quote_text_with_escapes(name_), ": ", parts...);
+            fail(Failure::bad_data, "scene ", quote(scene_.name), ": ", list_, "[", index_, "] ",
+                 quote(name_), ": ", parts...);
     }
     void require_index(std::size_t index, std::size_t count, const char* member,
                        const char* list) const {
@@ -256,8 +256,7 @@ void check_scene(const Scene& scene) {
         check_object({scene, "objects", i, scene.objects[i].name}, scene, scene.objects[i]);
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         check_camera(scene.cameras[i],
-                     "scene " + quote_text_with_escapes(scene.name) + ": cameras[" +
-                         std::to_string(i) + "]",
+                     "scene " + quote(scene.name) + ": cameras[" + std::to_string(i) + "]",
                      Failure::bad_data);
     for (std::size_t i = 0; i < scene.punctual.size(); ++i)
         check_light({scene, "punctual", i, scene.punctual[i].name}, scene.punctual[i]);
@@ -278,9 +277,9 @@ void check_material(const Scene& scene, std::size_t index, const Material& mater
 
 void check_camera(const Camera& camera, const std::string& where, Failure failure) {
     const auto require = [&](bool ok, const char* wanted) {
-        check(ok, failure, where, ": camera ", quote_text_with_escapes(camera.name), ": wanted ",
-              wanted, ", found eye ", camera.eye.x, " ", camera.eye.y, " ", camera.eye.z,
-              ", target ", camera.target.x, " ", camera.target.y, " ", camera.target.z, ", ",
+        check(ok, failure, where, ": camera ", quote(camera.name), ": wanted ", wanted,
+              ", found eye ", camera.eye.x, " ", camera.eye.y, " ", camera.eye.z, ", target ",
+              camera.target.x, " ", camera.target.y, " ", camera.target.z, ", ",
               camera.vertical_fov_degrees, " degrees, height ", camera.orthographic_height);
     };
     require(is_finite_value(camera.eye) && is_finite_value(camera.target) &&

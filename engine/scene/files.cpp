@@ -138,16 +138,15 @@ void SceneFileOpener::check_file_lies_below_root(const fs::path& real, const std
                                                  const std::string& place) const {
     check(is_inside_folder(real, folder_) || is_inside_folder(real, root_), Failure::bad_data,
           place, ": wanted a file below '", folder_.string(),
-          "' or a folder given with --root, found ", quote_text_with_escapes(name), ", which is '",
-          real.string(), "'");
+          "' or a folder given with --root, found ", quote(name), ", which is '", real.string(),
+          "'");
 }
 
 fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
                                                   const std::string& place) {
     account_.files.add_amount_within_budget(1, place);
     check(!name.empty() && name.size() <= kMaxFileNameLength && name.find('\0') == name.npos,
-          Failure::bad_data, place, ": wanted the name of a file, found ",
-          quote_text_with_escapes(name));
+          Failure::bad_data, place, ": wanted the name of a file, found ", quote(name));
     const fs::path path = folder_ / name;
     fs::path real = resolve_symbolic_links(path);
     const int why = errno;
@@ -161,8 +160,7 @@ fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
     std::error_code error;
     const fs::file_status status = fs::status(real, error);
     check(fs::is_regular_file(status), Failure::bad_data, place, ": wanted a regular file, found ",
-          quote_text_with_escapes(name), ", which is ",
-          fs::is_directory(status) ? "a folder" : "a device or a pipe");
+          quote(name), ", which is ", fs::is_directory(status) ? "a folder" : "a device or a pipe");
     add_file(real);
     return real;
 }
@@ -234,7 +232,7 @@ fs::path SceneFileOpener::find_required_scene_file(const std::string& name,
                                                    const std::string& place) {
     fs::path real = find_scene_file_by_name(name, place);
     const int error = errno; // from realpath(3), if the path was not found
-    check(!real.empty(), Failure::missing_input, place, ": ", quote_text_with_escapes(name),
+    check(!real.empty(), Failure::missing_input, place, ": ", quote(name),
           error == ENOENT || error == ENOTDIR
               ? " is not there"
               : " cannot be reached: " + std::generic_category().message(error));
@@ -242,7 +240,7 @@ fs::path SceneFileOpener::find_required_scene_file(const std::string& name,
 }
 
 std::string SceneFileOpener::read_file_content(const fs::path& real, const std::string& place) {
-    return read_regular_file(real, place + ": " + quote_text_with_escapes(real.filename().string()),
+    return read_regular_file(real, place + ": " + quote(real.filename().string()),
                              account_.file_bytes);
 }
 

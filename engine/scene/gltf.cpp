@@ -98,8 +98,7 @@ Mesh GltfBuilder::repaired(const SharedMeshKey& key) {
     context.account.mesh_vertices.add_amount_within_budget(
         count_corners_without_normal(mesh), describe_mesh_place(context.document, key.mesh));
     const std::size_t dropped = repair_mesh(mesh);
-    context.notes.add_note("triangles without area, left out",
-                           "in " + quote_text_with_escapes(mesh.name), dropped);
+    context.notes.add_note("triangles without area, left out", "in " + quote(mesh.name), dropped);
     // Normals that `repair_mesh` adds follow the winding in the file, so the winding is reversed
     // only afterwards.
     if (key.inside_out)

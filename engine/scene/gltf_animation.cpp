@@ -152,11 +152,11 @@ std::optional<std::size_t> choose_animation(const GltfReadContext& context) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].name == name) return i;
         names.push_back(all[i].name);
-        list += (list.empty() ? " or one of " : ", ") + quote_text_with_escapes(all[i].name);
+        list += (list.empty() ? " or one of " : ", ") + quote(all[i].name);
     }
     const SettingOrigin& by = context.options.animation_by;
-    fail(by.failure, by.where, ": ", context.document.file, " has no animation ",
-         quote_text_with_escapes(name), ": wanted none", list, suggest_nearest_name(name, names));
+    fail(by.failure, by.where, ": ", context.document.file, " has no animation ", quote(name),
+         ": wanted none", list, suggest_name(name, names));
 }
 
 } // namespace

@@ -142,14 +142,14 @@ void decode_meshopt_views(GltfContainer& container, const std::string& file,
 
 // ---- KHR_draco_mesh_compression
 
-DracoComponentType read_draco_component_type(const JsonObject& accessor) {
+DracoType read_draco_component_type(const JsonObject& accessor) {
     switch (accessor.whole("componentType", 0)) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return DracoComponentType::int8;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return DracoComponentType::uint8;
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return DracoComponentType::int16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return DracoComponentType::uint16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return DracoComponentType::uint32;
-    default: return DracoComponentType::float32;
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return DracoType::int8;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return DracoType::uint8;
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return DracoType::int16;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return DracoType::uint16;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return DracoType::uint32;
+    default: return DracoType::float32;
     }
 }
 
@@ -235,7 +235,7 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
     // primitive, even if many primitives name the same bytes.
     account.decoded_bytes.add_amount_within_budget(bytes.size * kDecodedBytesPerDracoByte,
                                                    extension.place());
-    const DracoCodec& codec = get_draco_codec();
+    const DracoCodec& codec = draco_codec();
     DracoCounts counts;
     std::string wrong = codec.read_counts({bytes.first, bytes.size}, counts);
     extension.require_condition(wrong.empty(), wrong);

@@ -87,7 +87,7 @@ tinygltf::Model parse_gltf(const std::string& file, GltfContainer& container) {
     std::string error, warning;
     const bool is_read = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                                     static_cast<unsigned>(text.size()), "");
-    check(is_read, Failure::bad_data, file, ": cannot be read: ", escape_control_characters(error));
+    check(is_read, Failure::bad_data, file, ": cannot be read: ", escape(error));
     return model;
 }
 

@@ -72,16 +72,12 @@ std::shared_ptr<const Image> TextureReader::from_file(const JsonObject& image,
                                                       const JsonObject& use) {
     const std::string name = file_name_from_uri(image.text("uri"), image.place());
     const fs::path real = source_.files.find_scene_file_by_name(name, image.place());
-    if (real.empty())
-        return report_missing_image(image, ": " + quote_text_with_escapes(name) + " is not there",
-                                    use);
+    if (real.empty()) return report_missing_image(image, ": " + quote(name) + " is not there", use);
     const auto [entry, is_new] = files_.try_emplace(real.string());
     if (is_new)
         entry->second = decode_image(source_.files.read_file_content(real, image.place()), name,
-                                     image.place() + ": " + quote_text_with_escapes(name),
-                                     source_.account);
-    return entry->second ? entry->second
-                         : report_missing_image(image, ": " + quote_text_with_escapes(name), use);
+                                     image.place() + ": " + quote(name), source_.account);
+    return entry->second ? entry->second : report_missing_image(image, ": " + quote(name), use);
 }
 
 std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,

@@ -42,7 +42,7 @@ void note_unread_extensions_inside(const Json& value, const JsonObject& around,
         if (value.is_object() && key == "extensions" && inner.is_object())
             for (const auto& [name, content] : inner.items())
                 if (!is_read_extension(name))
-                    notes.add_note("extension " + quote_text_with_escapes(name) + ", not read",
+                    notes.add_note("extension " + quote(name) + ", not read",
                                    around.describe_json_place());
         note_unread_extensions_inside(inner, around, notes);
     }
@@ -53,8 +53,7 @@ void note_unread_extensions(const JsonObject& root, LoaderNotes& notes) {
         if (key == "extensions") {
             for (const auto& [name, content] : value.items())
                 if (!is_read_extension(name))
-                    notes.add_note("extension " + quote_text_with_escapes(name) + ", not read",
-                                   "of the whole file");
+                    notes.add_note("extension " + quote(name) + ", not read", "of the whole file");
         } else if (value.is_array()) {
             for (std::size_t i = 0; i < value.size(); ++i)
                 if (value[i].is_object())
@@ -102,7 +101,7 @@ void note_unread_attributes(const JsonObject& primitive, const JsonObject& attri
                            attributes.describe_json_place(), has_normal_map ? 1 : 0);
             continue;
         }
-        notes.add_note("attributes " + quote_text_with_escapes(name) + ", not read",
+        notes.add_note("attributes " + quote(name) + ", not read",
                        attributes.describe_json_place());
     }
 }
@@ -111,7 +110,7 @@ void check_attributes(const JsonObject& attributes, const JsonObject& root) {
     const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json_value().items()) {
         attributes.require_condition(name.size() <= kMaxAttributeNameLength, "attribute ",
-                                     quote_text_with_escapes(name), ": wanted a name of at most ",
+                                     quote(name), ": wanted a name of at most ",
                                      kMaxAttributeNameLength, " bytes, found ", name.size());
         const std::string type =
             root.at("accessors", attributes.needed_index(name, count)).text("type");
@@ -143,7 +142,7 @@ void check_animation_channels(const JsonObject& animation, LoaderNotes& notes) {
         const std::string path = target->text("path");
         if (target->has_member("node") && path != "translation" && path != "rotation" &&
             path != "scale")
-            notes.add_note("animation channels of " + quote_text_with_escapes(path) + ", left out",
+            notes.add_note("animation channels of " + quote(path) + ", left out",
                            channel.describe_json_place());
     });
 }

@@ -32,7 +32,7 @@ std::string decode_percent_encoding(std::string_view uri) {
 std::string file_name_from_uri(const std::string& uri, const std::string& place) {
     const auto wanted = [&](bool ok, std::string_view what) {
         check(ok, Failure::bad_data, place, ": uri: wanted a path relative to the scene, found ",
-              quote_text_with_escapes(uri), what);
+              quote(uri), what);
     };
     wanted(uri.find(':') >= uri.find_first_of("/?#"), ", which has a scheme");
     const std::string name = decode_percent_encoding(uri);
@@ -48,13 +48,13 @@ bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 ByteList decode_data_uri(std::string_view uri, const std::string& place) {
     const std::size_t comma = uri.find(',');
     check(comma != uri.npos && uri.substr(0, comma).ends_with(";base64"), Failure::bad_data, place,
-          ": uri: wanted data in base64, found ", quote_text_with_escapes(uri.substr(0, comma)));
+          ": uri: wanted data in base64, found ", quote(uri.substr(0, comma)));
     std::string_view text = uri.substr(comma + 1);
     const int most = text.size() % 4 == 0 ? 2 : 0; // padding characters
     for (int i = 0; i < most && text.ends_with('='); ++i) text.remove_suffix(1);
     const std::size_t wrong = std::min(text.find_first_not_of(kBase64Digits), text.size());
     check(wrong == text.size(), Failure::bad_data, place, ": uri: wanted digits of base64, found ",
-          quote_text_with_escapes(text.substr(wrong, 1)));
+          quote(text.substr(wrong, 1)));
     check(text.size() % 4 != 1, Failure::bad_data, place,
           ": uri: wanted four digits of base64 for three bytes, found one more");
     ByteList bytes;

@@ -21,8 +21,7 @@ bool is_targa_file(const std::string& file) {
     return end == ".tga";
 }
 
-std::vector<std::uint32_t> pack_texels(const ImageSizeAndChannels& shape,
-                                       const ColourChannels& layout,
+std::vector<std::uint32_t> pack_texels(const ImageShape& shape, const ColourChannels& layout,
                                        const std::vector<std::uint8_t>& values) {
     std::vector<std::uint32_t> texels(std::size_t(shape.size.x) * shape.size.y);
     for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -35,7 +34,7 @@ std::vector<std::uint32_t> pack_texels(const ImageSizeAndChannels& shape,
 }
 
 /// Returns an image of a file that holds linear light, encoded as sRGB.
-Image encode_light(const ImageSizeAndChannels& shape, const ColourChannels& layout,
+Image encode_light(const ImageShape& shape, const ColourChannels& layout,
                    const std::vector<float>& values) {
     Image image{.size = shape.size, .texels = {}};
     image.texels.reserve(std::size_t(shape.size.x) * shape.size.y);
@@ -60,14 +59,14 @@ Image encode_light(const ImageSizeAndChannels& shape, const ColourChannels& layo
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
                                           const std::string& place, SceneLoadBudgetUsage& account,
                                           bool is_light) {
-    std::string format = detect_image_format(bytes);
+    std::string format = detect_format(bytes);
     if (format.empty() && is_targa_file(file)) format = "targa";
     if (format.empty()) return nullptr;
-    const auto texels = [](const ImageSizeAndChannels& shape) { // four values count as a texel
+    const auto texels = [](const ImageShape& shape) { // four values count as a texel
         return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
     };
-    const MemoryByteSource source(bytes);
-    const auto judge = [&](const ImageSizeAndChannels& shape) {
+    const MemorySource source(bytes);
+    const auto judge = [&](const ImageShape& shape) {
         constexpr std::uint32_t kMaxTextureSide = 65535; // the renderer stores a side in 16 bits
         check(shape.size.x <= kMaxTextureSide && shape.size.y <= kMaxTextureSide, Failure::bad_data,
               place, ": wanted sides of at most ", kMaxTextureSide, " texels, found ", shape.size.x,
@@ -75,7 +74,7 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
         account.texels.check_amount_fits_budget(texels(shape), place);
     };
     ImageReader image_reader(source, format, place, judge, ImageColours());
-    const ImageSizeAndChannels& shape = image_reader.image_size_and_channels();
+    const ImageShape& shape = image_reader.shape();
     account.texels.add_amount_within_budget(texels(shape), place);
     const ColourChannels channels = find_colour_channels(shape, place);
     if (is_light && (format == "openexr" || format == "hdr")) {

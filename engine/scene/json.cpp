@@ -18,7 +18,7 @@ std::string describe_json_value(const Json& value) {
     if (value.is_array()) return "an array";
     if (value.is_object()) return "an object";
     if (!value.is_string()) return value.dump();
-    std::string text = quote_text_with_escapes(value.get_ref<const std::string&>());
+    std::string text = quote(value.get_ref<const std::string&>());
     text[0] = '"';
     text[text.rfind('\'')] = '"';
     return text;
@@ -27,7 +27,7 @@ std::string describe_json_value(const Json& value) {
 std::string format_list_item_label(std::string_view list, std::size_t index,
                                    const std::string& name) {
     return std::string(list) + "[" + std::to_string(index) + "]" +
-           (name.empty() ? "" : " " + quote_text_with_escapes(name));
+           (name.empty() ? "" : " " + quote(name));
 }
 
 std::string JsonObject::describe_json_place(std::string_view before, std::size_t steps) const {

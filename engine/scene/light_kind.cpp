@@ -8,12 +8,12 @@
 namespace catoptric::scene {
 
 RegisteredLightKind::RegisteredLightKind(const LightKind& kind) {
-    get_registered_table_entries<LightKind>().push_back(kind);
+    table_rows<LightKind>().push_back(kind);
 }
 
 const std::vector<LightKind>& list_light_kinds() {
     static const std::vector<LightKind> kSortedLightKinds = [] {
-        std::vector<LightKind> rows = list_registered_entries_in_order<LightKind>(&LightKind::id);
+        std::vector<LightKind> rows = sorted_rows<LightKind>(&LightKind::id);
         check(std::ranges::adjacent_find(rows, {}, &LightKind::id) == rows.end(), Failure::internal,
               "two kinds of light have one number");
         return rows;

@@ -31,8 +31,8 @@ Scene classify_scene_mirrors(Scene scene) {
 /// Throws if the options choose an animation of a scene that has none.
 void check_no_animation_chosen(const std::string& scene, const SceneFileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
-          options.animation_by.where, ": ", scene, " has no animation ",
-          quote_text_with_escapes(options.animation), ": wanted none");
+          options.animation_by.where, ": ", scene, " has no animation ", quote(options.animation),
+          ": wanted none");
 }
 
 [[noreturn]] void fail_unknown_scene(const std::string& word) {
@@ -42,12 +42,11 @@ void check_no_animation_chosen(const std::string& scene, const SceneFileOptions&
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
-    const std::string extension = lower_case_extension(word),
-                      nearest = suggest_nearest_name(word, names);
-    fail(Failure::usage, "scene ", quote_text_with_escapes(word), ": wanted a built-in scene (",
-         list, ") or a .glb, .gltf or .obj file", nearest,
+    const std::string extension = lower_case_extension(word), nearest = suggest_name(word, names);
+    fail(Failure::usage, "scene ", quote(word), ": wanted a built-in scene (", list,
+         ") or a .glb, .gltf or .obj file", nearest,
          nearest.empty() && !extension.empty()
-             ? ", found " + quote_text_with_escapes(extension) +
+             ? ", found " + quote(extension) +
                    "; export the scene as .glb (glTF 2.0) from the program that wrote it, or in "
                    "Blender by File > Import and File > Export"
              : "");
@@ -56,12 +55,11 @@ void check_no_animation_chosen(const std::string& scene, const SceneFileOptions&
 } // namespace
 
 RegisteredBuiltInScene::RegisteredBuiltInScene(BuiltInScene scene) {
-    get_registered_table_entries<BuiltInScene>().push_back(std::move(scene));
+    table_rows<BuiltInScene>().push_back(std::move(scene));
 }
 
 const std::vector<BuiltInScene>& list_built_in_scenes() {
-    static const std::vector<BuiltInScene> kSortedBuiltInScenes =
-        list_registered_entries_in_order<BuiltInScene>();
+    static const std::vector<BuiltInScene> kSortedBuiltInScenes = sorted_rows<BuiltInScene>();
     return kSortedBuiltInScenes;
 }
 

@@ -132,22 +132,21 @@ void apply_object_comments(const obj::ObjCatoptricComments& remarks, const std::
 
 void ObjBuilder::add_object(const std::string& shape, ObjShapePart part, bool is_only) {
     SceneLoadBudgetUsage& account = context.account;
-    account.objects.add_amount_within_budget(1, file, ": object ", quote_text_with_escapes(shape));
+    account.objects.add_amount_within_budget(1, file, ": object ", quote(shape));
     Object object{
         .name = shape, .mesh = scene.meshes.size(), .material = material_index(part.material)};
     const std::string& material = scene.materials[object.material].name;
     account.name_bytes.add_amount_within_budget(2 * (shape.size() + 1 + material.size()), file,
-                                                ": object ", quote_text_with_escapes(shape));
+                                                ": object ", quote(shape));
     if (!is_only) object.name += "/" + material;
     apply_object_comments(text.remarks, shape, object);
 
     Mesh mesh = build_obj_mesh(text, part.corners, object.name, account.mesh_vertices, file);
     part.corners = {};
     account.mesh_vertices.add_amount_within_budget(count_corners_without_normal(mesh), file,
-                                                   ": object ", quote_text_with_escapes(shape));
+                                                   ": object ", quote(shape));
     const std::size_t dropped = repair_mesh(mesh);
-    context.notes.add_note("triangles without area, left out",
-                           "in " + quote_text_with_escapes(object.name), dropped);
+    context.notes.add_note("triangles without area, left out", "in " + quote(object.name), dropped);
     scene.meshes.push_back(std::move(mesh));
     scene.objects.push_back(std::move(object));
 }
@@ -163,7 +162,7 @@ void check_object_names(const obj::RewrittenObjText& text) {
     for (const auto& [name, where] : text.remarks.named_at)
         if (!known.contains(name))
             fail(Failure::bad_data, where, ": wanted the name of an object with faces, found ",
-                 quote_text_with_escapes(name), suggest_nearest_name(name, text.names));
+                 quote(name), suggest_name(name, text.names));
 }
 
 /// Returns a material library for tinyobjloader, in which each material is only named by its
@@ -186,8 +185,7 @@ struct ParsedObj {
         std::string error;
         const bool is_read = tinyobj::LoadObj(&attributes, &shapes, &materials, nullptr, &error,
                                               &statements, &libraries, false, false);
-        check(is_read, Failure::bad_data, file,
-              ": cannot be read: ", escape_control_characters(error));
+        check(is_read, Failure::bad_data, file, ": cannot be read: ", escape(error));
     }
     std::vector<tinyobj::shape_t> shapes;
 };

@@ -86,7 +86,7 @@ std::size_t count_words(std::string_view text) {
 double parse_word_number(const ObjLine& line, std::string_view word) {
     if (const std::optional<double> number = parse_number(word)) return *number;
     fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword,
-         "' wants finite numbers, found ", quote_text_with_escapes(word));
+         "' wants finite numbers, found ", quote(word));
 }
 
 std::vector<double> parse_word_numbers(const ObjLine& line,
@@ -114,9 +114,8 @@ void UnreadStatementCounts::count_statement(const ObjLine& line) {
 void UnreadStatementCounts::report_unread_obj_statements(const std::string& file,
                                                          LoaderNotes& notes) const {
     for (const auto& [keyword, count] : counts_)
-        notes.add_note(keyword.empty()
-                           ? "other statements, not read"
-                           : "statements " + quote_text_with_escapes(keyword) + ", not read",
+        notes.add_note(keyword.empty() ? "other statements, not read"
+                                       : "statements " + quote(keyword) + ", not read",
                        file + ":" + std::to_string(count.first), count.lines);
 }
 

@@ -109,17 +109,15 @@ constexpr MtlNumberStatement kMtlNumberStatements[] = {
 void note_if_clamped(const ObjLine& line, std::initializer_list<double> numbers,
                      LoaderNotes& notes) {
     if (std::ranges::any_of(numbers, [](double number) { return is_clamped_factor(number); }))
-        notes.add_note(
-            kClampedFactorNote,
-            line.describe_line_place() + ": " +
-                quote_text_with_escapes(std::string(line.keyword) + " " + std::string(line.rest)));
+        notes.add_note(kClampedFactorNote,
+                       line.describe_line_place() + ": " +
+                           quote(std::string(line.keyword) + " " + std::string(line.rest)));
 }
 
 void add_radiance_to_mtl_material(const ObjLine& line, const dvec3& radiance, MtlMaterial& draft) {
     draft.emission = vec3(radiance);
     check(is_valid_radiance(draft.emission), Failure::bad_data, line.describe_line_place(),
-          ": 'Ke' wants radiance of at least 0 that fits a float, found ",
-          quote_text_with_escapes(line.rest));
+          ": 'Ke' wants radiance of at least 0 that fits a float, found ", quote(line.rest));
 }
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
@@ -186,14 +184,14 @@ public:
             context_.notes.add_note(
                 "images that are not there or of a kind that is not read, drawn "
                 "without",
-                map.place + ": " + quote_text_with_escapes(map.file));
+                map.place + ": " + quote(map.file));
             add_unsupported_feature(context_.unsupported, "missing-image",
-                                    map.place + ": " + quote_text_with_escapes(map.file));
+                                    map.place + ": " + quote(map.file));
             return std::nullopt;
         }
         if (image->is_clamped)
             context_.notes.add_note("images with light above 1, clamped to 1",
-                                    map.place + ": " + quote_text_with_escapes(map.file));
+                                    map.place + ": " + quote(map.file));
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
         // Mesh v points down and .obj v up: v' = 1 - ((1 - v) scale + offset).
         const auto& [x, y] = map.scale;
@@ -210,9 +208,9 @@ private:
         if (map.real.empty()) return nullptr;
         const auto [entry, is_new] = images_.try_emplace({map.real.string(), srgb});
         if (is_new)
-            entry->second = decode_image(
-                context_.files.read_file_content(map.real, map.place), map.file,
-                map.place + ": " + quote_text_with_escapes(map.file), context_.account, srgb);
+            entry->second = decode_image(context_.files.read_file_content(map.real, map.place),
+                                         map.file, map.place + ": " + quote(map.file),
+                                         context_.account, srgb);
         return entry->second;
     }
 

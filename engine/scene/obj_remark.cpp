@@ -28,20 +28,18 @@ Camera parse_camera_comment(const ObjLine& line, const CommentWordList& words) {
                         .orthographic_height = is_orthographic ? n[10] : 0};
     const dvec3 side = normalized_or_zero(glm::cross(camera.target - camera.eye, camera.up));
     check(side != dvec3(0), Failure::bad_data, line.describe_line_place(), ": camera ",
-          quote_text_with_escapes(camera.name),
-          " wants an up vector that is not parallel to its view");
+          quote(camera.name), " wants an up vector that is not parallel to its view");
     check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.describe_line_place(), ": camera ",
-          quote_text_with_escapes(camera.name),
-          " wants a field of view between 0 and 180 degrees, found ", n[9]);
+          quote(camera.name), " wants a field of view between 0 and 180 degrees, found ", n[9]);
     check(!is_orthographic || n[10] > 0, Failure::bad_data, line.describe_line_place(), ": camera ",
-          quote_text_with_escapes(camera.name), " wants a height above 0, found ", n.back());
+          quote(camera.name), " wants a height above 0, found ", n.back());
     return camera;
 }
 
 HarmonicMotion parse_harmonic_comment(const ObjLine& line, const CommentWordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 2, 4);
-    check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": motion of ",
-          quote_text_with_escapes(words[0]), " wants a period above 0, found ", n[3]);
+    check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": motion of ", quote(words[0]),
+          " wants a period above 0, found ", n[3]);
     return {.amplitude = parse_vector_at(n, 0), .period = n[3]};
 }
 
@@ -55,8 +53,8 @@ Keyframes parse_keyframes_comment(const ObjLine& line, std::string_view name, st
     const double count = parse_word_number(line, remove_first_word(rest));
     const std::size_t found = count_words(rest);
     check(count >= 1 && count * double(stride) == double(found), Failure::bad_data,
-          line.describe_line_place(), ": motion of ", quote_text_with_escapes(name), " wants ",
-          stride, " numbers for each of ", count, " keys, found ", found);
+          line.describe_line_place(), ": motion of ", quote(name), " wants ", stride,
+          " numbers for each of ", count, " keys, found ", found);
     account.keys.add_amount_within_budget(found / stride, line.describe_line_place());
     auto keys = std::make_shared<TranslationTrack>(
         TranslationTrack{.interpolation = interpolation});
@@ -68,7 +66,7 @@ Keyframes parse_keyframes_comment(const ObjLine& line, std::string_view name, st
     for (std::size_t i = 0; i < found / stride; ++i) {
         const double time = parse_word_number(line, remove_first_word(rest));
         check(keys->times.empty() || time > keys->times.back(), Failure::bad_data,
-              line.describe_line_place(), ": motion of ", quote_text_with_escapes(name),
+              line.describe_line_place(), ": motion of ", quote(name),
               " wants increasing times, found ", time);
         keys->times.push_back(time);
         if (is_cubic) keys->in_tangents.push_back(vector());
@@ -87,13 +85,13 @@ Motion parse_motion_comment(const ObjLine& line, SceneLoadBudgetUsage& account) 
     if (kind == "linear") return parse_keyframes_comment(line, name, rest, linear, account);
     if (kind == "cubic") return parse_keyframes_comment(line, name, rest, cubic, account);
     fail(Failure::bad_data, line.describe_line_place(),
-         ": motion wants harmonic, step, linear or cubic, found ", quote_text_with_escapes(kind));
+         ": motion wants harmonic, step, linear or cubic, found ", quote(kind));
 }
 
 Sphere parse_sphere_comment(const ObjLine& line, const CommentWordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 1, 4);
-    check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": sphere ",
-          quote_text_with_escapes(words[0]), " wants a radius above 0, found ", n[3]);
+    check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": sphere ", quote(words[0]),
+          " wants a radius above 0, found ", n[3]);
     return {parse_vector_at(n, 0), n[3]};
 }
 
@@ -102,8 +100,8 @@ Sphere parse_sphere_comment(const ObjLine& line, const CommentWordList& words) {
 void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
                            SceneLoadBudgetUsage& account) {
     const CommentWordList list = split_words(line);
-    check(!list.empty(), Failure::bad_data, line.describe_line_place(), ": ",
-          quote_text_with_escapes(line.keyword), " wants a name, found none");
+    check(!list.empty(), Failure::bad_data, line.describe_line_place(), ": ", quote(line.keyword),
+          " wants a name, found none");
     if (line.keyword == "#exposure") {
         const double stops = parse_word_numbers(line, list, 0, 1)[0];
         check(std::abs(stops) <= kMaxExposureStops, Failure::bad_data, line.describe_line_place(),
@@ -131,7 +129,7 @@ void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
     else
         fail(Failure::bad_data, line.describe_line_place(),
              ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",
-             quote_text_with_escapes(line.keyword.substr(1)));
+             quote(line.keyword.substr(1)));
 }
 
 } // namespace catoptric::scene::obj

@@ -69,9 +69,9 @@ void ObjReader::library_file(const ObjLine& line, const std::string& name) {
     const fs::path real = find_library(line, name);
     if (real.empty()) {
         context_.notes.add_note("material libraries that are not there",
-                                place + ": " + quote_text_with_escapes(name));
+                                place + ": " + quote(name));
         add_unsupported_feature(context_.unsupported, "missing-material",
-                                line.describe_line_place() + ": " + quote_text_with_escapes(name));
+                                line.describe_line_place() + ": " + quote(name));
     } else if (libraries_.insert(real.string()).second)
         read_material_library(real, place, context_, text_.library);
 }
@@ -145,10 +145,9 @@ void ObjReader::select_obj_material(const ObjLine& line) {
         // Without any material, the missing library has been noted already.
         const bool has_any = !text_.library.drafts.empty();
         context_.notes.add_note("uses of materials that no library has, drawn grey",
-                                line.describe_line_place() + ": " + quote_text_with_escapes(name),
-                                has_any ? 1 : 0);
+                                line.describe_line_place() + ": " + quote(name), has_any ? 1 : 0);
         add_unsupported_feature(context_.unsupported, "missing-material",
-                                line.describe_line_place() + ": " + quote_text_with_escapes(name));
+                                line.describe_line_place() + ": " + quote(name));
         if (material_) text_.statements += "usemtl none\n";
         material_.reset();
         return;
@@ -183,7 +182,7 @@ std::uint32_t parse_obj_index(const ObjLine& line, std::string_view digits, std:
     const auto result = std::from_chars(digits.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || value == 0)
         fail(Failure::bad_data, line.describe_line_place(),
-             ": face wants an index other than 0, found ", quote_text_with_escapes(digits));
+             ": face wants an index other than 0, found ", quote(digits));
     if (value < 0 && std::uint64_t(0) - std::uint64_t(value) > so_far)
         fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", so_far, " ",
              what, " so far, found ", value);

@@ -165,25 +165,23 @@ void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& not
         for (const dvec3& position : scene.meshes[object.mesh].positions)
             check(is_coordinate_in_range(
                       transform_point_to_world(object.world_from_object, position)),
-                  Failure::bad_data, file, ": object ", quote_text_with_escapes(object.name),
+                  Failure::bad_data, file, ": object ", quote(object.name),
                   ": wanted finite world coordinates up to 1e150, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_surface_area(scene, object)) return false;
-        notes.add_note("objects that have no triangle with an area, left out",
-                       quote_text_with_escapes(object.name));
+        notes.add_note("objects that have no triangle with an area, left out", quote(object.name));
         return true;
     });
     for (const std::string& name : remove_distant_objects(scene))
-        notes.add_note("objects farther away than floats reach, left out",
-                       quote_text_with_escapes(name));
+        notes.add_note("objects farther away than floats reach, left out", quote(name));
     LargestAlphas alphas;
     for (const Object& object : scene.objects)
         if (!can_be_seen(scene, object, alphas))
             notes.add_note(
                 "objects of which nothing can be seen, because their alpha is 0 or below "
                 "the cutoff",
-                quote_text_with_escapes(object.name) + ", of material " +
-                    quote_text_with_escapes(scene.materials[object.material].name));
+                quote(object.name) + ", of material " +
+                    quote(scene.materials[object.material].name));
     const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",

@@ -44,7 +44,7 @@ bool read_none_or_word(const JsonObject& file, const Json& value, const char* ke
                        const char* word) {
     const std::string text = read_text_member(file, value, key);
     file.require_condition(text == "none" || text == word, key, ": wanted \"none\" or \"", word,
-                           "\", found ", quote_text_with_escapes(text));
+                           "\", found ", quote(text));
     return text == word;
 }
 
@@ -235,8 +235,8 @@ SceneOverrides read_overrides(const std::string& file, const Json& document) {
         if (key == kSceneFileKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-            item.require_condition(false, quote_text_with_escapes(name), ": wanted one of ", list,
-                                   suggest_nearest_name(name, names));
+            item.require_condition(false, quote(name), ": wanted one of ", list,
+                                   suggest_name(name, names));
         }
         key->read(item, value, overrides);
     }
@@ -275,7 +275,7 @@ std::optional<SceneFile> read_scene_file(const fs::path& scene, const SceneFileO
 SceneOverrides read_override(const std::string& text) {
     const std::size_t end = text.find('=');
     check(end != std::string::npos && end > 0, Failure::usage,
-          "--set: wanted KEY=VALUE, such as ambient=0, found ", quote_text_with_escapes(text));
+          "--set: wanted KEY=VALUE, such as ambient=0, found ", quote(text));
     const std::string name = text.substr(0, end), value = text.substr(end + 1);
     const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileJsonKey::name);
     const ValueForm form = key == kSceneFileKeys.end() ? ValueForm::text : key->form;
@@ -293,12 +293,11 @@ std::string write_scene_file_text(const SceneOverrides& overrides, const fs::pat
     SceneOverrides relative = overrides;
     if (std::optional<std::string>& picture = relative.environment;
         picture && is_environment_file_name(*picture)) {
-        const fs::path folder = resolve_real_path(scene).parent_path();
-        const fs::path name = resolve_real_path(*picture).lexically_relative(folder);
+        const fs::path folder = real_path(scene).parent_path();
+        const fs::path name = real_path(*picture).lexically_relative(folder);
         check(!name.empty() && *name.begin() != "..", Failure::usage,
-              "--environment: ", quote_text_with_escapes(*picture), ": wanted a picture below ",
-              quote_text_with_escapes(folder.string()),
-              ", where a file beside the scene may name it");
+              "--environment: ", quote(*picture), ": wanted a picture below ",
+              quote(folder.string()), ", where a file beside the scene may name it");
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();

@@ -53,17 +53,16 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
     std::erase(known, "");
     std::ranges::sort(known);
     known.erase(std::ranges::unique(known).begin(), known.end());
-    const std::string nearest = find_nearest_name(pattern, known);
+    const std::string nearest = nearest_name(pattern, known);
     std::string list;
     constexpr std::size_t kMaxListedNames = 10;
     for (std::size_t i = 0; i < std::min(known.size(), kMaxListedNames); ++i)
-        list += (i ? ", " : "") + quote_text_with_escapes(known[i]);
+        list += (i ? ", " : "") + quote(known[i]);
     if (known.size() > kMaxListedNames)
         list += " and " + std::to_string(known.size() - kMaxListedNames) + " more";
-    fail(by.failure, by.where, " ", quote_text_with_escapes(pattern),
-         ": matches no object or material of scene ", quote_text_with_escapes(scene.name),
-         "; it has: ", list,
-         nearest.empty() ? "" : " (did you mean " + quote_text_with_escapes(nearest) + "?)");
+    fail(by.failure, by.where, " ", quote(pattern), ": matches no object or material of scene ",
+         quote(scene.name), "; it has: ", list,
+         nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)");
 }
 
 /// Gives these objects a changed copy of their material. Objects that share a material share its
@@ -97,7 +96,7 @@ std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const Sett
     std::erase_if(objects, [&](std::size_t i) {
         return !is_visibly_emissive(scene.materials[scene.objects[i].material]);
     });
-    check(!objects.empty(), by.failure, by.where, " ", quote_text_with_escapes(pattern),
+    check(!objects.empty(), by.failure, by.where, " ", quote(pattern),
           ": wanted something that emits light, found objects that do not");
     return objects;
 }
@@ -158,8 +157,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
         const std::optional<double> number = parse_number(
             std::string_view(text).substr(at + kRoughnessOptionPrefix.size()));
         check(number && *number >= 0 && *number <= 1, Failure::usage, option,
-              ": wanted a number from 0 to 1 after ',roughness=', found ",
-              quote_text_with_escapes(whole));
+              ": wanted a number from 0 to 1 after ',roughness=', found ", quote(whole));
         wish.roughness = static_cast<float>(*number);
         text.resize(at);
     }
@@ -185,7 +183,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
                 Failure::usage, option,
                 ": wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], REFLECTANCE a number or "
                 "r,g,b, all from 0 to 1, found ",
-                quote_text_with_escapes(text));
+                quote(text));
             wish.pattern = text.substr(0, at);
             for (int i = 0; i < 3; ++i)
                 wish.reflectance[i] = static_cast<float>(
@@ -193,7 +191,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
         }
     }
     check(!wish.pattern.empty(), Failure::usage, option, ": wanted a name or a pattern, found ",
-          quote_text_with_escapes(text));
+          quote(text));
     return wish;
 }
 
@@ -202,7 +200,7 @@ std::string make_mirror_pattern(const std::string& name) {
     std::size_t size = std::min(name.size(), kMaxNameBytes);
     while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
         --size; // keeps UTF-8 characters whole
-    const bool is_plain = escape_control_characters(name) == name;
+    const bool is_plain = escape(name) == name;
     std::string pattern;
     for (const char c : name.substr(0, size)) {
         const auto byte = static_cast<unsigned char>(c);
@@ -244,7 +242,7 @@ void apply_overrides(Scene& scene, const SceneOverrides& overrides) {
             feature.id = "glass-shadow-straight";
     for (const MirrorOverride& wish : overrides.mirrors)
         check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
-              quote_text_with_escapes(wish.pattern), ": wanted a roughness of at most ",
+              quote(wish.pattern), ": wanted a roughness of at most ",
               format_shortest_number(scene.mirror_max_roughness),
               ", above which no surface is a mirror, found ",
               format_shortest_number(wish.roughness), "; raise --mirror-max-roughness");

@@ -131,7 +131,7 @@ struct Access {
     /// `internal` without `with_captures`.
     static render::CapturedCubes read_captures(const Frame& frame, std::size_t part = 0);
     /// Returns the work of the frame's passes, in order of execution. Empty without `counts_work`.
-    static std::vector<PassWorkCounts> pass_work(const Frame& frame);
+    static std::vector<PassWork> pass_work(const Frame& frame);
     /// Returns the linear pictures and all data that the next frame can read of this one, as bytes.
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.

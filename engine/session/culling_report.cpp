@@ -52,12 +52,12 @@ OrderedJson describe_mirror_as_json(const RequiredWorkReport& required, const st
                                     std::size_t i) {
     const require::MirrorRequirements& needs = required.model.mirrors[i];
     OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
-    if (needs.is_captured) faces = split_text(require::list_cube_face_names(needs.faces), " ");
+    if (needs.is_captured) faces = split(require::list_cube_face_names(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
             {"seen", needs.is_seen},
-            {"seen_in", needs.seen_in ? OrderedJson(needs.seen_in.mirror_number()) : OrderedJson()},
+            {"seen_in", needs.seen_in ? OrderedJson(needs.seen_in.number()) : OrderedJson()},
             {"captured", needs.is_captured},
             {"faces", faces},
             {"sees", sees},
@@ -78,14 +78,14 @@ std::string format_culling_as_text(const Request& request, const require::UnitCo
     if (const auto gap = find_undrawn_reflections(request))
         text += std::string("not drawn\n  ") + kUndrawnReflectionsText + ": " +
                 report::format_fixed(100 * *gap->pixel_share, 1) +
-                " % of the picture (first: " + escape_control_characters(gap->first) +
+                " % of the picture (first: " + escape(gap->first) +
                 ")\n    why: " + kUndrawnReflectionsRemedy + "\n";
     if (capture_budget) text += describe_capture_budget(*capture_budget) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
-        text += "  mirror " + std::to_string(i + 1) + " " + quote_text_with_escapes(names[i]) +
-                ": " + suggestion.reasons[i] + "\n";
+        text += "  mirror " + std::to_string(i + 1) + " " + quote(names[i]) + ": " +
+                suggestion.reasons[i] + "\n";
     return text + require::format_plan_candidates(suggestion.candidates, costs.note);
 }
 

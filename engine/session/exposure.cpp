@@ -15,7 +15,7 @@ double choose_exposure_for_picture(const measure::Picture& picture) {
                      kExposureStepsPerStop = 3; // exposures are rounded to thirds of a stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
-        const double its = compute_luminance(dvec3(pixel));
+        const double its = luminance(dvec3(pixel));
         if (std::isfinite(its)) luminances.push_back(its);
     }
     if (luminances.empty()) return 0;

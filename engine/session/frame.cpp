@@ -93,7 +93,7 @@ render::CapturedCubes Access::read_captures(const Frame& frame, std::size_t part
             self.session->resident->scene_units()};
 }
 
-std::vector<PassWorkCounts> Access::pass_work(const Frame& frame) {
+std::vector<PassWork> Access::pass_work(const Frame& frame) {
     return frame.impl_->graph_runner().work_counts_of_frame(frame.impl_->ticket);
 }
 

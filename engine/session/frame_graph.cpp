@@ -115,9 +115,8 @@ std::size_t count_saturated_texels(const std::vector<std::byte>& bytes) {
     const std::vector<std::uint16_t> halves = read_typed_values<std::uint16_t>(bytes);
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < halves.size(); i += 4)
-        count += std::any_of(&halves[i], &halves[i] + 3, [](std::uint16_t half) {
-            return (half & 0x7fff) >= kLargestFiniteHalfFloatBits;
-        });
+        count += std::any_of(&halves[i], &halves[i] + 3,
+                             [](std::uint16_t half) { return (half & 0x7fff) >= kMaxHalfBits; });
     return count;
 }
 
@@ -237,7 +236,7 @@ std::vector<std::string> describe_unmet_requests(const TechniqueGraphPart& decla
         std::string names;
         for (std::size_t k = 0; k < std::min(kMaxNamedMirrors, lacking.size()); ++k)
             names += (k ? ", " : "") + std::to_string(lacking[k] + 1) + " " +
-                     quote_text_with_escapes(mirrors[lacking[k]]);
+                     quote(mirrors[lacking[k]]);
         if (lacking.size() > kMaxNamedMirrors)
             names += " and " + std::to_string(lacking.size() - kMaxNamedMirrors) + " more";
         said.push_back((lacking.size() > 1 ? "mirrors " : "mirror ") + names + ": " + lack);

@@ -72,9 +72,8 @@ reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::strin
     for (const auto& [knob, value] : settings.items()) {
         check(value.is_string() || value.is_number(), Failure::bad_data, place, ".settings.", knob,
               ": wanted a number or text, found ", format_json_value(value));
-        choice.settings.set_knob_from_text(choice.technique->name, knob,
-                                           value.is_string() ? value.get<std::string>()
-                                                             : value.dump());
+        choice.settings.set(choice.technique->name, knob,
+                            value.is_string() ? value.get<std::string>() : value.dump());
     }
     choice.update_shared_knobs_from_settings();
     return {std::move(pattern), std::move(choice)};

@@ -20,8 +20,7 @@ constexpr std::uintmax_t kMaxProfileBytes = 1U << 20U;
 
 /// Returns the value as text for messages, without JSON's quotes.
 std::string format_for_message(const Json& value) {
-    return value.is_string() ? quote_text_with_escapes(value.get<std::string>())
-                             : report::describe_json_value(value);
+    return value.is_string() ? quote(value.get<std::string>()) : report::describe_json_value(value);
 }
 
 /// Returns the index of the variant, or throws `failure` with `place` in front.
@@ -32,7 +31,7 @@ std::size_t find_variant_index(std::string_view name, Failure failure, const std
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
     }
-    fail(failure, place, ": wanted one of ", known, ", found ", quote_text_with_escapes(name));
+    fail(failure, place, ": wanted one of ", known, ", found ", quote(name));
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
@@ -40,9 +39,8 @@ std::uint8_t find_choice_index(const gpu::ShaderVariant& variant, const Json& ch
                                Failure failure, const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
-    fail(failure, place, ".", variant.name, ": wanted ",
-         quote_text_with_escapes(variant.choices[0]), " or ",
-         quote_text_with_escapes(variant.choices[1]), ", found ", format_for_message(choice));
+    fail(failure, place, ".", variant.name, ": wanted ", quote(variant.choices[0]), " or ",
+         quote(variant.choices[1]), ", found ", format_for_message(choice));
 }
 
 Json make_device_json(const DeviceInfo& device) {

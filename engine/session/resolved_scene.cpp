@@ -71,9 +71,9 @@ std::shared_ptr<scene::Environment> load_environment_by_name(const std::string& 
     if (word == "none") return nullptr;
     std::error_code ignored;
     if (word != "studio" && !std::filesystem::exists(measure::locate_picture(word).file, ignored))
-        fail(Failure::missing_input, "--environment: ", quote_text_with_escapes(word),
+        fail(Failure::missing_input, "--environment: ", quote(word),
              ": there is no such file; wanted a picture (.exr, .hdr or .png), studio or none",
-             suggest_nearest_name(word, std::vector<std::string>{"studio", "none"}));
+             suggest_name(word, std::vector<std::string>{"studio", "none"}));
     if (word != "studio") return read_environment_picture(word);
     auto studio = std::make_shared<scene::Environment>();
     studio->name = "studio", studio->studio = true;
@@ -104,7 +104,7 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     if (overrides.environment) {
         environment = load_environment_by_name(*overrides.environment);
         if (environment && !environment->studio && environment->size.x != 2 * environment->size.y)
-            wanted.said.push_back("environment " + quote_text_with_escapes(environment->name) +
+            wanted.said.push_back("environment " + quote(environment->name) +
                                   ": wanted a picture "
                                   "twice as wide as high, found " +
                                   std::to_string(environment->size.x) + "x" +
@@ -112,12 +112,12 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
                                   "; it is stretched over the whole sphere, "
                                   "but a square picture may be a mirror ball or an angular map");
         if (environment && !environment->studio)
-            record_scene_file_path(
-                scene, resolve_real_path(measure::locate_picture(*overrides.environment).file));
+            record_scene_file_path(scene,
+                                   real_path(measure::locate_picture(*overrides.environment).file));
     } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
         environment = load_environment_by_name("studio");
         scene::add_unsupported_feature(scene.unsupported, "added-studio",
-                                       "scene " + quote_text_with_escapes(scene.name));
+                                       "scene " + quote(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
     if (environment) {
@@ -168,7 +168,7 @@ void warn_of_scene_with_many_mirrors(scene::Scene& scene) {
     const auto mebibytes = [&](std::size_t bytes) {
         return std::to_string(count * bytes / kBytesPerMebibyte);
     };
-    scene.warnings.push_back("scene " + quote_text_with_escapes(scene.name) + " has " + number +
+    scene.warnings.push_back("scene " + quote(scene.name) + " has " + number +
                              " mirrors: " + number + " captures of six faces a frame, " +
                              mebibytes(kColourBytes) + " to " + mebibytes(kCaptureBytes) +
                              " MiB at face=256; a smaller face=, --plan and --model required "
@@ -280,7 +280,7 @@ scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
     const scene::Camera camera = is_room ? inside->camera : outside;
     if (wanted.is_file)
         scene::add_unsupported_feature(scene.unsupported, "added-camera",
-                                       "scene " + quote_text_with_escapes(scene.name));
+                                       "scene " + quote(scene.name));
     wanted.said.push_back(std::string("no camera") + (is_room ? ", a closed room" : "") +
                           ": using --camera " + scene::format_camera(camera) +
                           (is_room ? " (inside)" : ""));

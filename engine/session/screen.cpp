@@ -121,7 +121,7 @@ Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScre
 std::optional<std::uint32_t> WindowScreen::Impl::acquire() {
     const SteadyClock::time_point begin = SteadyClock::now();
     const std::optional<std::uint32_t> acquired = swapchain.acquire_image();
-    acquire_ms = elapsed_milliseconds(begin);
+    acquire_ms = ms_since(begin);
     image = acquired.value_or(0);
     return acquired;
 }
@@ -129,7 +129,7 @@ std::optional<std::uint32_t> WindowScreen::Impl::acquire() {
 bool WindowScreen::Impl::present() {
     const SteadyClock::time_point begin = SteadyClock::now();
     const bool is_presented = swapchain.present_image(image);
-    present_ms = elapsed_milliseconds(begin);
+    present_ms = ms_since(begin);
     return is_presented;
 }
 

@@ -61,8 +61,7 @@ void hash_ambient_light(require::RequiredWorkModel& model, double ambient) {
     for (require::MirrorRequirements& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
             for (std::uint64_t& content_hash : *content_hashes)
-                content_hash =
-                    ContentHash().add_value(content_hash).add_value(ambient).current_hash();
+                content_hash = ContentHash().add(content_hash).add(ambient).sum();
 }
 
 std::string rendered_work_name(RenderedWork work) {

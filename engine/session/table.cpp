@@ -11,15 +11,15 @@ std::vector<TechniqueInfo> techniques() {
     std::vector<TechniqueInfo> infos;
     for (const reflect::Technique* row : reflect::list_techniques()) {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
-        const TechniqueKnobSettings defaults(row->knobs);
-        for (const catoptric::TechniqueKnob& knob : row->knobs) {
-            const std::span<const std::string_view> choices = knob.list_choices();
+        const KnobSettings defaults(row->knobs);
+        for (const catoptric::Knob& knob : row->knobs) {
+            const std::span<const std::string_view> choices = knob.names();
             info.knobs.push_back(
                 {std::string(knob.name),
                  std::string(knob.help),
                  knob.low,
                  choices.empty() ? knob.high : static_cast<double>(choices.size() - 1),
-                 defaults.format_current_knob_value(knob),
+                 defaults.format(knob),
                  {choices.begin(), choices.end()},
                  std::string(knob.special)});
         }
@@ -30,14 +30,13 @@ std::vector<TechniqueInfo> techniques() {
 
 std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice) {
     std::vector<Setting> settings;
-    const TechniqueKnobSettings defaults(choice.technique->knobs);
-    for (const catoptric::TechniqueKnob& knob : choice.technique->knobs) {
-        const bool is_number = knob.list_choices().empty() && !choice.settings.is_special(knob);
-        const std::string value = choice.settings.format_current_knob_value(knob);
-        settings.push_back(
-            {std::string(knob.name), value,
-             is_number ? std::optional(choice.settings.numeric_knob_value(knob)) : std::nullopt,
-             value != defaults.format_current_knob_value(knob)});
+    const KnobSettings defaults(choice.technique->knobs);
+    for (const catoptric::Knob& knob : choice.technique->knobs) {
+        const bool is_number = knob.names().empty() && !choice.settings.is_special(knob);
+        const std::string value = choice.settings.format(knob);
+        settings.push_back({std::string(knob.name), value,
+                            is_number ? std::optional(choice.settings.number(knob)) : std::nullopt,
+                            value != defaults.format(knob)});
     }
     return settings;
 }

@@ -18,7 +18,7 @@ namespace {
 /// Storage that a row of the technique table points into.
 struct TechniqueRowStorage {
     Search search;
-    std::vector<TechniqueKnob> knobs;
+    std::vector<Knob> knobs;
     std::vector<std::string_view> compared;
     reflect::Technique row;
 };
@@ -60,11 +60,11 @@ void check_search_definition(const Search& search) {
 
 /// Returns the search's own knobs, followed by the knobs of all searches. Knobs of continuing
 /// searches are included only if the search continues.
-std::vector<TechniqueKnob> list_search_knobs(const Search& search) {
+std::vector<Knob> list_search_knobs(const Search& search) {
     constexpr std::array<std::string_view, 3> kContinueKnobNames{"continue", "captures", "mirrors"};
-    std::vector<TechniqueKnob> knobs;
+    std::vector<Knob> knobs;
     const auto check_new = [&](std::string_view name) {
-        check(std::ranges::find(knobs, name, &TechniqueKnob::name) == knobs.end(), Failure::usage,
+        check(std::ranges::find(knobs, name, &Knob::name) == knobs.end(), Failure::usage,
               "technique '", search.name, "' has two knobs '", name, "'");
     };
     for (const SearchKnob& own : search.knobs) {
@@ -76,7 +76,7 @@ std::vector<TechniqueKnob> list_search_knobs(const Search& search) {
                          .value = own.value,
                          .is_real = own.is_real});
     }
-    for (const TechniqueKnob& knob : reflect::kCommonSearchKnobs) {
+    for (const Knob& knob : reflect::kCommonSearchKnobs) {
         // The name is refused even if the technique lacks this knob, because shared code would read
         // the name as the shared knob.
         check_new(knob.name);

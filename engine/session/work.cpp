@@ -5,12 +5,12 @@
 
 namespace catoptric::session {
 
-std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& request,
-                                             const Watcher& watcher) {
+std::vector<PassWork> count_frame_work(Session& session, const Request& request,
+                                       const Watcher& watcher) {
     const WatchedWork watched(watcher);
     session.forget();
     const int last = request.warmup + 1;
-    std::vector<PassWorkCounts> work;
+    std::vector<PassWork> work;
     for (int k = 1; k <= last; ++k) {
         FrameSpec spec = request;
         spec.time = request.instant(k);

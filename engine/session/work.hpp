@@ -11,7 +11,7 @@ namespace catoptric::session {
 /// Begins with a cut, renders the warm-up, and then one frame that counts its work. The session
 /// must show the request's scene. Counts repeat to the last digit on the same device and driver.
 /// Throws as Session::frame does.
-std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& request,
-                                             const Watcher& watcher = {});
+std::vector<PassWork> count_frame_work(Session& session, const Request& request,
+                                       const Watcher& watcher = {});
 
 } // namespace catoptric::session

@@ -29,7 +29,7 @@ PlanAudit::PlanAudit(const std::filesystem::path& file, AuditOptions options)
 
 PlanAudit::~PlanAudit() = default;
 
-bool PlanAudit::is_for_scene(const scene::Scene& scene) const {
+bool PlanAudit::is_for(const scene::Scene& scene) const {
     const std::string& hash = impl_->running.request().scene_hash;
     return hash.empty() || hash == scene::hash_scene(scene);
 }

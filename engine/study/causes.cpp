@@ -316,8 +316,7 @@ void check_causes_are_known(const CompareRequest& request, int, report::Comparis
                   !(scene::is_glass(material) || scene::has_clear_coat(material)),
               Failure::usage,
               "--causes: wanted rough mirrors without glass or clear coat, found mirror ",
-              quote_text_with_escapes(scene.objects[i].name),
-              "; causes of error in its reflections are not known");
+              quote(scene.objects[i].name), "; causes of error in its reflections are not known");
     }
     const std::string wanted = choose_reference("", scene);
     check(parse_technique(request.reference).settings == parse_technique(wanted).settings,
@@ -393,8 +392,7 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
         const std::uint32_t drawn = looked.w > 0
                                         ? (static_cast<std::uint32_t>(looked.w) - 1) / 8 + 1
                                         : 0;
-        disagree_.push_back(drawn !=
-                            measure::first_mirror_of_hit_word(hits[place]).mirror_number());
+        disagree_.push_back(drawn != measure::first_mirror_of_hit_word(hits[place]).number());
     }
 }
 

@@ -121,7 +121,7 @@ public:
                               }});
             comparison_.complete = true;
         } catch (const Error& error) {
-            if (comparison_.rows.empty() && !is_failure_by_stop_signal(error.failure)) throw;
+            if (comparison_.rows.empty() && !is_signal(error.failure)) throw;
             comparison_.stopped = error;
         } catch (const std::bad_alloc&) {
             if (comparison_.rows.empty()) throw;

@@ -30,8 +30,7 @@ std::vector<std::string> list_default_techniques(const Request& base) {
     std::vector<std::string> rows;
     for (const reflect::Technique* technique : reflect::list_techniques())
         if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {
-                return technique->unfit(flat, tolerance, TechniqueKnobSettings(technique->knobs))
-                    .empty();
+                return technique->unfit(flat, tolerance, KnobSettings(technique->knobs)).empty();
             }))
             rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
     rows.emplace_back(reflect::kAutoPlanName);
@@ -42,7 +41,7 @@ void check_has_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     std::string lines;
     for (const std::string& option : suggest_mirror_options(scene)) lines += "\n  " + option;
-    fail(Failure::bad_data, "scene ", quote_text_with_escapes(scene.name),
+    fail(Failure::bad_data, "scene ", quote(scene.name),
          ": wanted a mirror, whose reflections are what is compared, found none; make one with "
          "--mirror PATTERN[=REFLECTANCE]",
          lines.empty() ? "" : ", such as" + lines);

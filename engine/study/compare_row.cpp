@@ -127,7 +127,7 @@ measure::Errors compute_masked_errors(const measure::Picture& picture,
         errors.*measure::list_row_masks()[i].error = against(masks[i]);
     for (std::size_t i = 0; i < mirrors; ++i)
         errors.error_per_mirror.push_back(
-            against(measure::mask_one_mirror(hits, MirrorId::mirror_id_from_list_index(i))));
+            against(measure::mask_one_mirror(hits, MirrorId::from_index(i))));
     return errors;
 }
 

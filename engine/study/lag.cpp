@@ -209,7 +209,7 @@ private:
         const auto begin = SteadyClock::now();
         render_still_picture(coarse, path_.start);
         frames_done_ = 0;
-        lag_.reference_rays = choose_refined_rays(wanted, rays, elapsed_milliseconds(begin) / 1000,
+        lag_.reference_rays = choose_refined_rays(wanted, rays, ms_since(begin) / 1000,
                                                   2 * lag_request_.reference_seconds /
                                                       (path_.count + 1)); // for one of two pictures
         lag_request_.reference = set_lobe_rays(lag_request_.reference, lag_.reference_rays);

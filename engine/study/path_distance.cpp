@@ -264,7 +264,7 @@ measure_path_distance(Engine& engine, Session& session, const Request& base,
         PathPictures pictures(session, request, reference, watcher);
         trace_path_distance(engine, pictures, watcher, distance);
     } catch (const Error& error) {
-        if (is_failure_by_stop_signal(error.failure) || !engine.usable()) throw;
+        if (is_signal(error.failure) || !engine.usable()) throw;
         distance.unknown = error.what();
     }
     if (distance.is_known() && !file.empty()) keep_path_distance(file, key, distance, warn);

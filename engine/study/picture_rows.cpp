@@ -179,10 +179,10 @@ void check_picture_rows(const CompareRequest& request) {
     for (const std::string& text : request.base.techniques)
         names.push_back(parse_technique(text).label);
     for (const auto& [name, file] : request.pictures) {
-        check(!name.empty(), Failure::usage, "--row ", quote_text_with_escapes("=" + file),
+        check(!name.empty(), Failure::usage, "--row ", quote("=" + file),
               ": wanted NAME=PICTURES with a name, found none");
-        check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ",
-              quote_text_with_escapes(name), ": wanted a name that no other row has");
+        check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ", quote(name),
+              ": wanted a name that no other row has");
         names.push_back(name);
         check_folder_shows_views(file, drawn_views, request.base);
         for (std::size_t view = 0; view <= views; ++view)

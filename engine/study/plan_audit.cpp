@@ -68,8 +68,7 @@ std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::s
     if (plans.back().starts_with("plan:")) plans.back() = "plan:" + file;
     for (std::size_t i = 0; i + 1 < plans.size(); ++i)
         check(!plans[i].starts_with("plan:"), Failure::bad_data, file, ": proofs[", i,
-              "].technique: wanted a plan that depends on no other file, found ",
-              quote_text_with_escapes(plans[i]));
+              "].technique: wanted a plan that depends on no other file, found ", quote(plans[i]));
     return plans;
 }
 

@@ -132,7 +132,7 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
     watcher.on_frame = {};
     watcher.on_piece = [&](std::uint64_t done, std::uint64_t all) {
         if (watcher_.on_piece) watcher_.on_piece(results.size() * all + done, 2 * all);
-        if (elapsed_milliseconds(start) > 1e3 * seconds) throw OutOfTime();
+        if (ms_since(start) > 1e3 * seconds) throw OutOfTime();
     };
     const std::array seeds{noisy.seeds.next(), noisy.seeds.next()};
     try {
@@ -140,10 +140,10 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
             const SteadyClock::time_point frame = SteadyClock::now();
             request.techniques = {set_lobe_seed(noisy.technique, seed)};
             results.push_back(run(reference_session_, request, watcher));
-            noisy.frame_seconds = 1e-3 * elapsed_milliseconds(frame);
+            noisy.frame_seconds = 1e-3 * ms_since(frame);
         }
     } catch (const OutOfTime&) {
-        noisy.seconds += 1e-3 * elapsed_milliseconds(start);
+        noisy.seconds += 1e-3 * ms_since(start);
         return false;
     }
     noisy.used.insert(noisy.used.end(), seeds.begin(), seeds.end());
@@ -154,7 +154,7 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
     if (reference.part.hdr.pixels.empty())
         reference.part = std::move(results.front().parts.front());
     update_picture(reference);
-    noisy.seconds += 1e-3 * elapsed_milliseconds(start);
+    noisy.seconds += 1e-3 * ms_since(start);
     report_frame_to_watcher(watcher_, 1, 1);
     return true;
 }

@@ -38,9 +38,9 @@ std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     std::set<int> seeds{0};
     for (const std::string& row : rows)
         for (const reflect::TechniquePlanRule& rule : read_technique_plan(row).rules)
-            for (const TechniqueKnob& knob : rule.choice.settings.list_knobs())
+            for (const Knob& knob : rule.choice.settings.knobs())
                 if (knob.name == rule.choice.technique->traits.seed)
-                    seeds.insert(rule.choice.settings.knob_value_as_integer(knob));
+                    seeds.insert(rule.choice.settings.integer(knob));
     return seeds;
 }
 

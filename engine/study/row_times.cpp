@@ -35,10 +35,10 @@ void check_rows_of_times(const CompareRequest& request, int /*count*/,
                     std::ranges::any_of(request.pictures,
                                         [&](const auto& picture) { return picture.first == row; }),
                     Failure::usage, "--row-times ", file,
-                    ": wanted the name of a row of --row, found ", quote_text_with_escapes(row));
+                    ": wanted the name of a row of --row, found ", quote(row));
                 check(seen.emplace(row, times.device).second, Failure::usage, "--row-times ", file,
-                      ": wanted one time for each row and device, found a second for ",
-                      quote_text_with_escapes(row), " on ", quote_text_with_escapes(times.device));
+                      ": wanted one time for each row and device, found a second for ", quote(row),
+                      " on ", quote(times.device));
             }
         }
     }

@@ -16,11 +16,11 @@ RegisteredStudy::RegisteredStudy(Study study) {
     }
     study.part.name = study.name;
     if (study.part.tables != nullptr) const report::RegisteredReportPart registers(study.part);
-    get_registered_table_entries<Study>().push_back(std::move(study));
+    table_rows<Study>().push_back(std::move(study));
 }
 
 const std::vector<Study>& list_studies() {
-    static const std::vector<Study> kSortedStudies = list_registered_entries_in_order<Study>();
+    static const std::vector<Study> kSortedStudies = sorted_rows<Study>();
     return kSortedStudies;
 }
 
@@ -30,7 +30,7 @@ const Study& find_study(std::string_view name) {
         if (study.name == name) return study;
         names.emplace_back(study.name);
     }
-    fail(Failure::usage, "no study '", name, "'", suggest_nearest_name(name, names));
+    fail(Failure::usage, "no study '", name, "'", suggest_name(name, names));
 }
 
 void check_study(const StudyChoice& choice, const std::string& reference) {

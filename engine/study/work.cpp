@@ -17,20 +17,20 @@ using report::ReportTable;
 std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) {
     ReportTable table{"Work of one frame", {report::make_text_column("row")}, "", {}, {}};
     std::vector<std::size_t> kinds;
-    for (std::size_t kind = 0; kind < kCountedWorkKindCount; ++kind)
+    for (std::size_t kind = 0; kind < kWorkKindCount; ++kind)
         for (const report::Row& row : comparison.rows)
             if (measure::total_work_counts_of_row(row).values[kind].value_or(0) > 0) {
                 kinds.push_back(kind);
                 break;
             }
     for (const std::size_t kind : kinds) {
-        table.columns.emplace_back(std::string(kCountedWorkKinds[kind].name));
-        table.note += (table.note.empty() ? "" : "; ") + std::string(kCountedWorkKinds[kind].name) +
-                      ": " + std::string(kCountedWorkKinds[kind].help);
+        table.columns.emplace_back(std::string(kWorkKinds[kind].name));
+        table.note += (table.note.empty() ? "" : "; ") + std::string(kWorkKinds[kind].name) + ": " +
+                      std::string(kWorkKinds[kind].help);
     }
     for (const report::Row& row : comparison.rows) {
         if (!measure::has_counted_work(row)) continue;
-        const WorkCountsByKind counts = measure::total_work_counts_of_row(row);
+        const WorkCounts counts = measure::total_work_counts_of_row(row);
         std::vector<std::string> cells{row.label};
         for (const std::size_t kind : kinds)
             cells.push_back(counts.values[kind] ? std::to_string(*counts.values[kind])

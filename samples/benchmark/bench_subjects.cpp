@@ -47,11 +47,10 @@ public:
 
 private:
     void count_work_of_frames() {
-        const WorkCountsByKind work = sum_work_counts_of_passes(
-            count_frame_work(*benchmark_session_, request_));
-        for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+        const WorkCounts work = sum_work(count_frame_work(*benchmark_session_, request_));
+        for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (work.values[i])
-                work_[measure::kWorkCounterPrefix + std::string(kCountedWorkKinds[i].name)] =
+                work_[measure::kWorkCounterPrefix + std::string(kWorkKinds[i].name)] =
                     static_cast<double>(*work.values[i]);
     }
 

@@ -74,10 +74,9 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
             run->suspend_frames();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        samples.push_back(
-            {make_cost_sample_name(rows[i]),
-             sum_work_counts_of_passes(count_frame_work(session, rows[i], options.watcher)),
-             compute_median_device_time(runs[i]->list_rounds(), device.threads)});
+        samples.push_back({make_cost_sample_name(rows[i]),
+                           sum_work(count_frame_work(session, rows[i], options.watcher)),
+                           compute_median_device_time(runs[i]->list_rounds(), device.threads)});
 }
 
 } // namespace
@@ -102,15 +101,14 @@ std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const R
     Session session(engine, request.scene);
     std::vector<measure::TimedWorkSample> samples;
     for (const Request& row : split_request_by_technique(request))
-        samples.push_back({make_cost_sample_name(row),
-                           sum_work_counts_of_passes(count_frame_work(session, row, watcher)), 0});
+        samples.push_back(
+            {make_cost_sample_name(row), sum_work(count_frame_work(session, row, watcher)), 0});
     return samples;
 }
 
-std::vector<CountedWorkKind> list_fitted_kinds() {
-    std::vector<CountedWorkKind> kinds;
-    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
-        kinds.push_back(static_cast<CountedWorkKind>(i));
+std::vector<WorkKind> list_fitted_kinds() {
+    std::vector<WorkKind> kinds;
+    for (std::size_t i = 0; i < kWorkKindCount; ++i) kinds.push_back(static_cast<WorkKind>(i));
     return kinds;
 }
 

@@ -76,7 +76,7 @@ std::vector<PictureAov> parse_aov_list(const std::string& text) {
     for (const AovRow& row : list_aov_rows()) names.emplace_back(row.name);
     names.emplace_back("all");
     std::vector<bool> is_wanted(names.size());
-    for (const std::string& word : split_text(text, ","))
+    for (const std::string& word : split(text, ","))
         is_wanted[parse_choice_index("--aov", word, names)] = true;
     std::vector<PictureAov> aovs;
     for (std::size_t i = 0; i < list_aov_rows().size(); ++i)

@@ -26,9 +26,9 @@ bool has_knob_of_axis(const std::string& technique, const std::string& knob) {
 bool sets_knob(const std::string& text, const std::string& knob) {
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos) return false;
-    return std::ranges::any_of(
-        split_text(text.substr(colon + 1), ","),
-        [&](const std::string& setting) { return setting.starts_with(knob + "="); });
+    return std::ranges::any_of(split(text.substr(colon + 1), ","), [&](const std::string& setting) {
+        return setting.starts_with(knob + "=");
+    });
 }
 
 std::string format_setting(const Setting& setting) {
@@ -83,7 +83,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
         fail(Failure::usage, "--axis ", axis.knob,
              ": wanted a knob of one of the techniques, see 'list techniques'; found none that has "
              "it",
-             suggest_nearest_name_or_list(axis.knob, names));
+             suggest_name_or_list(axis.knob, names));
     }
     return rows;
 }
@@ -93,15 +93,13 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
 KnobAxis parse_knob_axis(const std::string& text) {
     const std::size_t end = text.find('=');
     KnobAxis axis;
-    if (end != std::string::npos)
-        axis = {text.substr(0, end), split_text(text.substr(end + 1), ",")};
+    if (end != std::string::npos) axis = {text.substr(0, end), split(text.substr(end + 1), ",")};
     std::vector<std::string> values = axis.values;
     std::ranges::sort(values);
     const bool is_complete = values.size() >= 2 && !values.front().empty() &&
                              std::ranges::adjacent_find(values) == values.end();
     check(!axis.knob.empty() && is_complete, Failure::usage,
-          "--axis: wanted KNOB=VALUE,VALUE,... with different values, found ",
-          quote_text_with_escapes(text));
+          "--axis: wanted KNOB=VALUE,VALUE,... with different values, found ", quote(text));
     return axis;
 }
 

@@ -46,7 +46,7 @@ void check_baseline_options(const BaselineOptions& options) {
 BaselineGate::BaselineGate(const BaselineOptions& options) : baseline_options_(options) {
     if (options.baseline.empty()) return;
     json_ = read_file(options.baseline);
-    check_json_syntax(options.baseline, json_);
+    check_json(options.baseline, json_);
 }
 
 void BaselineGate::check_baseline_scene(const report::Comparison& comparison) const {

@@ -77,7 +77,7 @@ measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments,
 std::string make_costs_text(const measure::DeviceCosts& costs) {
     std::string text = costs.device + "\n";
     for (const measure::WorkUnitCost& unit : costs.units) {
-        const CountedWorkKindInfo& kind = kCountedWorkKinds[static_cast<std::size_t>(unit.kind)];
+        const WorkKindInfo& kind = kWorkKinds[static_cast<std::size_t>(unit.kind)];
         text += fmt::format("  {:<17} {:>12.5g} ns  {}\n", kind.name, unit.ns, kind.help);
     }
     const measure::UnitCostFitQuality& fit = *costs.fit;

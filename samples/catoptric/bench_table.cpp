@@ -30,7 +30,7 @@ void add_median_cells(std::vector<std::string>& cells, const std::vector<double>
 }
 
 std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, bool counted) {
-    std::vector<std::string> cells{escape_control_characters(benchmark.name)};
+    std::vector<std::string> cells{escape(benchmark.name)};
     add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time));
     add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time));
     if (!counted) return cells;
@@ -72,8 +72,8 @@ std::string format_count_changes(const measure::BenchmarkChanges& changes) {
         compared += change.compared_counts;
         for (const measure::CountedWorkChange& count : change.counts)
             cells.push_back(
-                {escape_control_characters(change.name), escape_control_characters(count.name),
-                 fmt::format("{:.0f}", count.before), fmt::format("{:.0f}", count.after),
+                {escape(change.name), escape(count.name), fmt::format("{:.0f}", count.before),
+                 fmt::format("{:.0f}", count.after),
                  count.before > 0 ? fmt::format("{:.4f}", count.after / count.before) : "-"});
     }
     if (cells.size() > 1) return align_columns(cells);
@@ -82,8 +82,7 @@ std::string format_count_changes(const measure::BenchmarkChanges& changes) {
 
 std::string format_name_list(const char* title, const std::vector<std::string>& names) {
     std::string text;
-    for (const std::string& name : names)
-        text += (text.empty() ? "" : ", ") + escape_control_characters(name);
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + escape(name);
     return names.empty() ? "" : fmt::format("{}: {}\n", title, text);
 }
 
@@ -122,7 +121,7 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes) {
         {"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
     for (const BenchmarkChange& change : changes.list)
         cells.push_back(
-            {escape_control_characters(change.name), format_cost(change.medians[0], change.cost),
+            {escape(change.name), format_cost(change.medians[0], change.cost),
              format_cost(change.medians[1], change.cost),
              format_benchmark_number(change.ratio.median), format_interval(change.ratio.ci95),
              format_benchmark_number(change.real_ratio.median),

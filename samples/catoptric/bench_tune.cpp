@@ -55,8 +55,7 @@ std::string make_tuning_table(const session::DeviceInfo& device,
                          one.is_faster_than_default() ? "taken" : "not taken"});
     }
     return fmt::format("{}, {}; {}, {} rounds; device time over the default's\n", device.name,
-                       device.driver, escape_control_characters(tried.front().benchmark),
-                       tried.front().ms.size()) +
+                       device.driver, escape(tried.front().benchmark), tried.front().ms.size()) +
            align_columns(cells, 5);
 }
 

@@ -65,7 +65,7 @@ void read_error_limit(const std::string& text, study::ChooseRequest& limits) {
     const std::size_t end = text.find('=');
     const std::string quantity = text.substr(0, end);
     check(end != std::string::npos && (quantity == "flip" || quantity == "rmse"), Failure::usage,
-          "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote_text_with_escapes(text));
+          "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote(text));
     set_error_limit("--max-error",
                     quantity == "flip" ? study::ErrorQuantity::flip : study::ErrorQuantity::rmse,
                     text.substr(end + 1), limits);

@@ -132,7 +132,7 @@ void refuse_unknown_words(const CLI::App& verb, const std::string& program) {
     for (const std::string& extra : extras) {
         if (!extra.starts_with('-') || extra == "--") continue;
         const std::string name = extra.substr(0, extra.find('='));
-        const std::string nearest = suggest_nearest_name(name, names);
+        const std::string nearest = suggest_name(name, names);
         fail(Failure::usage, "'", verb.get_name(), "' has no option '", name, "'",
              nearest.empty() ? "; '" + program + " --help-all' lists all" : nearest);
     }
@@ -276,7 +276,7 @@ void CommandLine::check_command_verb_is_known(const std::string& word) const {
     for (const auto& known : {names, flags})
         if (std::ranges::find(known, word) != known.end()) return;
     fail(Failure::usage, "wanted a verb (", join_with_commas(names), "), found '", word, "'",
-         suggest_nearest_name(word, word.starts_with('-') ? flags : names));
+         suggest_name(word, word.starts_with('-') ? flags : names));
 }
 
 std::vector<CompletionVerb> CommandLine::list_completion_verbs() const {

@@ -246,7 +246,7 @@ public:
                                                         " drawn views; the table shows one view");
         if (!output_options.json)
             print_result(
-                (is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
+                (is_one_ ? "" : escape(comparison.scene.name) + "\n") +
                 make_compare_table(comparison) +
                 (measure::has_budget(comparison) ? report::describe_budget_answer(comparison) + "\n"
                                                  : "") +
@@ -440,7 +440,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
         [options](const std::string& text) {
             const std::size_t end = text.find('=');
             check(end != std::string::npos && end > 0 && end + 1 < text.size(), Failure::usage,
-                  "--row: wanted NAME=PICTURES, found ", quote_text_with_escapes(text));
+                  "--row: wanted NAME=PICTURES, found ", quote(text));
             options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
         });
     verb.option("--max-ms", "M",

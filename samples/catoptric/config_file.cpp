@@ -80,7 +80,7 @@ std::vector<std::string> add_options_of_config_file(std::vector<std::string> wor
     for (const auto& [key, value] : document.items()) {
         const std::string place = file + ": '" + key + "'";
         check(std::ranges::find(names, key) != names.end(), Failure::bad_data, place,
-              ": wanted the name of a verb or an option", suggest_nearest_name(key, names));
+              ": wanted the name of a verb or an option", suggest_name(key, names));
         if (std::ranges::find(verbs, key, &CompletionVerb::name) == verbs.end())
             add(place, key, value);
     }
@@ -95,7 +95,7 @@ std::vector<std::string> add_options_of_config_file(std::vector<std::string> wor
         for (const auto& [key, value] : options.items()) {
             check(find_option(one, key) != nullptr, Failure::bad_data, place,
                   ": wanted the name of an option of this verb, found '", key, "'",
-                  suggest_nearest_name(key, of_verb));
+                  suggest_name(key, of_verb));
             if (one.name == verb->name) add(place + ": '" + key + "'", key, value);
         }
     }

@@ -25,7 +25,7 @@ report::PixelRectangle parse_crop(const std::string& text) {
             numbers[count] = static_cast<int>(
                 parse_integer("--crop", word, count < 2 ? 0 : 1, kMaxCropCoordinate));
     check(count == numbers.size() && !text.ends_with(','), Failure::usage,
-          "--crop: wanted X,Y,WIDTH,HEIGHT in pixels, found ", quote_text_with_escapes(text));
+          "--crop: wanted X,Y,WIDTH,HEIGHT in pixels, found ", quote(text));
     return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
 }
 
@@ -49,11 +49,11 @@ report::DrawingConverter find_pdf_converter() {
     return [program](const std::filesystem::path& svg, const std::filesystem::path& pdf) {
         PartialFile partial(pdf);
         run_external_program({program, "-f", "pdf", "-o",
-                              std::filesystem::absolute(partial.temporary_path()).string(),
+                              std::filesystem::absolute(partial.temporary()).string(),
                               std::filesystem::absolute(svg).string()},
                              pdf.string());
-        partial.copy_mode_of_target();
-        partial.replace_target();
+        partial.copy_mode();
+        partial.commit();
     };
 }
 

@@ -61,7 +61,7 @@ FilmWriter::FilmWriter(const std::string& file, uvec2 size, double frames_per_se
     : name_(file), partial_(file), watcher_(watcher) {
     check_film_can_be_made(file, size);
     start_ffmpeg(list_ffmpeg_words(size, frames_per_second,
-                                   std::filesystem::absolute(partial_.temporary_path()).string()));
+                                   std::filesystem::absolute(partial_.temporary()).string()));
 }
 
 FilmWriter::~FilmWriter() {
@@ -145,8 +145,8 @@ void FilmWriter::finish() {
     input_ = -1;
     const int status = wait_for_ffmpeg(); // it encodes the last frames after its input has ended
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_after_end_of_ffmpeg(status);
-    partial_.copy_mode_of_target();
-    partial_.replace_target();
+    partial_.copy_mode();
+    partial_.commit();
 }
 
 } // namespace catoptric::cli

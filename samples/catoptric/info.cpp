@@ -117,7 +117,7 @@ void write_scene_file(const InfoOptions& options, const session::ResolvedScene& 
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
           "--write: wanted a scene's file, beside which to write, found the built-in ",
-          quote_text_with_escapes(scene.name));
+          quote(scene.name));
     const std::filesystem::path path = scene::scene_file_path(options.common.scene);
     std::error_code error;
     check(options.replaces ||

@@ -111,7 +111,7 @@ scene::Camera choose_camera(const CommonOptions& common, session::ResolvedScene&
 void warn_of_no_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     const std::vector<std::string> options = session::suggest_mirror_options(scene, 1);
-    print_warning("scene " + quote_text_with_escapes(scene.name) + " has no mirror" +
+    print_warning("scene " + quote(scene.name) + " has no mirror" +
                   (options.empty() ? "" : "; try " + options.front()));
 }
 

@@ -24,7 +24,7 @@ std::string escape_message_text(std::string_view text) {
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find("\n  ", begin), text.size());
-        shown += escape_control_characters(text.substr(begin, end - begin));
+        shown += escape(text.substr(begin, end - begin));
         if (end < text.size()) shown += "\n";
         begin = end + 1;
     }
@@ -77,9 +77,7 @@ void prepare_standard_streams() {
     }
 }
 
-void print_result(std::string_view result) {
-    write_all_to_stdout(escape_control_characters(result, "\n"));
-}
+void print_result(std::string_view result) { write_all_to_stdout(escape(result, "\n")); }
 
 void print_picture_bytes(std::string_view result) { write_all_to_stdout(result); }
 

@@ -23,7 +23,7 @@ struct OutputOptions {
 void prepare_standard_streams();
 
 /// Writes the result, text or JSON, to stdout and flushes it. Escapes characters that a terminal
-/// might obey (`escape_control_characters`). Throws `Failure::io`, without a message if the reader
+/// might obey (`escape`). Throws `Failure::io`, without a message if the reader
 /// has gone.
 void print_result(std::string_view result);
 /// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `print_result`

@@ -27,13 +27,13 @@ public:
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;
         if (is_there && !S_ISREG(status.st_mode)) return nullptr;
-        if (const auto found = paths_.find(resolve_real_path(path)); found != paths_.end())
+        if (const auto found = paths_.find(real_path(path)); found != paths_.end())
             return &found->second;
         const auto found = numbers_.find({status.st_dev, status.st_ino});
         return is_there && found != numbers_.end() ? &found->second : nullptr;
     }
     void add_known_file(const KnownFileIdentity& file) {
-        paths_.emplace(resolve_real_path(file.path), file);
+        paths_.emplace(real_path(file.path), file);
         struct stat status {};
         if (::stat(file.path.c_str(), &status) == 0)
             numbers_.emplace(std::pair(status.st_dev, status.st_ino), file);

@@ -45,8 +45,7 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
         "light that rough surfaces scatter several times: none (it is lost) or turquin (none)",
         [&](const std::string& text) {
             check(text == "none" || text == "turquin", Failure::usage,
-                  "--multiple-scattering: wanted none or turquin, found ",
-                  quote_text_with_escapes(text));
+                  "--multiple-scattering: wanted none or turquin, found ", quote(text));
             overrides.multiple_scattering = text == "turquin";
         });
     verb.option("--glass-shadow", "NAME",
@@ -54,8 +53,7 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
                 "through it leave) (none)",
                 [&](const std::string& text) {
                     check(text == "none" || text == "tint", Failure::usage,
-                          "--glass-shadow: wanted none or tint, found ",
-                          quote_text_with_escapes(text));
+                          "--glass-shadow: wanted none or tint, found ", quote(text));
                     overrides.tints_glass_shadows = text == "tint";
                 });
 }

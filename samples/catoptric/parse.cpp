@@ -32,7 +32,7 @@ std::string format_allowed_range(double low, double high) {
 
 uvec2 parse_size(const std::string& option, const std::string& text) {
     constexpr std::uint32_t kMaxPictureSide = 1U << 20; // larger than any device allows
-    const std::vector<std::string> parts = split_text(text, "x");
+    const std::vector<std::string> parts = split(text, "x");
     uvec2 size{0, 0};
     const bool numbers = parts.size() == 2 && parse_number_of_whole_text(parts[0], size.x) &&
                          parse_number_of_whole_text(parts[1], size.y);
@@ -73,7 +73,7 @@ std::size_t parse_choice_index(const std::string& option, const std::string& tex
                                const std::vector<std::string>& choices) {
     const auto found = std::ranges::find(choices, text);
     check(found != choices.end(), Failure::usage, option, ": wanted one of ",
-          join_with_commas(choices), ", found '", text, "'", suggest_nearest_name(text, choices));
+          join_with_commas(choices), ", found '", text, "'", suggest_name(text, choices));
     return static_cast<std::size_t>(found - choices.begin());
 }
 

@@ -87,7 +87,7 @@ void ProgressPrinter::tell_while_working(const std::stop_token& ended) {
 }
 
 std::string ProgressPrinter::describe_phase() const {
-    const double seconds = 1e-3 * elapsed_milliseconds(phase_start_),
+    const double seconds = 1e-3 * ms_since(phase_start_),
                  done = std::min((frame_ + share_) / frames_, 1.0);
     const std::string so_far = format_duration(seconds) + " so far";
     if (!(done > 0)) return fmt::format("{}: {}, no estimate yet", label_, so_far);
@@ -111,7 +111,7 @@ void ProgressPrinter::row(const std::string& label, std::size_t index, std::size
     phase_start_ = SteadyClock::now();
     frame_ = 0, frames_ = 1, share_ = 0, is_cleared_ = false;
     if (index == 0) start_ = SteadyClock::now(), tenths_ = 0; // a new list of rows begins
-    label_ = escape_control_characters(label);
+    label_ = escape(label);
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};

@@ -155,7 +155,7 @@ void check_picture_places(const RenderOptions& options, const scene::Scene& scen
         if (!file.empty()) outputs.push_back(file);
     check_outputs_differ_from_inputs(outputs, scene.files);
     if (!options.camera_path.empty())
-        check_outputs_differ_from_inputs(outputs, {resolve_real_path(options.camera_path)},
+        check_outputs_differ_from_inputs(outputs, {real_path(options.camera_path)},
                                          ", which the camera's path is read from");
 }
 

@@ -67,9 +67,8 @@ SceneTableCells list_material_cells(const session::SceneInfo& info) {
                  "", "", "", "", "", "", ""});
             break;
         }
-        cells.push_back({escape_control_characters(material.name), material.kind,
-                         std::to_string(material.objects), format_colour(material.albedo),
-                         fmt::format("{:.3g}", material.factors[0]),
+        cells.push_back({escape(material.name), material.kind, std::to_string(material.objects),
+                         format_colour(material.albedo), fmt::format("{:.3g}", material.factors[0]),
                          fmt::format("{:.3g}", material.factors[1]), format_colour(material.f0),
                          describe_material_details(material)});
     }
@@ -87,7 +86,7 @@ std::string describe_mirror_shape(const scene::MirrorShape& shape) {
 SceneTableCells list_mirror_cells(const session::SceneInfo& info) {
     SceneTableCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
     for (const session::MirrorInfo& mirror : info.mirrors)
-        cells.push_back({std::to_string(mirror.number), escape_control_characters(mirror.name),
+        cells.push_back({std::to_string(mirror.number), escape(mirror.name),
                          describe_mirror_shape(mirror.shape),
                          fmt::format("{:.1f} %", 100 * mirror.screen_share),
                          format_colour(mirror.reflectance) + (mirror.is_constant ? "" : " and up"),
@@ -98,8 +97,7 @@ SceneTableCells list_mirror_cells(const session::SceneInfo& info) {
 SceneTableCells list_light_cells(const report::SceneFacts& facts) {
     SceneTableCells cells{{"light", "name", "at", "towards", "emits", "area"}};
     for (const report::LightFacts& light : measure::read_scene_contents(facts).lights)
-        cells.push_back({light.kind,
-                         light.name.empty() ? "-" : escape_control_characters(light.name),
+        cells.push_back({light.kind, light.name.empty() ? "-" : escape(light.name),
                          light.is_parallel ? "-" : format_point(light.position),
                          light.direction == dvec3(0) ? "-" : format_point(light.direction),
                          format_colour(vec3(light.emission)),
@@ -114,16 +112,15 @@ std::string describe_lens(const measure::CameraFacts& camera) {
 }
 
 std::string describe_camera(const measure::CameraFacts& camera) {
-    return fmt::format("{}: from {} to {}, {}", quote_text_with_escapes(camera.name),
-                       format_point(camera.eye), format_point(camera.target),
-                       describe_lens(camera));
+    return fmt::format("{}: from {} to {}, {}", quote(camera.name), format_point(camera.eye),
+                       format_point(camera.target), describe_lens(camera));
 }
 
 std::string describe_environment(const report::SceneFacts& facts) {
     const measure::SceneContents& contents = measure::read_scene_contents(facts);
     if (!contents.environment) return "none";
     const report::EnvironmentFacts& environment = *contents.environment;
-    std::string text = escape_control_characters(environment.name);
+    std::string text = escape(environment.name);
     if (environment.scale != 1) text += fmt::format(", times {:.4g}", environment.scale);
     if (environment.rotation_degrees != 0)
         text += fmt::format(", turned by {:.4g} degrees", environment.rotation_degrees);
@@ -134,8 +131,7 @@ std::string describe_exposure(const SceneInfoFacts& words) {
     if (!words.exposure) return "auto; not told";
     // The exposure that `render` finds, for the camera that is given or added.
     const std::string how = words.auto_exposure
-                                ? " (auto, by camera " +
-                                      quote_text_with_escapes(words.info.facts.camera.name) + ")"
+                                ? " (auto, by camera " + quote(words.info.facts.camera.name) + ")"
                                 : "";
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
@@ -145,7 +141,7 @@ SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
     SceneTableCells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);
-        cells.back()[3] = escape_control_characters(cells.back()[3]);
+        cells.back()[3] = escape(cells.back()[3]);
         if (measure::read_scene_contents(facts).unsupported[cells.size() - 2].pixel_share)
             cells.back()[2] += " %";
     }
@@ -157,10 +153,8 @@ SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
 std::string format_scene_info(const SceneInfoFacts& words) {
     const session::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
-    std::string text = format_info_line("scene", escape_control_characters(facts.name) + ", hash " +
-                                                     facts.hash);
-    if (!words.scene_file.empty())
-        text += format_info_line("scene file", escape_control_characters(words.scene_file));
+    std::string text = format_info_line("scene", escape(facts.name) + ", hash " + facts.hash);
+    if (!words.scene_file.empty()) text += format_info_line("scene file", escape(words.scene_file));
     text += format_info_line(
         "triangles", fmt::format("{} shown, {} stored", facts.triangles, info.stored_triangles));
     text += format_info_line("objects", fmt::format("{} of {} meshes, {} of them instances",

@@ -168,8 +168,7 @@ SiteComparison read_common_members(const SiteJson& json, const ReportPlace& plac
     found.version = read_text_member_of_report(json, "version", place);
     found.date = read_text_member_of_report(json, "date", place);
     place.at("date").check(is_report_date(found.date),
-                           "wanted a date such as 2026-11-24T03:05:10Z, found ",
-                           quote_text_with_escapes(found.date));
+                           "wanted a date such as 2026-11-24T03:05:10Z, found ", quote(found.date));
     const SiteJson rows = find_member(json, "rows", place);
     place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
                            report::describe_json_value(rows));

@@ -99,8 +99,7 @@ void check_members(const SweepJson& object, std::initializer_list<std::string_vi
     place.check(object.is_object(), "wanted an object, found ", describe(object));
     for (const auto& [name, value] : object.items())
         place.check(std::ranges::find(names, name) != names.end(), "wanted ",
-                    fmt::format("{}", fmt::join(names, ", ")), ", found ",
-                    quote_text_with_escapes(name));
+                    fmt::format("{}", fmt::join(names, ", ")), ", found ", quote(name));
 }
 
 /// Returns the value of a knob or option as command-line text.
@@ -114,16 +113,16 @@ std::string option_value_as_text(const SweepJson& value, const SweepPlace& place
 std::string make_path_from_plan_folder(const std::string& path, const fs::path& file,
                                        const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
-    const fs::path whole = resolve_real_path(resolve_real_path(file).parent_path() / path);
-    return whole.lexically_relative(resolve_real_path(folder)).string();
+    const fs::path whole = real_path(real_path(file).parent_path() / path);
+    return whole.lexically_relative(real_path(folder)).string();
 }
 
 /// Returns a path of the plan, relative to the working folder.
 std::string make_path_from_working_folder(const std::string& path, const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
-    return (resolve_real_path(folder) / path)
+    return (real_path(folder) / path)
         .lexically_normal()
-        .lexically_proximate(resolve_real_path("."))
+        .lexically_proximate(real_path("."))
         .string();
 }
 
@@ -194,7 +193,7 @@ std::vector<std::string> read_scenes(const SweepJson& document, const fs::path& 
     for (const std::string& scene :
          read_texts(read_list(document, "scenes", place), place.member("scenes"))) {
         place.member("scenes").check(!scene.starts_with('-'), "wanted a scene, found ",
-                                     quote_text_with_escapes(scene));
+                                     quote(scene));
         scenes.push_back(
             is_built_in_scene(scene) ? scene : make_path_from_plan_folder(scene, file, folder));
     }
@@ -206,11 +205,11 @@ std::vector<std::string> read_techniques(const SweepJson& document, const SweepP
     const SweepPlace at = place.member("techniques");
     std::vector<std::string> rows = read_texts(read_list(document, "techniques", place), at);
     for (const std::string& row : rows) {
-        at.check(!row.starts_with('-'), "wanted a technique, found ", quote_text_with_escapes(row));
+        at.check(!row.starts_with('-'), "wanted a technique, found ", quote(row));
         at.check(!row.starts_with("plan:"),
                  "wanted the rules of a plan as text, because its file "
                  "may change, found ",
-                 quote_text_with_escapes(row));
+                 quote(row));
     }
     return rows;
 }
@@ -482,15 +481,14 @@ SweepPlan make_sweep_plan(const fs::path& file, const fs::path& folder) {
         for (const SweepJson& options : option_sets) try {
                 add_pieces_of_scene(sweep, scene, options, folder, plan.pieces);
             } catch (const Error& error) {
-                throw_error(error.failure, file.string() + ": scene " +
-                                               quote_text_with_escapes(scene) + ", options " +
-                                               options.dump() + ": " + error.what());
+                throw_error(error.failure, file.string() + ": scene " + quote(scene) +
+                                               ", options " + options.dump() + ": " + error.what());
             }
     std::set<std::string> ids;
     for (const SweepPiece& piece : plan.pieces)
         check(ids.insert(piece.id).second, Failure::bad_data, file.string(),
-              ": wanted different scenes, found ",
-              quote_text_with_escapes(piece.content["scene"].get<std::string>()), " twice");
+              ": wanted different scenes, found ", quote(piece.content["scene"].get<std::string>()),
+              " twice");
     plan.common = list_common_pieces(plan.pieces);
     return plan;
 }

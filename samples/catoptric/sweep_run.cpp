@@ -122,7 +122,7 @@ private:
     /// Returns whether a failure, such as a missing device, would also make all further pieces
     /// fail.
     static bool must_failure_end_all_pieces(Failure failure) {
-        return is_failure_by_stop_signal(failure) || failure == Failure::device_lost ||
+        return is_signal(failure) || failure == Failure::device_lost ||
                failure == Failure::no_device || failure == Failure::cannot_create ||
                failure == Failure::io || failure == Failure::internal;
     }
@@ -156,7 +156,7 @@ private:
                 }
             check(found == 1, Failure::usage, "--piece: wanted the id of a piece in ",
                   (folder_ / "plan.json").string(), ", or its first ", kShortIdCharacters,
-                  " characters, found ", quote_text_with_escapes(name));
+                  " characters, found ", quote(name));
         }
         return ids;
     }

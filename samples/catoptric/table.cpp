@@ -109,8 +109,8 @@ std::string make_compare_table(const report::Comparison& comparison) {
     return caution +
            fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "
                        "{}\n",
-                       escape_control_characters(comparison.scene.name), comparison.width,
-                       comparison.height, comparison.frames, comparison.rounds, comparison.warmup,
+                       escape(comparison.scene.name), comparison.width, comparison.height,
+                       comparison.frames, comparison.rounds, comparison.warmup,
                        comparison.device.name, comparison.reference_label) +
            describe_noise(comparison) + align_columns(rows, notes_at);
 }

@@ -29,7 +29,7 @@ embed::Device make_vulkan_device() {
     std::uint32_t one = 1;
     if (vkEnumeratePhysicalDevices(made.instance, &one, &made.physical) < 0 || one == 0)
         throw std::runtime_error("no Vulkan device");
-    const embed::RequiredDeviceFeatures features(made.physical);
+    const embed::RequiredFeatures features(made.physical);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueCount = 1,
@@ -141,8 +141,8 @@ int main() try {
                                       .camera = session.scene().cameras.front(),
                                       .size = {kPictureSideInPixels, kPictureSideInPixels}};
         const embed::Target target{image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-        for (int k = 0; k < 5; ++k) embed::render_frame_into(session, spec, target);
-        const session::Frame last = embed::render_frame_into(session, spec, target);
+        for (int k = 0; k < 5; ++k) embed::render_into(session, spec, target);
+        const session::Frame last = embed::render_into(session, spec, target);
         const measure::Picture shown = read_back_image(own,
                                                        image); // the queue runs this copy after the
                                                                // frame

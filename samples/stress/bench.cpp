@@ -39,7 +39,7 @@ bool StressTestBench::is_error_that_ends_run(const Error& error) const {
     const bool is_fault = error.failure == Failure::device_lost ||
                           error.failure == Failure::no_device ||
                           (error.failure == Failure::exhausted && !is_resource_refusal(error));
-    return is_fault || is_failure_by_stop_signal(error.failure) || !bench_engine_.usable();
+    return is_fault || is_signal(error.failure) || !bench_engine_.usable();
 }
 
 session::Request StressTestBench::make_stress_request(const scene::Scene& scene,

@@ -39,8 +39,7 @@ scene::Scene make_room_with_one_mirror(std::size_t mirror) {
 render::CapturedCubes render_and_read_captures(StressTestBench& bench, const scene::Scene& scene,
                                                std::uint32_t edge, TexelFormat format) {
     session::Request request = bench.make_stress_request(
-        scene,
-        fmt::format("parallax:shadow=none,face={},distance={}", edge, texel_format_name(format)));
+        scene, fmt::format("parallax:shadow=none,face={},distance={}", edge, format_name(format)));
     request.size = {16, 16};
     request.ambient = 0;
     session::Session session(bench.bench_engine(), scene);
@@ -72,8 +71,7 @@ void judge_captured_distances(StressTestBench& bench) {
                                             : std::abs(found / wanted - 1) <= 0x1p-10);
                 clamped += wanted > 1.01 * kMaxStoredDistance && !(found > kMaxStoredDistance);
             });
-            const std::string what = fmt::format("ball {}, {}", mirror + 1,
-                                                 texel_format_name(format));
+            const std::string what = fmt::format("ball {}, {}", mirror + 1, format_name(format));
             bench.add_measured_case(what + ": share of texels off by more than 2^-10",
                                     double(off) / double(judged), .001);
             bench.add_measured_case(what + ": texels clamped at 200", double(clamped), 0);

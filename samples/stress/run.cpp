@@ -85,7 +85,7 @@ report::StressResults run_stress_properties(session::Engine& engine, const Stres
         }
         stress.complete = true;
     } catch (const Error& error) {
-        if (stress.rows.empty() && !is_failure_by_stop_signal(error.failure)) throw;
+        if (stress.rows.empty() && !is_signal(error.failure)) throw;
         stress.stopped = error;
     } catch (const std::bad_alloc&) {
         if (stress.rows.empty()) throw;

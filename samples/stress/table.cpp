@@ -35,7 +35,7 @@ const StressProperty& find_stress_property(std::string_view id) {
         ids.emplace_back(row->id);
     }
     fail(Failure::usage, "--only: wanted the id of a property (", ids.front(), " ... ", ids.back(),
-         "), found '", id, "'", suggest_nearest_name(id, ids));
+         "), found '", id, "'", suggest_name(id, ids));
 }
 
 } // namespace catoptric::stress

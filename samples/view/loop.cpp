@@ -48,7 +48,7 @@ void ViewLoop::start_audit() {
     options.most_time = view_options_.audit_percent / 100;
     options.before_audit = [this] { viewer_->collect_finished_frames(0); };
     audit_.emplace(view_options_.audit, std::move(options));
-    if (!audit_->is_for_scene(request_.scene))
+    if (!audit_->is_for(request_.scene))
         cli::print_warning("--audit " + view_options_.audit +
                            ": its plans were proved for another scene");
     audit_->prepare(viewer_->viewer_session(), request_);

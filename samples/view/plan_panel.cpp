@@ -15,8 +15,7 @@ void draw_choice_knob(TechniqueSettings& drawing, const session::KnobInfo& knob)
     const std::string value = find_knob_value(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
-        if (ImGui::Selectable(choice.c_str(), choice == value))
-            set_knob_from_text(drawing, knob, choice);
+        if (ImGui::Selectable(choice.c_str(), choice == value)) set(drawing, knob, choice);
     ImGui::EndCombo();
 }
 
@@ -33,24 +32,24 @@ void draw_number_knob(TechniqueSettings& drawing, const session::KnobInfo& knob)
     else if (high - low <= kMaxSliderRange ? ImGui::SliderInt(knob.name.c_str(), &value, low, high)
                                            : ImGui::InputInt(knob.name.c_str(), &value, 0, 0,
                                                              ImGuiInputTextFlags_EnterReturnsTrue))
-        set_knob_from_text(drawing, knob, std::to_string(std::clamp(value, low, high)));
+        set(drawing, knob, std::to_string(std::clamp(value, low, high)));
     ImGui::PopItemWidth();
     if (high - low > kMaxSliderRange && !is_special) {
         ImGui::SameLine(210);
         if (ImGui::SmallButton("/2"))
-            set_knob_from_text(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));
+            set(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));
         ImGui::SameLine();
         if (ImGui::SmallButton("x2"))
-            set_knob_from_text(drawing, knob, std::to_string(std::clamp(value * 2, low, high)));
+            set(drawing, knob, std::to_string(std::clamp(value * 2, low, high)));
     }
     if (knob.special.empty()) return;
     ImGui::SameLine(275);
     bool now = is_special;
     if (ImGui::Checkbox(knob.special.c_str(), &now))
-        set_knob_from_text(drawing, knob,
-                           now                          ? knob.special
-                           : knob.value == knob.special ? std::to_string(low)
-                                                        : knob.value);
+        set(drawing, knob,
+            now                          ? knob.special
+            : knob.value == knob.special ? std::to_string(low)
+                                         : knob.value);
 }
 
 void draw_knob_controls(TechniqueSettings& drawing) {

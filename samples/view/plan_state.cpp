@@ -87,8 +87,7 @@ EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
     return made;
 }
 
-void set_knob_from_text(TechniqueSettings& drawing, const session::KnobInfo& knob,
-                        const std::string& value) {
+void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::string& value) {
     if (value == knob.value)
         drawing.knobs.erase(knob.name);
     else
@@ -106,7 +105,7 @@ EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
         const session::TechniqueInfo* technique = find_technique_info(drawing.technique);
         if (!technique) return;
         const auto known = std::ranges::find(technique->knobs, knob, &session::KnobInfo::name);
-        if (known != technique->knobs.end()) set_knob_from_text(drawing, *known, value);
+        if (known != technique->knobs.end()) set(drawing, *known, value);
     };
     change(plan.rest);
     for (auto& [mirror, drawing] : plan.own) change(drawing);

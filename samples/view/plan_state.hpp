@@ -39,8 +39,7 @@ EditedPlanState parse_plan_text(const std::string& text);
 EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
                                        const std::vector<PlanEntry>& entries);
 /// Sets a knob. Removes its entry if the value is the default.
-void set_knob_from_text(TechniqueSettings& drawing, const session::KnobInfo& knob,
-                        const std::string& value);
+void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::string& value);
 /// Returns the value of a knob.
 std::string find_knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.

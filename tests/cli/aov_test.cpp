@@ -32,10 +32,10 @@ protected:
         return ended;
     }
     ExrChannels read_channels(const std::string& file) const {
-        const auto bytes = catoptric::open_file_bytes(folder / file);
+        const auto bytes = catoptric::open_source(folder / file);
         catoptric::ImageReader reader(*bytes, "openexr", file);
         const std::vector<float> values = reader.floats();
-        ExrChannels read{reader.image_size_and_channels().channels, {}};
+        ExrChannels read{reader.shape().channels, {}};
         for (std::size_t i = 0; i < values.size(); ++i)
             read.values[read.names[i % read.names.size()]].push_back(values[i]);
         return read;

@@ -203,10 +203,8 @@ TEST_F(CommandLineTest, OriginInThePicturesHeaderIsEnoughToMakeThePictureAgain) 
                  {"--time", ".5", "--technique", "raytrace:depth=3,samples=5", "--origin"});
     render("a_%d.exr", words);
     const auto read_header_text = [&](const std::string& file) {
-        const auto bytes = catoptric::open_file_bytes(folder / file);
-        return catoptric::ImageReader(*bytes, "openexr", file)
-            .image_size_and_channels()
-            .description;
+        const auto bytes = catoptric::open_source(folder / file);
+        return catoptric::ImageReader(*bytes, "openexr", file).shape().description;
     };
     const json origin = json::parse(read_header_text("a_3.exr"));
     EXPECT_EQ(origin["schema"], "catoptric/picture/1");

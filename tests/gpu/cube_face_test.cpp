@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, Distances,
                          testing::Values(TexelFormat::r32f, TexelFormat::r16f,
                                          TexelFormat::r8_unorm),
                          [](const auto& instance) {
-                             return std::string(texel_format_name(instance.param));
+                             return std::string(format_name(instance.param));
                          });
 
 TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {

@@ -102,8 +102,8 @@ TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
     for (const VkImageLayout left_in :
          {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
           VK_IMAGE_LAYOUT_GENERAL}) {
-        const session::Frame frame = embed::render_frame_into(session, spec,
-                                                              {own.image_handle(), left_in});
+        const session::Frame frame = embed::render_into(session, spec,
+                                                        {own.image_handle(), left_in});
         EXPECT_TRUE(own.read_image_content(left_in).pixels == frame.read().display.pixels)
             << left_in;
     }
@@ -127,14 +127,14 @@ TEST(Embed, UnusableTargetIsRefused) {
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
     // The image is a placeholder, because the calls are refused before they use it.
     const auto image = reinterpret_cast<VkImage>(std::uintptr_t{1});
-    EXPECT_THAT(usage_error_text([&] { embed::render_frame_into(session, spec, {}); }),
+    EXPECT_THAT(usage_error_text([&] { embed::render_into(session, spec, {}); }),
                 HasSubstr("an image"));
     EXPECT_THAT(usage_error_text([&] {
-                    embed::render_frame_into(session, spec, {image, VK_IMAGE_LAYOUT_UNDEFINED});
+                    embed::render_into(session, spec, {image, VK_IMAGE_LAYOUT_UNDEFINED});
                 }),
                 HasSubstr("PRESENT_SRC_KHR, not in number 0"));
     spec.techniques.push_back("parallax");
-    EXPECT_THAT(usage_error_text([&] { embed::render_frame_into(session, spec, {image}); }),
+    EXPECT_THAT(usage_error_text([&] { embed::render_into(session, spec, {image}); }),
                 HasSubstr("one technique, not 2"));
     EXPECT_EQ(session::Access::session_counters(session).frames, 0u);
 }

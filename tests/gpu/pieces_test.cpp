@@ -160,14 +160,13 @@ TEST(FramePieces, CountTheSameWork) {
         session::Session session(test::get_test_engine(), request.scene);
         const WorkWatch watch{.most_rays = most_rays};
         const WatchScope scope(&watch);
-        std::vector<PassWorkCounts> passes = session::count_frame_work(session, request);
-        for (PassWorkCounts& pass : passes) // a piece has dispatches and work groups of its own
-            for (const CountedWorkKind kind :
-                 {CountedWorkKind::dispatches, CountedWorkKind::invocations})
+        std::vector<PassWork> passes = session::count_frame_work(session, request);
+        for (PassWork& pass : passes) // a piece has dispatches and work groups of its own
+            for (const WorkKind kind : {WorkKind::dispatches, WorkKind::invocations})
                 pass.counts[kind] = 0;
         return passes;
     };
-    const std::vector<PassWorkCounts> whole = count(kUnlimitedRays), pieces = count(2000);
+    const std::vector<PassWork> whole = count(kUnlimitedRays), pieces = count(2000);
     ASSERT_EQ(whole.size(), pieces.size());
     for (std::size_t i = 0; i < whole.size(); ++i)
         EXPECT_EQ(whole[i].counts.values, pieces[i].counts.values) << whole[i].name;

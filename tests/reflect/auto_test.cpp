@@ -46,9 +46,9 @@ TEST(Auto, PictureIsThatOfTheSuggestedPlanAndEachMirrorHasAReason) {
 double predict_ms_of_counted_work(session::Session& session, const session::FrameSpec& spec) {
     const session::Frame frame = session::Access::render_frame(session, spec,
                                                                {.counts_work = true});
-    const WorkCountsByKind counts = sum_work_counts_of_passes(session::Access::pass_work(frame));
+    const WorkCounts counts = sum_work(session::Access::pass_work(frame));
     require::WorkValues values;
-    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+    for (std::size_t i = 0; i < kWorkKindCount; ++i)
         values.values[i] = static_cast<double>(counts.values[i].value_or(0));
     return require::predict_ms(values, require::default_unit_costs());
 }

@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, DepthPeelingTest,
                          testing::Values(TexelFormat::r32f, TexelFormat::r16f,
                                          TexelFormat::r8_unorm),
                          [](const auto& instance) {
-                             return std::string(texel_format_name(instance.param));
+                             return std::string(format_name(instance.param));
                          });
 
 /// Returns a mirror ball at the origin in a box. With `gap` above 0, a board hides the middle of

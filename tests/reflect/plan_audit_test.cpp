@@ -360,8 +360,8 @@ TEST_F(LibraryAudit, ReadsAFileAndReturnsItsState) {
                            {.every = 1,
                             .most_time = std::numeric_limits<double>::infinity(),
                             .before_audit = [&] { ++calls; }});
-    EXPECT_TRUE(audit.is_for_scene(scene));
-    EXPECT_FALSE(audit.is_for_scene(scene::load("flat")));
+    EXPECT_TRUE(audit.is_for(scene));
+    EXPECT_FALSE(audit.is_for(scene::load("flat")));
     EXPECT_EQ(audit.plan(), "reuse:face=16");
     session::Session session(test::get_test_engine(), scene);
     session::FrameSpec spec = make_audited_spec(scene);
@@ -396,7 +396,7 @@ TEST_F(LibraryAudit, AssuresTheShareOfItsState) {
     const scene::Scene scene = make_audited_room();
     study::PlanAudit audit(write_file_of_two_plans(1),
                            {.every = 1, .most_time = std::numeric_limits<double>::infinity()});
-    EXPECT_TRUE(audit.is_for_scene(scene)); // the file does not name its scene
+    EXPECT_TRUE(audit.is_for(scene)); // the file does not name its scene
     session::Session session(test::get_test_engine(), scene);
     session::FrameSpec spec = make_audited_spec(scene);
     spec.size = {16, 16};

@@ -54,10 +54,8 @@ SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene,
         if (!uniform.lookup.empty()) {
             const vec4& lookup = uniform.lookup[i];
             const int looked_into = static_cast<int>(lookup.w) / 8;
-            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.zero_based_mirror_index()))
-                continue;
-            if (may_capture_show_ball(scene, mirror.zero_based_mirror_index(), dvec3(lookup), face))
-                continue;
+            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.index())) continue;
+            if (may_capture_show_ball(scene, mirror.index(), dvec3(lookup), face)) continue;
         }
         ++result.compared;
         const vec3 &a = mixed.hdr.pixels[i], &b = uniform.hdr.pixels[i];
@@ -91,7 +89,7 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
         const session::TechniqueResult part = std::move(
             session::run(test::get_test_engine(), asked).parts.front());
         const SamePixelCounts found = compare_mirror_of_plan(
-            scene, mixed, part, truth, MirrorId::mirror_id_from_list_index(i), i == 0 ? 64 : 256);
+            scene, mixed, part, truth, MirrorId::from_index(i), i == 0 ? 64 : 256);
         std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
                   << found.other << " differ, " << found.off << " by more than 1/255\n";
         EXPECT_GT(found.compared, 100u) << uniform[i];
@@ -146,8 +144,7 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
                 // Compare only pixels in which both ray tracing and rasterisation show the mirror.
-                if (measure::first_mirror_of_hit_word(truth.hits[p]) !=
-                    MirrorId::mirror_id_from_list_index(i))
+                if (measure::first_mirror_of_hit_word(truth.hits[p]) != MirrorId::from_index(i))
                     continue;
                 if (uniform.lookup[p].w == 0) continue;
                 ++pixels;
@@ -277,8 +274,7 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror_of_hit_word(truth.hits[i]);
-        if (mirror.mirror_number() <= 100)
-            continue; // compare only mirrors far from the removed ones
+        if (mirror.number() <= 100) continue; // compare only mirrors far from the removed ones
         ++pixels;
         other += do_channels_differ(part.hdr.pixels[i], alone.hdr.pixels[i]);
     }

@@ -256,8 +256,7 @@ TEST(Refraction, ScreenShowsEachPixelThroughAPaneThatDoesNotBend) {
     const auto render = [](const scene::Scene& scene, const char* technique) {
         return test::render_technique(scene, technique, {48, 48}, 2);
     };
-    const MirrorId ball = MirrorId::mirror_id_from_list_index(0),
-                   pane = MirrorId::mirror_id_from_list_index(1);
+    const MirrorId ball = MirrorId::from_index(0), pane = MirrorId::from_index(1);
     for (const double orthographic_height : {0., 3.}) {
         const auto make_room = [&](const dvec3& low, const dvec3& high) {
             scene::Scene room = test::make_lit_room(1, 1);
@@ -478,7 +477,7 @@ TEST(Refraction, ScreenWorksInPlans) {
     int compared = 0, off = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const MirrorId first = measure::first_mirror_of_hit_word(hits[i]);
-        if (!first || first == MirrorId::mirror_id_from_list_index(4)) continue;
+        if (!first || first == MirrorId::from_index(4)) continue;
         ++compared;
         off += test::max_channel_difference(searched.pixels[i], traced.pixels[i]) > .02f;
     }
@@ -491,8 +490,7 @@ double flip_on_mirror(const session::TechniqueResult& found, const session::Tech
                       std::size_t mirror) {
     measure::Mask shown(traced.hits.size(), 0);
     for (std::size_t i = 0; i < shown.size(); ++i)
-        if (measure::first_mirror_of_hit_word(traced.hits[i]) ==
-            MirrorId::mirror_id_from_list_index(mirror))
+        if (measure::first_mirror_of_hit_word(traced.hits[i]) == MirrorId::from_index(mirror))
             shown[i] = 255;
     return measure::flip_mean(measure::flip(found.display, traced.display), shown);
 }
@@ -582,8 +580,7 @@ TEST(Refraction, TracerTakesGlassOver) {
     int off = 0, glass = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror_of_hit_word(hits[i]);
-        if (!mirror || mirror == MirrorId::mirror_id_from_list_index(4))
-            continue; // the mirror ball is no glass
+        if (!mirror || mirror == MirrorId::from_index(4)) continue; // the mirror ball is no glass
         ++glass;
         off += test::max_channel_difference(traced.pixels[i], hybrid.pixels[i]) > .02f;
     }

@@ -30,7 +30,7 @@ render::FrameFacts known_facts; // NOLINT: the table of techniques takes plain f
 
 reflect::TechniqueOutputs add_temporal_picture(graph::Graph& graph,
                                                const render::FrameInputs& inputs,
-                                               const TechniqueKnobSettings&,
+                                               const KnobSettings&,
                                                const render::ShadingLights& lighting) {
     using graph::ResourceUse;
     known_facts = inputs.facts;
@@ -73,8 +73,8 @@ constexpr reflect::Technique kTemporalTechnique{
     .traits = {.traces_rays = true,
                .draws_whole_picture = true,
                .noise = TechniqueTraits::Noise::history},
-    .scene_passes = [](int, int, const TechniqueKnobSettings&) { return 0; },
-    .look = [](graph::Graph&, const render::FrameInputs&, const TechniqueKnobSettings&,
+    .scene_passes = [](int, int, const KnobSettings&) { return 0; },
+    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
                const reflect::MirrorShadingInputs&) { return reflect::MirrorShadingSetup{}; },
     .picture = add_temporal_picture};
 const reflect::RegisteredTechnique kTemporalTechniqueEntry{kTemporalTechnique};

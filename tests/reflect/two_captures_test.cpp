@@ -7,14 +7,14 @@ namespace {
 
 using namespace catoptric;
 
-constexpr TechniqueKnob kSecondShareKnob{
+constexpr Knob kSecondShareKnob{
     .name = "share", .help = "share of the second capture", .value = .5, .is_real = true};
-constexpr TechniqueKnob kTwoCapturesKnobs[] = {kSecondShareKnob, reflect::kCaptureFaceKnob,
-                                               reflect::kShadowKnob, reflect::kShadowMapEdgeKnob};
+constexpr Knob kTwoCapturesKnobs[] = {kSecondShareKnob, reflect::kCaptureFaceKnob,
+                                      reflect::kShadowKnob, reflect::kShadowMapEdgeKnob};
 
 reflect::MirrorShadingSetup make_two_captures_shading(graph::Graph& graph,
                                                       const render::FrameInputs& inputs,
-                                                      const TechniqueKnobSettings& settings,
+                                                      const KnobSettings& settings,
                                                       const reflect::MirrorShadingInputs& around) {
     std::vector<render::CaptureOptions> options = around.captures->options;
     for (render::CaptureOptions& of_mirror : options) of_mirror.lighting = around.lighting;
@@ -27,8 +27,8 @@ reflect::MirrorShadingSetup make_two_captures_shading(graph::Graph& graph,
     std::vector<graph::ImageHandle> colours;
     for (const render::CubeCaptureArray& cubes : second.arrays) colours.push_back(cubes.colour);
     look.mirror.images.emplace_back("second", std::move(colours));
-    look.mirror.constants.emplace_back(
-        "share", static_cast<float>(settings.numeric_knob_value(kSecondShareKnob)));
+    look.mirror.constants.emplace_back("share",
+                                       static_cast<float>(settings.number(kSecondShareKnob)));
     return look;
 }
 
@@ -39,7 +39,7 @@ constexpr reflect::Technique kTwoCapturesTechnique{
     .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kTwoCapturesKnobs,
     .scene_passes =
-        [](int mirrors, int lights, const TechniqueKnobSettings& settings) {
+        [](int mirrors, int lights, const KnobSettings& settings) {
             return reflect::count_capture_passes_with_feedback(2 * mirrors, lights, settings);
         },
     .capture = reflect::make_capture_options,

@@ -21,7 +21,7 @@ using namespace catoptric;
 constexpr uvec2 kWorkPictureSize{96, 64};
 constexpr std::uint64_t kWorkPixelCount = std::uint64_t{kWorkPictureSize.x} * kWorkPictureSize.y;
 
-std::vector<PassWorkCounts>
+std::vector<PassWork>
 count_work_of_frame(const scene::Scene& scene, const std::string& technique,
                     session::RenderedWork model = session::RenderedWork::everything) {
     session::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
@@ -31,8 +31,8 @@ count_work_of_frame(const scene::Scene& scene, const std::string& technique,
     return session::count_frame_work(session, asked);
 }
 
-std::uint64_t total_work_of_kind(const std::vector<PassWorkCounts>& passes, CountedWorkKind kind) {
-    return sum_work_counts_of_passes(passes)[kind].value_or(0);
+std::uint64_t total_work_of_kind(const std::vector<PassWork>& passes, WorkKind kind) {
+    return sum_work(passes)[kind].value_or(0);
 }
 
 /// Returns the work of all camera rays, by the traversal on the CPU.
@@ -64,16 +64,16 @@ TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
         scene.punctual.clear();
         const auto work = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
         const bvh::BvhTraversalCounters wanted = count_traversal_work_on_cpu(scene);
-        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::camera_rays), kWorkPixelCount) << name;
-        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::mirror_rays), 0u) << name;
-        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::shadow_rays), 0u) << name;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), kWorkPixelCount) << name;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), 0u) << name;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), 0u) << name;
         // Rounding may differ where the compiler of the shader contracts arithmetic.
         const double slack = 1e-3;
-        EXPECT_NEAR(double(total_work_of_kind(work, CountedWorkKind::nodes)), double(wanted.nodes),
+        EXPECT_NEAR(double(total_work_of_kind(work, WorkKind::nodes)), double(wanted.nodes),
                     slack * double(wanted.nodes))
             << name;
-        EXPECT_NEAR(double(total_work_of_kind(work, CountedWorkKind::triangles)),
-                    double(wanted.triangles), slack * double(wanted.triangles))
+        EXPECT_NEAR(double(total_work_of_kind(work, WorkKind::triangles)), double(wanted.triangles),
+                    slack * double(wanted.triangles))
             << name;
     }
 }
@@ -86,20 +86,17 @@ TEST(Work, RaysAreThoseOfTheTracersOwnCounters) {
         const session::TechniqueResult drawn = test::render_technique(scene, technique,
                                                                       kWorkPictureSize, frames);
         ASSERT_TRUE(drawn.rays) << technique;
-        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::camera_rays), drawn.rays->primary)
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), drawn.rays->primary)
             << technique;
-        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::mirror_rays), drawn.rays->mirror)
-            << technique;
-        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::shadow_rays), drawn.rays->shadow)
-            << technique;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), drawn.rays->mirror) << technique;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), drawn.rays->shadow) << technique;
     }
 }
 
 TEST(Work, LiveLanesLieBetweenOneAndTheSubgroup) {
     const auto work = count_work_of_frame(scene::load("cornell-mirrors"), "raytrace:depth=4");
-    for (const auto& [each, lanes] :
-         {std::pair(CountedWorkKind::nodes, CountedWorkKind::node_lanes),
-          std::pair(CountedWorkKind::triangles, CountedWorkKind::triangle_lanes)}) {
+    for (const auto& [each, lanes] : {std::pair(WorkKind::nodes, WorkKind::node_lanes),
+                                      std::pair(WorkKind::triangles, WorkKind::triangle_lanes)}) {
         const double live = double(total_work_of_kind(work, each)) /
                             double(total_work_of_kind(work, lanes));
         std::cout << "[ MEASURED ] live lanes: " << live << '\n';
@@ -113,37 +110,36 @@ TEST(Work, LanesOfLookupsLieBetweenOneAndTheSubgroup) {
     for (const char* technique : {"secant", "pyramid", "layered"}) {
         const auto work = count_work_of_frame(scene, technique);
         for (const auto& [each, lanes] :
-             {std::pair(CountedWorkKind::distance_lookups, CountedWorkKind::distance_lanes),
-              std::pair(CountedWorkKind::colour_lookups, CountedWorkKind::colour_lanes)})
-            for (const PassWorkCounts& pass : work) {
+             {std::pair(WorkKind::distance_lookups, WorkKind::distance_lanes),
+              std::pair(WorkKind::colour_lookups, WorkKind::colour_lanes)})
+            for (const PassWork& pass : work) {
                 // Compute shaders look distances up, too, but count no lanes.
-                if (pass.counts[CountedWorkKind::fragments].value_or(0) == 0) continue;
+                if (pass.counts[WorkKind::fragments].value_or(0) == 0) continue;
                 const std::uint64_t lookups = pass.counts[each].value_or(0),
                                     executed = pass.counts[lanes].value_or(0);
                 EXPECT_GE(lookups, executed) << technique << ' ' << pass.name;
                 EXPECT_LE(lookups, 128 * executed) << technique << ' ' << pass.name;
             }
-        EXPECT_GT(total_work_of_kind(work, CountedWorkKind::colour_lanes), 0u) << technique;
-        EXPECT_GT(total_work_of_kind(work, CountedWorkKind::distance_lanes), 0u) << technique;
+        EXPECT_GT(total_work_of_kind(work, WorkKind::colour_lanes), 0u) << technique;
+        EXPECT_GT(total_work_of_kind(work, WorkKind::distance_lanes), 0u) << technique;
     }
 }
 
 TEST(Work, SearchLanesAreStepsOfSearches) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     for (const char* technique : {"parallax", "raytrace:depth=4"})
-        EXPECT_EQ(total_work_of_kind(count_work_of_frame(scene, technique),
-                                     CountedWorkKind::search_lanes),
+        EXPECT_EQ(total_work_of_kind(count_work_of_frame(scene, technique), WorkKind::search_lanes),
                   0u)
             << technique;
     // Each step of the march makes one look-up, and a second one where no surface was captured.
     const auto coarse = count_work_of_frame(scene, "march:steps=4"),
                fine = count_work_of_frame(scene, "march:steps=32");
-    const std::uint64_t coarse_steps = total_work_of_kind(coarse, CountedWorkKind::search_lanes),
-                        fine_steps = total_work_of_kind(fine, CountedWorkKind::search_lanes);
+    const std::uint64_t coarse_steps = total_work_of_kind(coarse, WorkKind::search_lanes),
+                        fine_steps = total_work_of_kind(fine, WorkKind::search_lanes);
     EXPECT_GT(coarse_steps, 0u);
     EXPECT_GT(fine_steps, 2 * coarse_steps);
     EXPECT_LE(fine_steps, 8 * coarse_steps);
-    EXPECT_GE(total_work_of_kind(fine, CountedWorkKind::distance_lanes), fine_steps);
+    EXPECT_GE(total_work_of_kind(fine, WorkKind::distance_lanes), fine_steps);
 }
 
 TEST(Work, CountsRepeatToTheLastDigit) {
@@ -189,23 +185,22 @@ TEST(Work, LookupsFollowFromTheMasks) {
     ASSERT_GT(mirror_pixels, 100);
     // Each mirror pixel makes one look-up. Rasterised outlines differ from ray-traced ones by a few
     // pixels.
-    EXPECT_NEAR(double(total_work_of_kind(count_work_of_frame(scene, "planar"),
-                                          CountedWorkKind::colour_lookups)),
-                mirror_pixels, .05 * mirror_pixels);
+    EXPECT_NEAR(
+        double(total_work_of_kind(count_work_of_frame(scene, "planar"), WorkKind::colour_lookups)),
+        mirror_pixels, .05 * mirror_pixels);
     // In a scene with one lamp, each traced point is lit once.
     const auto lit = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
-    EXPECT_LE(total_work_of_kind(lit, CountedWorkKind::lights),
+    EXPECT_LE(total_work_of_kind(lit, WorkKind::lights),
               kWorkPixelCount * scene::list_lights(scene).size());
-    EXPECT_GT(total_work_of_kind(lit, CountedWorkKind::lights), kWorkPixelCount / 4);
+    EXPECT_GT(total_work_of_kind(lit, WorkKind::lights), kWorkPixelCount / 4);
     // Each step of `march` reads at least one captured distance.
     const auto march = count_work_of_frame(scene, "march"),
                parallax = count_work_of_frame(scene, "parallax");
-    EXPECT_GE(double(total_work_of_kind(march, CountedWorkKind::distance_lookups)),
-              2 * mirror_pixels);
-    EXPECT_GE(total_work_of_kind(march, CountedWorkKind::distance_lookups),
-              total_work_of_kind(parallax, CountedWorkKind::distance_lookups));
+    EXPECT_GE(double(total_work_of_kind(march, WorkKind::distance_lookups)), 2 * mirror_pixels);
+    EXPECT_GE(total_work_of_kind(march, WorkKind::distance_lookups),
+              total_work_of_kind(parallax, WorkKind::distance_lookups));
     EXPECT_EQ(total_work_of_kind(count_work_of_frame(scene, "naive:bounces=0,shadow=none"),
-                                 CountedWorkKind::shadow_lookups),
+                                 WorkKind::shadow_lookups),
               0u);
 }
 
@@ -218,20 +213,20 @@ TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
     ASSERT_EQ(work.size(), frame.times().passes.size());
     for (std::size_t i = 0; i < work.size(); ++i) {
         EXPECT_EQ(work[i].name, frame.times().passes[i].name);
-        EXPECT_EQ(work[i].counts[CountedWorkKind::passes], 1u);
+        EXPECT_EQ(work[i].counts[WorkKind::passes], 1u);
     }
-    EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::frames), 1u);
-    EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::passes), work.size());
+    EXPECT_EQ(total_work_of_kind(work, WorkKind::frames), 1u);
+    EXPECT_EQ(total_work_of_kind(work, WorkKind::passes), work.size());
     // The pass `compose` draws one triangle, reads no attachment, and stores 4 bytes a pixel, which
     // are also cleared or loaded.
-    const PassWorkCounts& compose = work.back();
-    EXPECT_EQ(compose.counts[CountedWorkKind::draws], 1u) << compose.name;
-    EXPECT_EQ(compose.counts[CountedWorkKind::bytes], 2 * 4 * kWorkPixelCount) << compose.name;
-    EXPECT_GE(compose.counts[CountedWorkKind::fragments].value_or(0), kWorkPixelCount);
+    const PassWork& compose = work.back();
+    EXPECT_EQ(compose.counts[WorkKind::draws], 1u) << compose.name;
+    EXPECT_EQ(compose.counts[WorkKind::bytes], 2 * 4 * kWorkPixelCount) << compose.name;
+    EXPECT_GE(compose.counts[WorkKind::fragments].value_or(0), kWorkPixelCount);
     // A capture has six faces, and each face draws the objects around the mirror.
-    for (const PassWorkCounts& pass : work)
+    for (const PassWork& pass : work)
         if (pass.name.find("capture") != std::string::npos) {
-            EXPECT_GE(pass.counts[CountedWorkKind::draws].value_or(0), 1u) << pass.name;
+            EXPECT_GE(pass.counts[WorkKind::draws].value_or(0), 1u) << pass.name;
         }
 }
 

@@ -13,7 +13,7 @@
 namespace catoptric {
 
 /// Prints a format as a parameter of a test.
-inline void PrintTo(TexelFormat format, std::ostream* out) { *out << texel_format_name(format); }
+inline void PrintTo(TexelFormat format, std::ostream* out) { *out << format_name(format); }
 
 } // namespace catoptric
 

@@ -163,8 +163,8 @@ TEST(Baseline, MoreCountedWorkIsWorse) {
     };
     Comparison now = make_timed_comparison();
     for (Row& row : now.rows) {
-        catoptric::WorkCountsByKind counts{};
-        counts[catoptric::CountedWorkKind::nodes] = 120;
+        catoptric::WorkCounts counts{};
+        counts[catoptric::WorkKind::nodes] = 120;
         catoptric::measure::set_row_work(row, {{"view", counts}});
     }
     now.device.name = "another", now.studies.emplace_back("work");

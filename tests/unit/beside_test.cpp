@@ -218,7 +218,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     write_file_beside_scene("x.obj.catoptric.json", text);
     const std::optional<SceneFile> found = read_scene_file(scene, {});
     ASSERT_TRUE(found);
-    overrides.environment = resolve_real_path(folder / "sky.exr").string();
+    overrides.environment = real_path(folder / "sky.exr").string();
     EXPECT_EQ(found->overrides, overrides);
     overrides.environment = "/dev/null";
     EXPECT_THAT(

@@ -15,17 +15,16 @@ namespace {
 
 using namespace catoptric;
 
-WorkCountsByKind make_work_counts(std::uint64_t rays, std::uint64_t fragments,
-                                  std::uint64_t passes) {
-    WorkCountsByKind counts;
-    counts[CountedWorkKind::camera_rays] = rays;
-    counts[CountedWorkKind::fragments] = fragments;
-    counts[CountedWorkKind::passes] = passes;
+WorkCounts make_work_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_t passes) {
+    WorkCounts counts;
+    counts[WorkKind::camera_rays] = rays;
+    counts[WorkKind::fragments] = fragments;
+    counts[WorkKind::passes] = passes;
     return counts;
 }
 
-constexpr CountedWorkKind kFittedWorkKinds[] = {
-    CountedWorkKind::camera_rays, CountedWorkKind::fragments, CountedWorkKind::passes};
+constexpr WorkKind kFittedWorkKinds[] = {WorkKind::camera_rays, WorkKind::fragments,
+                                         WorkKind::passes};
 
 /// Returns made-up rows of a device on which a ray costs 100 ns, a fragment 2 ns and a pass 50 us.
 /// The rows' times have random errors of at most the share `noise`.
@@ -34,18 +33,18 @@ std::vector<measure::TimedWorkSample> draw_random_cost_samples(std::size_t count
     const auto draw = [&](double most) { return most * double(random() >> 11) * 0x1p-53; };
     std::vector<measure::TimedWorkSample> samples;
     for (std::size_t i = 0; i < count; ++i) {
-        const WorkCountsByKind counts = make_work_counts(
+        const WorkCounts counts = make_work_counts(
             std::uint64_t(draw(1e6)), std::uint64_t(draw(1e7)), 1 + std::uint64_t(draw(30)));
-        const double ms = 1e-6 * (100 * double(*counts[CountedWorkKind::camera_rays]) +
-                                  2 * double(*counts[CountedWorkKind::fragments]) +
-                                  5e4 * double(*counts[CountedWorkKind::passes]));
+        const double ms = 1e-6 * (100 * double(*counts[WorkKind::camera_rays]) +
+                                  2 * double(*counts[WorkKind::fragments]) +
+                                  5e4 * double(*counts[WorkKind::passes]));
         samples.push_back(
             {"row " + std::to_string(i), counts, ms * (1 + noise * (2 * draw(1) - 1))});
     }
     return samples;
 }
 
-double unit_cost_of_kind(const measure::DeviceCosts& costs, CountedWorkKind kind) {
+double unit_cost_of_kind(const measure::DeviceCosts& costs, WorkKind kind) {
     for (const measure::WorkUnitCost& unit : costs.units)
         if (unit.kind == kind) return unit.ns;
     return 0;
@@ -54,9 +53,9 @@ double unit_cost_of_kind(const measure::DeviceCosts& costs, CountedWorkKind kind
 TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
     const measure::DeviceCosts costs = measure::fit_unit_costs("d", draw_random_cost_samples(40, 0),
                                                                kFittedWorkKinds);
-    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::camera_rays), 100, 1e-3);
-    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::fragments), 2, 1e-5);
-    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::passes), 5e4, 1);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 1e-3);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, 1e-5);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::passes), 5e4, 1);
     ASSERT_TRUE(costs.fit);
     EXPECT_EQ(costs.fit->share_of_predictions_within_factor(1.0001), 1);
     EXPECT_EQ(costs.origin, measure::UnitCostOrigin::fitted);
@@ -65,8 +64,8 @@ TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
 TEST(Costs, FitOfNoisyTimesIsNear) {
     const measure::DeviceCosts costs = measure::fit_unit_costs(
         "d", draw_random_cost_samples(60, .1), kFittedWorkKinds);
-    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::camera_rays), 100, 5);
-    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::fragments), 2, .2);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 5);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, .2);
     EXPECT_EQ(costs.fit->share_of_predictions_within_factor(1.2), 1);
     EXPECT_LT(costs.fit->share_of_predictions_within_factor(1.01), 1);
 }
@@ -79,7 +78,7 @@ TEST(Costs, NoCostIsNegative) {
         samples.push_back({"row", make_work_counts(1000, 1000 * i, 1), 10.0 - double(i)});
     const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
     for (const measure::WorkUnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
-    EXPECT_EQ(unit_cost_of_kind(costs, CountedWorkKind::fragments), 0);
+    EXPECT_EQ(unit_cost_of_kind(costs, WorkKind::fragments), 0);
 }
 
 TEST(Costs, RowIsPredictedByTheOtherRows) {
@@ -105,9 +104,9 @@ TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
 
 measure::DeviceCosts make_device_costs() {
     measure::DeviceCosts costs{.device = "card", .origin = measure::UnitCostOrigin::literature};
-    costs.units = {{CountedWorkKind::camera_rays, 10, {5, 20}, "a paper"},
-                   {CountedWorkKind::fragments, 1, {.5, 4}, "a data sheet"},
-                   {CountedWorkKind::passes, 1000, {}, ""}};
+    costs.units = {{WorkKind::camera_rays, 10, {5, 20}, "a paper"},
+                   {WorkKind::fragments, 1, {.5, 4}, "a data sheet"},
+                   {WorkKind::passes, 1000, {}, ""}};
     return costs;
 }
 
@@ -243,14 +242,14 @@ TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {
 }
 
 TEST(Work, CountsOfARowAreReadBack) {
-    const std::vector<PassWorkCounts> passes{{"a", make_work_counts(1, 2, 1)},
-                                             {"b", make_work_counts(3, 4, 1)}};
+    const std::vector<PassWork> passes{{"a", make_work_counts(1, 2, 1)},
+                                       {"b", make_work_counts(3, 4, 1)}};
     measure::Row row;
     EXPECT_FALSE(measure::has_counted_work(row));
     measure::set_row_work(row, passes);
     EXPECT_TRUE(measure::has_counted_work(row));
     EXPECT_EQ(measure::total_work_counts_of_row(row), make_work_counts(4, 6, 2));
-    EXPECT_EQ(sum_work_counts_of_passes(passes, "b"), make_work_counts(3, 4, 1));
+    EXPECT_EQ(sum_work(passes, "b"), make_work_counts(3, 4, 1));
 }
 
 } // namespace

@@ -30,15 +30,14 @@ std::vector<float> make_exr_test_values(uvec2 size, std::size_t channel_count) {
     return values;
 }
 
-std::string encode_with_openimageio(const ImageSizeAndChannels& shape,
-                                    std::span<const float> values) {
+std::string encode_with_openimageio(const ImageShape& shape, std::span<const float> values) {
     std::string bytes;
-    const ImageCodecResult made = get_image_codecs().encode(
-        "openexr",
-        {shape.size, shape.channel_count, ImageCodecValueType::float32, values.data(),
-         shape.channels, shape.description},
-        bytes);
-    EXPECT_EQ(made.answer, ImageCodecStatus::done) << made.why;
+    const CodecResult made = image_codecs().encode("openexr",
+                                                   {shape.size, shape.channel_count,
+                                                    PixelType::float32, values.data(),
+                                                    shape.channels, shape.description},
+                                                   bytes);
+    EXPECT_EQ(made.answer, CodecStatus::done) << made.why;
     return bytes;
 }
 
@@ -47,12 +46,12 @@ TEST_F(Exr, ExrBytesEqualThoseOfOpenImageIO) {
     for (const uvec2 size : {uvec2(1, 1), uvec2(7, 3), uvec2(300, 200)}) {
         for (std::size_t channel_count = 1; channel_count <= 4; ++channel_count) {
             const std::vector<float> values = make_exr_test_values(size, channel_count);
-            const ImageSizeAndChannels shape{size, channel_count, {}};
+            const ImageShape shape{size, channel_count, {}};
             EXPECT_TRUE(encode_openexr(shape, values) == encode_with_openimageio(shape, values))
                 << size.x << "x" << size.y << " with " << channel_count << " channels";
         }
         const std::vector<float> values = make_exr_test_values(size, layers.size());
-        const ImageSizeAndChannels shape{size, layers.size(), layers, "made by a test"};
+        const ImageShape shape{size, layers.size(), layers, "made by a test"};
         EXPECT_TRUE(encode_openexr(shape, values) == encode_with_openimageio(shape, values))
             << size.x << "x" << size.y << " with layers";
     }
@@ -68,20 +67,20 @@ TEST_F(Exr, UnwritableExrPicturesAreRefusedWithTheReason) {
 }
 
 /// Reads the floats of a file with OpenImageIO alone.
-std::vector<float> read_with_openimageio(const RandomAccessByteSource& bytes,
+std::vector<float> read_with_openimageio(const ByteSource& bytes,
                                          std::vector<std::string>& channels) {
     ImageCodecs::Picture* picture = nullptr;
-    ImageCodecs::CodecPictureHeader header;
-    EXPECT_EQ(get_image_codecs().open(bytes, "openexr", "x", picture, header).answer,
-              ImageCodecStatus::done);
+    ImageCodecs::Header header;
+    EXPECT_EQ(image_codecs().open(bytes, "openexr", "x", picture, header).answer,
+              CodecStatus::done);
     channels = header.channels;
     std::vector<float> values(std::size_t(header.size.x * header.size.y * header.channel_count));
-    EXPECT_EQ(get_image_codecs()
-                  .read(*picture, 0, std::uint32_t(header.size.y), ImageCodecValueType::float32,
-                        values.data())
-                  .answer,
-              ImageCodecStatus::done);
-    get_image_codecs().close(picture);
+    EXPECT_EQ(
+        image_codecs()
+            .read(*picture, 0, std::uint32_t(header.size.y), PixelType::float32, values.data())
+            .answer,
+        CodecStatus::done);
+    image_codecs().close(picture);
     return values;
 }
 
@@ -89,7 +88,7 @@ std::vector<float> read_with_openimageio(const RandomAccessByteSource& bytes,
 // compressions, other channels. ExrColourReader must read the colours that OpenImageIO reads.
 TEST_F(Exr, ColoursOfAllKindsAreThoseOfOpenImageIo) {
     const std::vector<std::string> channels{"B", "A", "R", "G"};
-    const ImageSizeAndChannels shape{{37, 29}, 4, channels, "a text"};
+    const ImageShape shape{{37, 29}, 4, channels, "a text"};
     std::vector<float> values = make_exr_test_values(shape.size, 4);
     for (float& value : values) value = std::clamp(value, 0.f, 100.f);
     const std::string from = (folder / "from.exr").string();
@@ -111,12 +110,12 @@ TEST_F(Exr, ColoursOfAllKindsAreThoseOfOpenImageIo) {
         const test::ProcessResult made = test::run_process({.command = command});
         ASSERT_EQ(made.exit_code, 0) << made.err << made.out;
         const std::string file = read_file(to);
-        const MemoryByteSource bytes(file);
+        const MemorySource bytes(file);
         SCOPED_TRACE(testing::PrintToString(kind));
         std::vector<std::string> wanted_channels;
         const std::vector<float> wanted = read_with_openimageio(bytes, wanted_channels);
         ImageReader reader(bytes, "openexr", to, {}, ImageColours());
-        const ImageSizeAndChannels found = reader.image_size_and_channels();
+        const ImageShape found = reader.shape();
         EXPECT_THAT(found.channels, testing::UnorderedElementsAreArray(wanted_channels));
         ASSERT_EQ(found.size, shape.size);
         EXPECT_EQ(found.description, "a text");
@@ -136,29 +135,28 @@ TEST_F(Exr, ColoursOfAllKindsAreThoseOfOpenImageIo) {
         std::vector<float> pieces(read.size());
         const std::size_t row = read.size() / shape.size.y;
         for (std::uint32_t first = 0; first < shape.size.y; first += 10)
-            in_rows.read_image_rows(
-                first,
-                std::span(pieces).subspan(first * row, std::min(10U, shape.size.y - first) * row));
+            in_rows.read_rows(first, std::span(pieces).subspan(
+                                         first * row, std::min(10U, shape.size.y - first) * row));
         EXPECT_TRUE(pieces == read);
     }
 }
 
 // A picture of more than half a million pixels is encoded and decoded by several threads.
 TEST_F(Exr, LargePicturesKeepTheirValues) {
-    const ImageSizeAndChannels shape{{1024, 600}, 3, {"R", "G", "B"}};
+    const ImageShape shape{{1024, 600}, 3, {"R", "G", "B"}};
     const std::vector<float> values = make_exr_test_values(shape.size, 3);
     const std::string encoded = encode_openexr(shape, values);
     EXPECT_TRUE(encoded == encode_with_openimageio(shape, values));
-    const MemoryByteSource bytes(encoded);
+    const MemorySource bytes(encoded);
     EXPECT_TRUE(ImageReader(bytes, "openexr", "large", {}, ImageColours()).floats() == values);
 }
 
 // A file that ends early is refused with the reason, whatever part of it is missing.
 TEST_F(Exr, FilesThatEndEarlyAreRefused) {
-    const ImageSizeAndChannels shape{{40, 60}, 3, {"R", "G", "B"}};
+    const ImageShape shape{{40, 60}, 3, {"R", "G", "B"}};
     const std::string whole = encode_openexr(shape, make_exr_test_values(shape.size, 3));
     for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{200}}) {
-        const MemoryByteSource bytes(std::string_view(whole).substr(0, size));
+        const MemorySource bytes(std::string_view(whole).substr(0, size));
         for (const std::optional<ImageColours>& colours :
              {std::optional<ImageColours>(), std::optional(ImageColours())})
             EXPECT_THAT(test::catch_error_text(

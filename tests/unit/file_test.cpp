@@ -50,23 +50,23 @@ TEST_F(File, PartialFileTakesThePlaceOfTheOldFileOrIsRemoved) {
     fs::permissions(folder / "x", fs::perms::owner_read | fs::perms::owner_write);
     {
         const catoptric::PartialFile partial(folder / "x");
-        std::ofstream(partial.temporary_path()) << "half";
-        EXPECT_EQ(partial.temporary_path().parent_path(), folder);
+        std::ofstream(partial.temporary()) << "half";
+        EXPECT_EQ(partial.temporary().parent_path(), folder);
     }
     EXPECT_EQ(catoptric::read_file(folder / "x"), "old");
     EXPECT_EQ(count_folder_entries(), 1);
     {
         catoptric::PartialFile partial(folder / "x");
-        std::ofstream(partial.temporary_path()) << "new";
-        partial.copy_mode_of_target();
-        partial.replace_target();
+        std::ofstream(partial.temporary()) << "new";
+        partial.copy_mode();
+        partial.commit();
     }
     EXPECT_EQ(catoptric::read_file(folder / "x"), "new");
     EXPECT_EQ(fs::status(folder / "x").permissions(),
               fs::perms::owner_read | fs::perms::owner_write);
     EXPECT_EQ(count_folder_entries(), 1);
     catoptric::PartialFile unwritten(folder / "y");
-    EXPECT_THAT(catch_error_of([&] { unwritten.replace_target(); }).what(),
+    EXPECT_THAT(catch_error_of([&] { unwritten.commit(); }).what(),
                 HasSubstr("y: cannot be replaced"));
     for (const auto& [path, found] : {std::pair<fs::path, const char*>{folder, "found a folder"},
                                       {"/dev/null", "found a device or pipe"}})
@@ -122,20 +122,20 @@ TEST_F(File, ReplacedFileKeepsItsPermissions) {
 }
 
 TEST_F(File, RealPathResolvesAllLinks) {
-    using catoptric::resolve_real_path;
+    using catoptric::real_path;
     const fs::path real = fs::canonical(folder);
     fs::create_directories(folder / "a/b");
     fs::create_directory_symlink("a/b", folder / "short");
     fs::create_symlink("a/missing.txt", folder / "dangling");
     fs::create_symlink("../dangling", folder / "a/twice");
-    EXPECT_EQ(resolve_real_path(folder / "short/../b/./x"), real / "a/b/x");
-    EXPECT_EQ(resolve_real_path(folder / "dangling"), real / "a/missing.txt");
-    EXPECT_EQ(resolve_real_path(folder / "a/twice"), real / "a/missing.txt");
-    EXPECT_EQ(resolve_real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
-    EXPECT_EQ(resolve_real_path("x"), fs::canonical(".") / "x");
-    // On a loop of links, resolve_real_path must end nevertheless.
+    EXPECT_EQ(real_path(folder / "short/../b/./x"), real / "a/b/x");
+    EXPECT_EQ(real_path(folder / "dangling"), real / "a/missing.txt");
+    EXPECT_EQ(real_path(folder / "a/twice"), real / "a/missing.txt");
+    EXPECT_EQ(real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
+    EXPECT_EQ(real_path("x"), fs::canonical(".") / "x");
+    // On a loop of links, real_path must end nevertheless.
     fs::create_symlink("loop", folder / "loop");
-    EXPECT_EQ(resolve_real_path(folder / "loop"), folder / "loop");
+    EXPECT_EQ(real_path(folder / "loop"), folder / "loop");
 }
 
 TEST_F(File, WritingToALinkWritesTheTarget) {

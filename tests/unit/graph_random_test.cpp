@@ -20,7 +20,7 @@ MemoryRequirementQueries make_memory_queries_with_two_heaps() {
                     return MemoryRequirements{.bytes = std::uint64_t{desc.layers} * 1000 *
                                                        bytes_per_texel(desc.format),
                                               .alignment = desc.layers % 2 ? 256u : 96u,
-                                              .heap = is_depth_format(desc.format) ? 2u : 0u};
+                                              .heap = is_depth(desc.format) ? 2u : 0u};
                 },
             .buffer =
                 [](const BufferDesc& desc) {

@@ -41,8 +41,8 @@ std::string make_tiff_bytes(std::uint32_t width, std::uint32_t height, std::uint
     return text + std::string(bytes, '\0');
 }
 
-ImageSizeAndChannels read_image_shape(const std::string& file) {
-    return read_image_header(MemoryByteSource(file), "tiff", "a.tif").value();
+ImageShape read_image_shape(const std::string& file) {
+    return read_image_header(MemorySource(file), "tiff", "a.tif").value();
 }
 
 TEST(ImageHeader, FormatIsFoundByTheFirstBytes) {
@@ -62,12 +62,12 @@ TEST(ImageHeader, FormatIsFoundByTheFirstBytes) {
                                             {"RIFF\x24\0\0\0WEBPVP8 "s, "webp"},
                                             {"RIFF\x24\0\0\0WAVEfmt "s, ""},
                                             {"glTF", ""}})
-        EXPECT_EQ(detect_image_format(bytes), format) << bytes;
+        EXPECT_EQ(detect_format(bytes), format) << bytes;
 }
 
 TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {
     for (const bool is_big_endian : {false, true}) {
-        const ImageSizeAndChannels shape = read_image_shape(
+        const ImageShape shape = read_image_shape(
             make_tiff_bytes(70000, 3, 1, 630000, is_big_endian));
         EXPECT_EQ(shape.size, uvec2(70000, 3)) << is_big_endian;
         EXPECT_EQ(shape.channel_count, 3u) << is_big_endian;

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string json_error_text(const std::string& text) {
-    return test::catch_error_text(Failure::bad_data, [&] { check_json_syntax("x.json", text); });
+    return test::catch_error_text(Failure::bad_data, [&] { check_json("x.json", text); });
 }
 
 TEST(Json, JsonErrorNamesPlaceExpectedAndFound) {
@@ -61,7 +61,7 @@ TEST(Json, JsonErrorContainsNoTextOfTheParser) {
         text[random() % text.size()] = static_cast<char>(random() % 256);
         if (i % 3 == 0) text.resize(random() % text.size());
         try {
-            check_json_syntax("x.json", text);
+            check_json("x.json", text);
         } catch (const BadData& error) {
             ++refused;
             const std::string said = error.what();

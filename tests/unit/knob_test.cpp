@@ -8,33 +8,32 @@ namespace {
 
 using namespace catoptric;
 
-constexpr TechniqueKnob kExampleTechniqueKnobs[] = {
+constexpr Knob kExampleTechniqueKnobs[] = {
     {.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
     {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
 std::string knob_error_text(std::string_view knob, std::string_view text) {
-    TechniqueKnobSettings settings(kExampleTechniqueKnobs);
-    return test::catch_error_text(Failure::usage,
-                                  [&] { settings.set_knob_from_text("row", knob, text); });
+    KnobSettings settings(kExampleTechniqueKnobs);
+    return test::catch_error_text(Failure::usage, [&] { settings.set("row", knob, text); });
 }
 
 TEST(Knob, SpecialWordReplacesANumber) {
-    TechniqueKnobSettings settings(kExampleTechniqueKnobs);
+    KnobSettings settings(kExampleTechniqueKnobs);
     EXPECT_FALSE(settings.is_special(kExampleTechniqueKnobs[1]));
-    settings.set_knob_from_text("row", "face", "auto");
+    settings.set("row", "face", "auto");
     EXPECT_TRUE(settings.is_special(kExampleTechniqueKnobs[1]));
-    EXPECT_EQ(settings.format_current_knob_value(kExampleTechniqueKnobs[1]), "auto");
-    EXPECT_FALSE(settings == TechniqueKnobSettings(kExampleTechniqueKnobs));
-    settings.set_knob_from_text("row", "face", "16");
-    EXPECT_EQ(settings.numeric_knob_value(kExampleTechniqueKnobs[1]), 16);
-    EXPECT_TRUE(settings == TechniqueKnobSettings(kExampleTechniqueKnobs));
+    EXPECT_EQ(settings.format(kExampleTechniqueKnobs[1]), "auto");
+    EXPECT_FALSE(settings == KnobSettings(kExampleTechniqueKnobs));
+    settings.set("row", "face", "16");
+    EXPECT_EQ(settings.number(kExampleTechniqueKnobs[1]), 16);
+    EXPECT_TRUE(settings == KnobSettings(kExampleTechniqueKnobs));
 }
 
 TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
-    TechniqueKnobSettings settings(kExampleTechniqueKnobs);
-    settings.set_knob_from_text("row", "face", "auto");
+    KnobSettings settings(kExampleTechniqueKnobs);
+    settings.set("row", "face", "auto");
     try {
-        settings.numeric_knob_value(kExampleTechniqueKnobs[1]);
+        settings.number(kExampleTechniqueKnobs[1]);
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::internal);
@@ -44,12 +43,12 @@ TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
 }
 
 TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
-    const TechniqueKnob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
-    TechniqueKnobSettings settings(std::span(&range, 1));
-    settings.set_knob_from_text("row", "range", "100000");
-    EXPECT_EQ(settings.format_current_knob_value(range), "100000");
+    const Knob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
+    KnobSettings settings(std::span(&range, 1));
+    settings.set("row", "range", "100000");
+    EXPECT_EQ(settings.format(range), "100000");
     try {
-        settings.set_knob_from_text("row", "range", "0");
+        settings.set("row", "range", "0");
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1000000,"));

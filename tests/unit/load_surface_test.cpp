@@ -233,8 +233,7 @@ TEST_F(LoadSurfaceTest, ImagesAreReadFromDataUrisFilesAndBufferViews) {
 TEST_F(LoadSurfaceTest, GreyImagesWithAndWithoutAlphaAreDecoded) {
     const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
     SceneLoadBudgetUsage account({});
-    const auto texels = [&](const ImageSizeAndChannels& shape,
-                            const std::vector<std::uint8_t>& values) {
+    const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
         return decode_image(encode_png(shape, values), "", "x", account)->texels;
     };
     EXPECT_THAT(texels({{3, 1}, 1, {}}, grey), ElementsAre(0xff000000, 0xff646464, 0xffffffff));

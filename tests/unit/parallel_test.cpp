@@ -15,15 +15,15 @@ TEST(Parallel, InParallelCallsEachNumberOnceOnAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 3U, 8U})
         for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
             std::vector<std::atomic<int>> calls(count);
-            run_in_parallel(count, threads, [&](std::size_t i) { ++calls[i]; });
+            parallel_for(count, threads, [&](std::size_t i) { ++calls[i]; });
             for (const std::atomic<int>& call : calls) EXPECT_EQ(call, 1);
         }
 }
 
 TEST(Parallel, SingleCallOrThreadRunsOnTheCallingThread) {
     const std::thread::id here = std::this_thread::get_id();
-    run_in_parallel(1, 8, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
-    run_in_parallel(100, 1, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    parallel_for(1, 8, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    parallel_for(100, 1, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
 }
 
 TEST(Parallel, CallerReceivesTheExceptionOfAnotherThread) {
@@ -35,7 +35,7 @@ TEST(Parallel, CallerReceivesTheExceptionOfAnotherThread) {
         thrown = true;
         throw std::runtime_error("there");
     };
-    EXPECT_THROW(run_in_parallel(1000, 2, work), std::runtime_error);
+    EXPECT_THROW(parallel_for(1000, 2, work), std::runtime_error);
 }
 
 /// Call 0 waits until another call has thrown. The caller must still receive the exception of call
@@ -44,7 +44,7 @@ TEST(Parallel, CallerReceivesTheExceptionOfTheLowestNumber) {
     for (int round = 0; round < 20; ++round) {
         std::atomic<int> thrown{0}, begun{0};
         try {
-            run_in_parallel(10000, 3, [&](std::size_t i) {
+            parallel_for(10000, 3, [&](std::size_t i) {
                 ++begun;
                 while (i == 0 && thrown == 0) std::this_thread::yield();
                 if (i > 2) return;
@@ -64,7 +64,7 @@ TEST(Parallel, AllThreadsLookAtTheSignalOfTheCaller) {
     std::atomic<int> stop = 0, calls = 0;
     const WorkWatch watch{.stop = &stop};
     const WatchScope scope(&watch);
-    run_in_parallel(10, 3, [&](std::size_t) { ++calls; });
+    parallel_for(10, 3, [&](std::size_t) { ++calls; });
     EXPECT_EQ(calls, 10);
     const auto count_until_stop = [&](std::size_t i) {
         ++calls;
@@ -72,7 +72,7 @@ TEST(Parallel, AllThreadsLookAtTheSignalOfTheCaller) {
     };
     calls = 0;
     try {
-        run_in_parallel(1'000'000, 3, count_until_stop);
+        parallel_for(1'000'000, 3, count_until_stop);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::terminated);

@@ -29,7 +29,7 @@ protected:
     /// Writes a file of 3x2 pixels whose channel c of pixel i has the value 10 c + i.
     std::string write_channels(const std::string& name,
                                const std::vector<std::string>& channels) const {
-        const ImageSizeAndChannels shape{{3, 2}, channels.size(), channels};
+        const ImageShape shape{{3, 2}, channels.size(), channels};
         std::vector<float> values;
         for (int pixel = 0; pixel < 6; ++pixel)
             for (std::size_t channel = 0; channel < channels.size(); ++channel)

@@ -133,9 +133,9 @@ TEST(PlanText, DrawnKnobsAndValuesAreRefusedWithTheNearestOrAllNames) {
     for (const reflect::Technique* technique : reflect::list_techniques()) {
         const std::string name(technique->name);
         const auto refusal = [&](const std::string& knob, const std::string& value) -> std::string {
-            TechniqueKnobSettings settings(technique->knobs);
+            KnobSettings settings(technique->knobs);
             try {
-                settings.set_knob_from_text(name, knob, value);
+                settings.set(name, knob, value);
                 return "";
             } catch (const Error& error) {
                 EXPECT_EQ(error.failure, Failure::usage) << knob << "=" << value;
@@ -151,13 +151,13 @@ TEST(PlanText, DrawnKnobsAndValuesAreRefusedWithTheNearestOrAllNames) {
                             text.npos)
                 << text;
         }
-        for (const TechniqueKnob& knob : technique->knobs)
+        for (const Knob& knob : technique->knobs)
             for (int i = 0; i < 5; ++i) {
                 const std::string word = draw_plan_word(random);
                 const std::string text = refusal(std::string(knob.name), word);
                 if (text.empty()) continue; // a number that fits
                 EXPECT_NE(text.find("knob '" + std::string(knob.name) + "'"), text.npos) << text;
-                const std::span<const std::string_view> choices = knob.list_choices();
+                const std::span<const std::string_view> choices = knob.names();
                 EXPECT_NE(text.find(choices.empty() ? " to " : choices[0]), text.npos) << text;
             }
     }

@@ -24,11 +24,11 @@ TEST(Png, PngBytesEqualThoseOfOpenImageIO) {
     for (const uvec2 size : {uvec2(1, 1), uvec2(7, 3), uvec2(300, 200)})
         for (std::size_t channel_count = 1; channel_count <= 4; ++channel_count) {
             const std::vector<std::uint8_t> values = make_png_test_values(size, channel_count);
-            const ImageCodecValueType type = ImageCodecValueType::uint8;
+            const PixelType type = PixelType::uint8;
             std::string wanted;
-            const ImageCodecResult made = get_image_codecs().encode(
+            const CodecResult made = image_codecs().encode(
                 "png", {size, channel_count, type, values.data()}, wanted);
-            ASSERT_EQ(made.answer, ImageCodecStatus::done) << made.why;
+            ASSERT_EQ(made.answer, CodecStatus::done) << made.why;
             EXPECT_TRUE(encode_png({size, channel_count, {}}, values) == wanted)
                 << size.x << "x" << size.y << " with " << channel_count << " channels";
         }

@@ -28,7 +28,7 @@ private:
     }
     bool is_chosen_with_chance(std::uint32_t percent) { return random_number_below(100) < percent; }
     bool is_depth_image(const ImageHandle& image) const {
-        return catoptric::is_depth_format(graph_.list_images()[image.id].format);
+        return catoptric::is_depth(graph_.list_images()[image.id].format);
     }
 
     void add_random_resources() {

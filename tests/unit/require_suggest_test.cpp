@@ -33,8 +33,7 @@ const PlanCandidate& best_without_tracing(const PlanSuggestion& suggestion) {
 /// Costs of a device that rasterises as the software driver does, and takes long for rays.
 UnitCosts make_costs_with_dear_rays() {
     UnitCosts costs = default_unit_costs();
-    for (const CountedWorkKind kind : {CountedWorkKind::camera_rays, CountedWorkKind::mirror_rays})
-        costs.ns[kind] = 1e6;
+    for (const WorkKind kind : {WorkKind::camera_rays, WorkKind::mirror_rays}) costs.ns[kind] = 1e6;
     return costs;
 }
 
@@ -124,11 +123,10 @@ TEST(RequireUnitCosts, EachFileOfCostsIsKnown) {
             test::source_folder() / "docs/costs" / (std::string(costs.file) + ".json")));
         EXPECT_EQ(document["device"], costs.device);
         for (const auto& unit : document["costs"]) {
-            const auto kind = std::ranges::find(kCountedWorkKinds, unit["work"].get<std::string>(),
-                                                &CountedWorkKindInfo::name);
-            EXPECT_EQ(
-                costs.ns.values.at(static_cast<std::size_t>(kind - std::begin(kCountedWorkKinds))),
-                unit["ns"].get<double>());
+            const auto kind = std::ranges::find(kWorkKinds, unit["work"].get<std::string>(),
+                                                &WorkKindInfo::name);
+            EXPECT_EQ(costs.ns.values.at(static_cast<std::size_t>(kind - std::begin(kWorkKinds))),
+                      unit["ns"].get<double>());
         }
     }
 }

@@ -69,7 +69,7 @@ const scene::RegisteredLightKind kTestOnlyLightKindEntry{
      .read = scene::read_spot_cone}};
 
 constexpr std::string_view kReportTableRows[] = {"testonly", "testonly:much=2"};
-constexpr TechniqueKnob kTestOnlyKnobs[] = {
+constexpr Knob kTestOnlyKnobs[] = {
     {.name = "much", .help = "how much", .low = 1, .high = 3, .value = 1}};
 constexpr reflect::Technique kTestOnlyTechnique{.name = "testonly",
                                                 .summary = "For a test.",

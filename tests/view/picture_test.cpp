@@ -131,8 +131,7 @@ TEST_F(ViewPictureTest, EveryTechniqueIsDrawnWhileItsKnobsChange) {
         EditedPlanState plan;
         plan.rest.technique = technique.name;
         for (const session::KnobInfo& knob : technique.knobs)
-            if (knob.name == "face" || knob.name == "shadow_map")
-                set_knob_from_text(plan.rest, knob, "16");
+            if (knob.name == "face" || knob.name == "shadow_map") set(plan.rest, knob, "16");
         plans.push_back(plan);
         std::size_t turned = 0;
         for (const session::KnobInfo& knob : technique.knobs) {
@@ -142,7 +141,7 @@ TEST_F(ViewPictureTest, EveryTechniqueIsDrawnWhileItsKnobsChange) {
                                                                  std::min(knob.low + 2, knob.high)))
                                       : knob.choices.back() == knob.value ? knob.choices.front()
                                                                           : knob.choices.back();
-            set_knob_from_text(plan.rest, knob, value);
+            set(plan.rest, knob, value);
             plans.push_back(plan);
             ++turned;
         }
@@ -211,8 +210,7 @@ TEST_F(ViewPictureTest, CopiedCommandRendersThePictureShown) {
         inputs.down[0] = frame > 2 && frame < 9;
         inputs.wheel = frame == 10 ? 3 : 0;
         if (frame == 5) state.motion.time = .125;
-        if (frame == 12)
-            set_knob_from_text(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
+        if (frame == 12) set(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
     };
     driver.after = [&](const ViewReport& report) { command = report.command; };
     EXPECT_EQ(run_view_in_test({"cornell-mirrors", "--technique", "secant:face=auto", "--size",

@@ -44,12 +44,12 @@ TEST(ViewPlan, EditedMirrorGetsARuleOfItsOwn) {
     plan.own[2] = plan.rest;
     EXPECT_EQ(technique_text_of_plan(plan), "reuse"); // mirror 2 equals the rest
     plan.own[2] = {"raytrace", {}};
-    set_knob_from_text(plan.own[2], find_knob_info("raytrace", "depth"), "3");
-    set_knob_from_text(plan.rest, find_knob_info("reuse", "face"), "64");
+    set(plan.own[2], find_knob_info("raytrace", "depth"), "3");
+    set(plan.rest, find_knob_info("reuse", "face"), "64");
     EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse:face=64");
     EXPECT_THAT(make_plan_option_words(plan),
                 ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
-    set_knob_from_text(plan.rest, find_knob_info("reuse", "face"), "256");
+    set(plan.rest, find_knob_info("reuse", "face"), "256");
     EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse");
     EXPECT_EQ(technique_text_of_plan(set_knob_in_plan(parse_plan_text("hybrid"), "show", "state")),
               "hybrid:show=state");
