@@ -67,7 +67,7 @@ bool compare_prototype_and_engine_pictures(session::Session& session, session::R
 } // namespace
 
 bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench) {
-    session::Request request = make_request_of_scene(scene::make_cornell_mirrors());
+    session::Request request = make_request_of_scene(scene::make_cornell());
     const auto session = std::make_shared<session::Session>(bench.engine, request.scene);
     const int frames = bench.rounds * kFramesPerRound;
     std::vector<benchmark::BenchmarkSubject> subjects;

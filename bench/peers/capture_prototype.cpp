@@ -48,7 +48,7 @@ CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::GpuDevice& devic
 
 void CubeCapturePrototypeRenderer::add_scene(const session::Request& request) {
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
-    const scene::Scene now = scene::scene_at_time(request.scene, request.time);
+    const scene::Scene now = scene::scene_at(request.scene, request.time);
     geometry_ = render::make_frame_geometry(now, space);
     const scene::PointLight light = scene::list_lights(now).at(0);
     const vec3 at = space.world_to_scene_point(light.position);

@@ -82,7 +82,7 @@ void EmbreeWhittedTracer::add_objects(const EmbreeDevice& device, const session:
     const scene::Scene& scene = request.scene;
     const render::SceneUnitTransform space = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene::scene_at_time(scene, request.time), space);
+        scene::scene_at(scene, request.time), space);
     std::ranges::transform(scene.materials, std::back_inserter(whitted_.textures),
                            make_albedo_texture);
     std::vector<bvh::Triangle> triangles;
@@ -150,7 +150,7 @@ void EmbreeWhittedTracer::add_view(const session::Request& request) {
         PeerSceneLight& added = whitted_.lights.emplace_back();
         check(light.cosines == dvec3(0), Failure::usage, "a lamp of two sides is closed, or none");
         const bool has_cosine = light.normal != dvec3(0);
-        const double share = has_cosine ? 1 : scene::light_share_in_direction(light, {0, 0, 1});
+        const double share = has_cosine ? 1 : scene::light_share(light, {0, 0, 1});
         const double area = share * light.area * space.scale * space.scale;
         added.position = vec3_to_peer_vector(space.world_to_scene_point(light.position));
         added.normal = vec3_to_peer_vector(vec3(light.normal));
@@ -172,7 +172,7 @@ void EmbreeWhittedTracer::add_view(const session::Request& request) {
 
 std::vector<bvh::Triangle> make_bvh_triangles_of_scene(const scene::Scene& scene) {
     const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene::scene_at_time(scene, 0), render::make_scene_units(scene));
+        scene::scene_at(scene, 0), render::make_scene_units(scene));
     std::vector<bvh::Triangle> triangles;
     for (std::size_t k = 0; k < geometry.indices.size() / 3; ++k)
         triangles.push_back(make_bvh_triangle(geometry, k));

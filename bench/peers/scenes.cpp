@@ -12,7 +12,7 @@ namespace {
 /// Returns the built-in scene with more triangles: balls of 4^(levels+1) triangles, and a diffuse
 /// torus of around^2 triangles.
 scene::Scene make_finely_tessellated_cornell_mirrors(int levels, int around) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     // All four balls share the mesh that is replaced here.
     scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels);
     scene::add_mesh(scene, scene::torus("ring", 130, 50, around),
@@ -22,7 +22,7 @@ scene::Scene make_finely_tessellated_cornell_mirrors(int levels, int around) {
 }
 
 constexpr NamedSceneFactory kNamedSceneFactories[] = {
-    {"built-in", scene::make_cornell_mirrors},
+    {"built-in", scene::make_cornell},
     {"100k", [] { return make_finely_tessellated_cornell_mirrors(6, 186); }},
     {"1M", [] { return make_finely_tessellated_cornell_mirrors(7, 860); }},
     {"room", [] { return scene::load("room"); }}};

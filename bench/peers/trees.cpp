@@ -68,7 +68,7 @@ void compare_bvhs_with_embree(const EmbreeComparisonBench& bench) {
     compare_bvh_build_times_with_embree(bench, million);
     std::printf("\n");
     compare_bvh_sah_costs_with_embree(bench.device, "torus", million);
-    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes())
         compare_bvh_sah_costs_with_embree(bench.device, scene.name,
                                           make_bvh_triangles_of_scene(scene.make()));
 }

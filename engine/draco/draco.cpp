@@ -18,8 +18,7 @@ namespace {
 
 /// Returns the values of an attribute for each point of the mesh, converted to `Value`.
 template <typename Value>
-bool copy_attribute_values(const draco::Mesh& mesh, const draco::PointAttribute& from,
-                           DracoAttribute& to) {
+bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAttribute& to) {
     to.values.resize(mesh.num_points() * to.width * sizeof(Value));
     auto out = to.values.begin();
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
@@ -33,24 +32,24 @@ bool copy_attribute_values(const draco::Mesh& mesh, const draco::PointAttribute&
     return true;
 }
 
-bool copy_attribute_values_as_wanted(const draco::Mesh& mesh, const draco::PointAttribute& from,
-                                     DracoAttribute& to) {
+bool copy_as_wanted(const draco::Mesh& mesh, const draco::PointAttribute& from,
+                    DracoAttribute& to) {
     switch (to.type) {
-    case DracoType::int8: return copy_attribute_values<std::int8_t>(mesh, from, to);
-    case DracoType::uint8: return copy_attribute_values<std::uint8_t>(mesh, from, to);
-    case DracoType::int16: return copy_attribute_values<std::int16_t>(mesh, from, to);
-    case DracoType::uint16: return copy_attribute_values<std::uint16_t>(mesh, from, to);
-    case DracoType::uint32: return copy_attribute_values<std::uint32_t>(mesh, from, to);
+    case DracoType::int8: return copy_values<std::int8_t>(mesh, from, to);
+    case DracoType::uint8: return copy_values<std::uint8_t>(mesh, from, to);
+    case DracoType::int16: return copy_values<std::int16_t>(mesh, from, to);
+    case DracoType::uint16: return copy_values<std::uint16_t>(mesh, from, to);
+    case DracoType::uint32: return copy_values<std::uint32_t>(mesh, from, to);
     case DracoType::float32: break;
     }
-    return copy_attribute_values<float>(mesh, from, to);
+    return copy_values<float>(mesh, from, to);
 }
 
 void set_buffer(draco::DecoderBuffer& buffer, std::span<const unsigned char> bytes) {
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-std::string read_draco_counts(std::span<const unsigned char> bytes, DracoCounts& counts) {
+std::string read_counts(std::span<const unsigned char> bytes, DracoCounts& counts) {
     draco::DecoderBuffer buffer;
     set_buffer(buffer, bytes);
     draco::DracoHeader header{};
@@ -76,9 +75,9 @@ std::string read_draco_counts(std::span<const unsigned char> bytes, DracoCounts&
     return is_read ? "" : "wanted a triangle mesh in Draco's bitstream 2.2, found too few bytes";
 }
 
-std::string decode_draco_mesh(std::span<const unsigned char> bytes,
-                              std::vector<DracoAttribute>& attributes,
-                              std::vector<std::uint32_t>& corners) {
+std::string decode_mesh(std::span<const unsigned char> bytes,
+                        std::vector<DracoAttribute>& attributes,
+                        std::vector<std::uint32_t>& corners) {
     draco::DecoderBuffer buffer;
     set_buffer(buffer, bytes);
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
@@ -94,7 +93,7 @@ std::string decode_draco_mesh(std::span<const unsigned char> bytes,
         if (found != width)
             return what + ": wanted " + std::to_string(width) + " components, found " +
                    std::to_string(found);
-        if (!copy_attribute_values_as_wanted(*mesh, *from, attribute))
+        if (!copy_as_wanted(*mesh, *from, attribute))
             return what + ": wanted values that fit the accessor's component type, found others";
     }
     for (std::uint32_t i = 0; i < mesh->num_faces(); ++i)
@@ -118,12 +117,12 @@ std::string catch_exceptions(const Work& work) noexcept {
 const DracoCodec kDracoCodec{
     .read_counts =
         [](std::span<const unsigned char> bytes, DracoCounts& counts) noexcept {
-            return catch_exceptions([&] { return read_draco_counts(bytes, counts); });
+            return catch_exceptions([&] { return read_counts(bytes, counts); });
         },
     .decode =
         [](std::span<const unsigned char> bytes, std::vector<DracoAttribute>& attributes,
            std::vector<std::uint32_t>& corners) noexcept {
-            return catch_exceptions([&] { return decode_draco_mesh(bytes, attributes, corners); });
+            return catch_exceptions([&] { return decode_mesh(bytes, attributes, corners); });
         }};
 
 } // namespace

@@ -36,7 +36,7 @@ VkDebugUtilsMessengerEXT make_debug_messenger(VkInstance instance,
     return messenger;
 }
 
-std::string to_lower_case(std::string text) {
+std::string to_lower(std::string text) {
     std::ranges::transform(text, text.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
@@ -46,7 +46,7 @@ std::string to_lower_case(std::string text) {
 /// must be a whole number of the name with at least three digits, so that an index that is out of
 /// range selects no device.
 bool matches_device_name(const std::string& name, const std::string& wanted, bool is_number) {
-    if (!is_number) return to_lower_case(name).find(to_lower_case(wanted)) != std::string::npos;
+    if (!is_number) return to_lower(name).find(to_lower(wanted)) != std::string::npos;
     constexpr std::size_t kLeastDigits = 3;
     constexpr std::string_view kNumberCharacters = "0123456789.";
     if (wanted.size() < kLeastDigits) return false;

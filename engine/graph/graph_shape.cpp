@@ -27,26 +27,26 @@ std::uint32_t enum_to_hash_number(E value) {
     return static_cast<std::uint32_t>(value);
 }
 
-void add_members_to_hash(OrderDependentHash& hash, const ImageDesc& desc) {
+void add(OrderDependentHash& hash, const ImageDesc& desc) {
     hash.add(desc.name);
     hash.add(desc.width, desc.height);
     hash.add(desc.layers, enum_to_hash_number(desc.format) << 1 | desc.cube);
     hash.add(desc.mips);
 }
 
-void add_members_to_hash(OrderDependentHash& hash, const ImageHandle& image) {
+void add(OrderDependentHash& hash, const ImageHandle& image) {
     hash.add(image.id << 1 | image.previous, image.first_layer);
     hash.add(image.layer_count);
     hash.add(image.first_mip, image.mip_count);
 }
 
-void add_members_to_hash(OrderDependentHash& hash, const Pass& pass) {
+void add(OrderDependentHash& hash, const Pass& pass) {
     hash.add(pass.name);
     hash.add(enum_to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
     hash.add(static_cast<std::uint32_t>(pass.images.size()),
              static_cast<std::uint32_t>(pass.buffers.size()));
     for (const ImageUse& use : pass.images) {
-        add_members_to_hash(hash, use.image);
+        add(hash, use.image);
         hash.add(enum_to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
                                                    std::uint32_t{use.write} << 1 |
                                                    use.clear.has_value());
@@ -111,7 +111,7 @@ std::uint64_t hash_graph_shape(const Graph& graph) {
     OrderDependentHash hash;
     hash.add(graph.list_images().size());
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
-        add_members_to_hash(hash, graph.list_images()[i]);
+        add(hash, graph.list_images()[i]);
         add_image_lifetime_to_shape_hash(hash, graph, i);
     }
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b) {
@@ -120,9 +120,9 @@ std::uint64_t hash_graph_shape(const Graph& graph) {
         hash.add(enum_to_hash_number(graph.buffer_lifetime(b)));
     }
     for (const ImageContentHashRecord& stamped : graph.list_image_content_hashes())
-        add_members_to_hash(hash, stamped.part);
-    for (const Pass& pass : graph.list_passes()) add_members_to_hash(hash, pass);
-    for (const ImageHandle& image : graph.list_output_images()) add_members_to_hash(hash, image);
+        add(hash, stamped.part);
+    for (const Pass& pass : graph.list_passes()) add(hash, pass);
+    for (const ImageHandle& image : graph.list_output_images()) add(hash, image);
     for (const BufferHandle& buffer : graph.list_output_buffers()) hash.add(buffer.id);
     return hash.hash_value();
 }

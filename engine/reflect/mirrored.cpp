@@ -18,7 +18,7 @@ using render::MirroredView;
 struct FlatMirrorFace {
     std::uint32_t mirror = 0;
     std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
-    std::vector<scene::TriangleIndexRun> triangles;
+    std::vector<scene::TriangleRun> triangles;
     /// How the mirror shows its view; MirroredViewOptions::rough is none for a sharp mirror.
     MirroredViewOptions options;
 
@@ -30,7 +30,7 @@ struct FlatMirrorFaceList {
     std::vector<FlatMirrorFace> faces;
     std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
     /// Mirrors with several faces, and their triangles that belong to no flat face.
-    std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleIndexRun>>> bodies;
+    std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
 };
 
 /// Returns the angle, radians, around the mirrored direction that holds most of the light of a
@@ -57,14 +57,14 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
         const double blur_angle = options.rough == RoughKnobs::Lookup::none
                                       ? 0
                                       : find_blur_angle(scene, i);
-        if (!flats.is_single_plane()) all.bodies.emplace_back(i, flats.bent);
+        if (!flats.is_plane()) all.bodies.emplace_back(i, flats.bent);
         for (std::size_t k = 0; k < flats.faces.size(); ++k) {
             const scene::FlatFace& face = flats.faces[k];
             if (face.off > scene.flat_mirror_tolerance()) {
                 std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
                 continue;
             }
-            all.faces.push_back({i, flats.is_single_plane() ? 0 : k + 1, face.triangles, options});
+            all.faces.push_back({i, flats.is_plane() ? 0 : k + 1, face.triangles, options});
             all.planes.push_back(render::MirrorPlane{face, options.bounces, blur_angle});
         }
     }

@@ -231,7 +231,7 @@ replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
                                     ": rest=" + choice.label;
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
         } else if (choice.technique->traits.draws_mirrored_views) {
-            const double bent = 1 - flats[i].flat_area_share(tolerance);
+            const double bent = 1 - flats[i].flat_share(tolerance);
             if (bent >= kMinReportedNonFlatShare)
                 assignment.lacks[i] = format_share_as_percent(bent) +
                                       " of its surface is not flat, black there";

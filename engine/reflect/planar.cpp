@@ -64,9 +64,9 @@ std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, dou
                                               const KnobSettings& settings) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);
     if (flats.is_rough && settings.integer(kPlanarRoughKnob) == kRoughByRest) return "rough";
-    if (flats.flat_area_share(tolerance) >= scene::kMinFlatAreaShare) return {};
+    if (flats.flat_share(tolerance) >= scene::kMinFlatShare) return {};
     char text[96] = "not flat";
-    if (flats.flat_area_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatAreaShare)
+    if (flats.flat_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatShare)
         std::snprintf(text, sizeof text, "%.2g rad off a plane, where %.2g would do",
                       flats.faces.front().off, tolerance);
     return text;

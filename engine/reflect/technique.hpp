@@ -98,7 +98,7 @@ struct Technique {
     /// (reflect/mirrored.cpp).
     MirroredViewOptions (*mirrored_views)(const KnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
-    /// `tolerance`: scene::compute_flat_tolerance.
+    /// `tolerance`: scene::flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance,
                          const KnobSettings& settings) =
         [](const scene::FlatFaces&, double, const KnobSettings&) { return std::string(); };

@@ -17,7 +17,7 @@ using ObjectFilter = std::function<bool(std::size_t)>;
 /// The part of each object to draw.
 struct DrawnObjectParts {
     /// Runs of triangles to draw; null: all triangles.
-    const std::vector<scene::TriangleIndexRun>* triangles = nullptr;
+    const std::vector<scene::TriangleRun>* triangles = nullptr;
     /// For each object, the layers to draw it into: bit k stands for layer k (shown_faces.hpp).
     /// Empty: all layers whose views may meet the object.
     std::span<const std::uint8_t> layers;

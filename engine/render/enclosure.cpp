@@ -19,7 +19,7 @@ VertexPositionKey make_vertex_position_key(const dvec3& p) { return {p.x, p.y, p
 /// Returns whether each edge is traversed equally often in both directions. Edges are compared by
 /// position, not by vertex index. `at(k)`: corner k, three corners a triangle.
 template <typename At>
-bool is_closed_triangle_surface(std::size_t corners, At&& at) {
+bool is_closed_surface(std::size_t corners, At&& at) {
     std::map<std::pair<VertexPositionKey, VertexPositionKey>, int> runs;
     for (std::size_t k = 0; k < corners; k += 3)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -58,7 +58,7 @@ bool does_object_enclose_point(const FrameGeometry& geometry, const ObjectDrawRa
     // The sum of solid angles is 4 pi for a point inside the object, half of it on a face, and a
     // fraction of it on an edge or a corner. For a point outside, the sum is 0.
     return std::abs(seen) > kSolidAngleTolerance &&
-           is_closed_triangle_surface(range.index_count, [&](std::size_t k) {
+           is_closed_surface(range.index_count, [&](std::size_t k) {
                return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);
            });
 }
@@ -71,7 +71,7 @@ bool is_closed_shell(const scene::Mesh& mesh) {
     const bool faces_out = std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
         return dot(arm(t.x), cross(arm(t.y), arm(t.z))) > 0;
     });
-    return faces_out && is_closed_triangle_surface(3 * mesh.triangles.size(), [&](std::size_t k) {
+    return faces_out && is_closed_surface(3 * mesh.triangles.size(), [&](std::size_t k) {
                return mesh.positions[mesh.triangles[k / 3][static_cast<int>(k % 3)]];
            });
 }

@@ -44,8 +44,7 @@ SharedMeshCoordinateSpace write_shared_mesh_vertices(FrameGeometry& geometry,
         const vec3 position(to_own * (mesh.positions[i] - space.middle));
         space.box.add(dvec3(position));
         geometry.vertices[range.first_vertex + i] = {
-            position,
-            vec3(scene::transform_normal_to_world(normal_to_own, dvec3(mesh.normals[i])))};
+            position, vec3(scene::transform_normal(normal_to_own, dvec3(mesh.normals[i])))};
     }
     write_object_indices(geometry, mesh, range);
     return space;
@@ -62,18 +61,17 @@ bool write_object_space_vertices(FrameGeometry& geometry, const scene::Scene& no
     const dvec3 middle = make_mesh_space(mesh).middle;
     const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
                 turn = own_from_scene * space.scale * dmat3(object.world_from_object),
-                normal_to_own = scene::compute_normal_matrix(object.world_from_object);
-    const dvec3 at_middle = own_from_scene *
-                            (space.world_to_scene_units(scene::transform_point_to_world(
-                                 object.world_from_object, middle)) -
-                             range.own->centre);
+                normal_to_own = scene::normal_matrix(object.world_from_object);
+    const dvec3 at_middle = own_from_scene * (space.world_to_scene_units(scene::transform_point(
+                                                  object.world_from_object, middle)) -
+                                              range.own->centre);
     Bounds<double> box;
     bool changed = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const vec3 position(turn * (mesh.positions[i] - middle) + at_middle);
         box.add(dvec3(position));
-        const shared::Vertex vertex{position, vec3(scene::transform_normal_to_world(
-                                                  normal_to_own, dvec3(mesh.normals[i])))};
+        const shared::Vertex vertex{
+            position, vec3(scene::transform_normal(normal_to_own, dvec3(mesh.normals[i])))};
         shared::Vertex& kept = geometry.vertices[range.first_vertex + i];
         changed = changed || kept.position != vertex.position || kept.normal != vertex.normal;
         kept = vertex;
@@ -88,7 +86,7 @@ void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now
                                 const SceneUnitTransform& space, std::size_t index) {
     const dmat4& world_from_object = now.objects[index].world_from_object;
     const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
-    const dmat3 normal_to_world = scene::compute_normal_matrix(world_from_object);
+    const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
     ObjectDrawRange& range = geometry.ranges[index];
     range.bounds = {};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -96,8 +94,7 @@ void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now
             dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
         range.bounds.add(position);
         geometry.vertices[range.first_vertex + i] = {
-            position,
-            vec3(scene::transform_normal_to_world(normal_to_world, dvec3(mesh.normals[i])))};
+            position, vec3(scene::transform_normal(normal_to_world, dvec3(mesh.normals[i])))};
     }
 }
 
@@ -106,7 +103,7 @@ void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now
 bool has_extra_material_factors(const scene::Material& material) {
     const scene::Material usual;
     return std::ranges::any_of(scene::kMaterialFactors, [&](const scene::MaterialFactor& factor) {
-        return factor.extension != scene::kCoreMaterialFactors &&
+        return factor.extension != scene::kCoreFactors &&
                material.*factor.member != usual.*factor.member;
     });
 }
@@ -118,7 +115,7 @@ bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material
            material.normal_texture || material.unlit || scene::has_alpha_mask(material) ||
            has_extra_material_factors(material) ||
            (material.mirror ? throws_back || scene::is_visibly_emissive(material)
-                            : scene::has_specular_part(material));
+                            : scene::has_specular(material));
 }
 
 /// Returns whether a mirror shows nothing except reflections.

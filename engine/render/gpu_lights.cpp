@@ -18,7 +18,7 @@ shared::Light make_light_entry(const scene::PointLight& light, const SceneUnitTr
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
     const bool is_alike_all_round = light.normal == dvec3(0) && light.cosines == dvec3(0);
-    const double share = is_alike_all_round ? light_share_in_direction(light, {0, 0, 1}) : 1;
+    const double share = is_alike_all_round ? light_share(light, {0, 0, 1}) : 1;
     const double area = light.directional ? 1 : share * light.area * space.scale * space.scale;
     entry.intensity = light.emission * static_cast<float>(area);
     entry.reach = 1 / space.world_to_scene_length(light.range);

@@ -262,8 +262,7 @@ void GpuScene::place_probe(const scene::Scene& now, std::size_t mirror) {
     const std::size_t object = mirror_objects_[mirror];
     const auto within = middle_covered_[mirror] ? std::span<const std::size_t>(within_[mirror])
                                                 : std::span<const std::size_t>();
-    probe_places_[mirror] = space_.world_to_scene_units(
-        scene::choose_capture_centre(now, object, within));
+    probe_places_[mirror] = space_.world_to_scene_units(scene::capture_centre(now, object, within));
     flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
     inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
 }
@@ -272,8 +271,8 @@ std::optional<scene::GlassBody> GpuScene::find_glass_body(const scene::Scene& no
                                                           const scene::Object& object) {
     if (!scene::is_glass(now.materials[object.material])) return std::nullopt;
     const auto [volume, is_new] = closed_volumes_.try_emplace(object.mesh);
-    if (is_new) volume->second = scene::compute_closed_volume(now.meshes[object.mesh]);
-    return scene::choose_glass_body_model(now, object, volume->second);
+    if (is_new) volume->second = scene::closed_volume(now.meshes[object.mesh]);
+    return scene::choose_glass_body(now, object, volume->second);
 }
 
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
@@ -296,7 +295,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
         if (mirror >= known || !changes.moved.empty()) {
             const bool was_covered = middle_covered_[mirror] != 0;
             const auto before = std::exchange(within_[mirror],
-                                              scene::list_objects_within(of_objects, object));
+                                              scene::objects_within(of_objects, object));
             middle_covered_[mirror] = is_middle_covered(mirror) ? 1 : 0;
             const bool changes_within = before != within_[mirror] ||
                                         std::ranges::any_of(before, has_moved);

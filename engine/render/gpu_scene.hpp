@@ -33,7 +33,7 @@ public:
     GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots = 1);
 
     /// Writes the data that differ from the last update, and nothing else. `now` is
-    /// scene::scene_at_time of the scene given above, possibly with other transforms, materials and
+    /// scene::scene_at of the scene given above, possibly with other transforms, materials and
     /// lights; the meshes stay. Later binds refer to slot `slot`, in which no frame may be in
     /// flight. Frames in other slots keep their own data. Costs O(n) in what has moved and O(log n)
     /// a near plane.
@@ -81,7 +81,7 @@ public:
     /// Returns the flat faces of each mirror, scene units; empty for mirrors that are not flat.
     const std::vector<scene::FlatFaces>& list_flat_mirror_faces() const { return flats_; }
     /// Returns how far from flat a mirror may be to be drawn as a plane in this picture.
-    double flat_mirror_tolerance() const { return scene::compute_flat_tolerance(camera_, size_); }
+    double flat_mirror_tolerance() const { return scene::flat_tolerance(camera_, size_); }
     /// Returns the eye from which mirrored views start.
     MirroredViewEye eye() const;
     /// Returns whether the object is a closed mirror with the camera inside, which no light from

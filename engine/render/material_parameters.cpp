@@ -141,7 +141,7 @@ std::uint32_t find_glass_body_flag(const scene::Scene& now, const scene::Object&
                                    std::map<std::size_t, bool>& closed) {
     const auto [entry, is_new] = closed.try_emplace(object.mesh, false);
     const scene::Mesh& mesh = now.meshes[object.mesh];
-    if (is_new) entry->second = scene::is_closed_triangle_surface(mesh.positions, mesh.triangles);
+    if (is_new) entry->second = scene::is_closed_surface(mesh.positions, mesh.triangles);
     if (!entry->second) return shared::kMaterialOpenSheetFlag;
     return now.materials[object.material].solid ? shared::kMaterialSolidFlag : 0;
 }

@@ -30,7 +30,7 @@ struct MirrorShader {
 struct MirrorSubsetShader {
     std::uint32_t mirror = 0; ///< number of the mirror, from 0
     std::uint32_t look = 0;   ///< index into ShaderOfEachMirror::looks
-    std::vector<scene::TriangleIndexRun> triangles;
+    std::vector<scene::TriangleRun> triangles;
 };
 
 /// The shader of each mirror, chosen from a list.

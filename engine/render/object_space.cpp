@@ -74,8 +74,7 @@ ObjectSpace make_object_space(const SharedMeshCoordinateSpace& mesh, const dmat4
                               const SceneUnitTransform& space) {
     ObjectSpace own;
     own.scene_from_own = dmat3(world_from_object) * (space.scale / mesh.unit);
-    own.centre = space.world_to_scene_units(
-        scene::transform_point_to_world(world_from_object, mesh.middle));
+    own.centre = space.world_to_scene_units(scene::transform_point(world_from_object, mesh.middle));
     const dmat3 inverse = glm::inverse(own.scene_from_own);
     own.least = 1 / std::sqrt(dot(inverse[0], inverse[0]) + dot(inverse[1], inverse[1]) +
                               dot(inverse[2], inverse[2]));

@@ -21,7 +21,7 @@ shared::Sky make_sky_uniforms(const scene::Environment& environment) {
     sky.scale = static_cast<float>(environment.scale);
     const double angle = glm::radians(environment.rotation_degrees);
     sky.turn = vec2(std::cos(angle), std::sin(angle));
-    std::ranges::transform(scene::compute_irradiance_coefficients(environment), sky.irradiance,
+    std::ranges::transform(scene::irradiance_coefficients(environment), sky.irradiance,
                            [](const dvec3& coefficient) { return vec3(coefficient); });
     return sky;
 }

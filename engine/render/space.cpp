@@ -43,7 +43,7 @@ bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& or
 }
 
 SceneUnitTransform make_scene_units(const scene::Scene& scene) {
-    const Bounds<double> core = scene::compute_core_bounds(scene);
+    const Bounds<double> core = scene::core_bounds(scene);
     if (core.empty()) return {};
     SceneUnitTransform space;
     space.origin_world = choose_scene_origin(scene, core);

@@ -44,7 +44,7 @@ Json find_scene_report(const Json& document, const Comparison& comparison,
     const Json scenes = find_json_member(document, "scenes");
     check(find_json_member(document, "schema") == "catoptric/compare-scenes/1" && scenes.is_array(),
           Failure::bad_data, file, ": wanted a report.json of 'catoptric compare', found schema ",
-          describe_json_value(find_json_member(document, "schema")));
+          describe(find_json_member(document, "schema")));
     for (const Json& scene : scenes) // two scenes may have one name, but not one hash
         if (find_json_member(find_json_member(scene, "scene"), "hash") == comparison.scene.hash)
             return scene;
@@ -57,7 +57,7 @@ void check_json_member(const Json& object, const char* name, bool fits, const ch
                        const std::string& place) {
     const Json value = find_json_member(object, name);
     check(fits || value.is_null(), Failure::bad_data, place, ".", name, ": wanted ", wanted,
-          ", found ", describe_json_value(value));
+          ", found ", describe(value));
 }
 
 /// Throws unless a time is null, or an object with a median and an interval.
@@ -77,7 +77,7 @@ void check_time_summary(const Json& object, const char* name, const std::string&
 /// Throws unless the row has all members that the verdicts read, or lacks them.
 void check_baseline_row(const Json& row, const std::string& place) {
     check(row.is_object() && find_json_member(row, "label").is_string(), Failure::bad_data, place,
-          ": wanted a row with a label, found ", describe_json_value(row));
+          ": wanted a row with a label, found ", describe(row));
     const Json error = find_json_member(row, "error"), work = find_json_member(row, "work"),
                passes = find_json_member(row, "passes");
     check_json_member(row, "error", error.is_object(), "an object", place);
@@ -89,7 +89,7 @@ void check_baseline_row(const Json& row, const std::string& place) {
     for (std::size_t i = 0; i < passes.size(); ++i) {
         const std::string pass = fmt::format("{}.passes[{}]", place, i);
         check(find_json_member(passes[i], "name").is_string(), Failure::bad_data, pass,
-              ": wanted a pass with a name, found ", describe_json_value(passes[i]));
+              ": wanted a pass with a name, found ", describe(passes[i]));
         check_time_summary(passes[i], "gpu_ms", pass);
     }
 }

@@ -106,7 +106,7 @@ struct BenchmarkJsonEntry {
     std::string read_text(const char* member) const {
         const Json value = benchmark_json_member_or_null(member);
         check(value.is_string(), Failure::bad_data, place, ".", member, ": wanted text, found ",
-              describe_json_value(value));
+              describe(value));
         return value.get<std::string>();
     }
     /// Returns a member that must be a finite number of at least 0.
@@ -114,7 +114,7 @@ struct BenchmarkJsonEntry {
         const Json value = benchmark_json_member_or_null(member);
         const double found = value.is_number() ? value.get<double>() : NAN;
         check(std::isfinite(found) && found >= 0, Failure::bad_data, place, ".", member,
-              ": wanted a number of at least 0, found ", describe_json_value(value));
+              ": wanted a number of at least 0, found ", describe(value));
         return found;
     }
     std::optional<double> read_optional_count(const char* member) const {
@@ -227,14 +227,13 @@ BenchmarkRun read_benchmarks(const std::string& text, const std::string& file) {
     check(list.is_array(), Failure::bad_data, file,
           ": wanted an object with a list 'benchmarks', as 'catoptric bench --json' writes it, "
           "found ",
-          document.is_object() ? "benchmarks: " + describe_json_value(list)
-                               : describe_json_value(document));
+          document.is_object() ? "benchmarks: " + describe(list) : describe(document));
     BenchmarkRun run;
     read_benchmark_context(document, run);
     for (std::size_t i = 0; i < list.size(); ++i) {
         const BenchmarkJsonEntry entry{list[i], file + ": benchmarks[" + std::to_string(i) + "]"};
         check(list[i].is_object(), Failure::bad_data, entry.place, ": wanted an object, found ",
-              describe_json_value(list[i]));
+              describe(list[i]));
         if (!entry.is_benchmark_single_round()) continue;
         const std::string name = entry.read_text(list[i].contains("run_name") ? "run_name"
                                                                               : "name");

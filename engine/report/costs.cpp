@@ -32,7 +32,7 @@ struct CostJsonValue {
     std::string place;
 
     [[noreturn]] void fail_with_expected_value(const std::string& wanted) const {
-        fail(Failure::bad_data, place, ": wanted ", wanted, ", found ", describe_json_value(json));
+        fail(Failure::bad_data, place, ": wanted ", wanted, ", found ", describe(json));
     }
     CostJsonValue find_member(const char* name) const {
         static const Json kNone;

@@ -38,7 +38,7 @@ Json make_interval_json(const measure::Interval& interval) {
                : Json();
 }
 
-std::string describe_json_value(const Json& value) {
+std::string describe(const Json& value) {
     if (value.is_null()) return "nothing";
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
     return quote(value.dump(-1, ' ', true, Json::error_handler_t::replace));

@@ -33,7 +33,7 @@ Json make_number_list_json(const std::vector<double>& values);
 /// Returns the list [low, high], or null if the interval is not known.
 Json make_interval_json(const measure::Interval& interval);
 /// Describes a value for a message: "nothing", "a list", or its JSON in quotes.
-std::string describe_json_value(const Json& value);
+std::string describe(const Json& value);
 /// Returns the field "device".
 Json make_device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.

@@ -18,7 +18,7 @@ namespace catoptric::require {
 /// Input of a model: the scene at one instant, the camera, the picture's size and the settings that
 /// decide what the picture requires.
 struct RequiredWorkModelInput {
-    const scene::Scene& now; ///< the scene at the instant (scene::scene_at_time)
+    const scene::Scene& now; ///< the scene at the instant (scene::scene_at)
     const scene::Camera& camera;
     uvec2 size{512, 512};
     /// Edge in texels of the coarsest shadow map in use. The coarser the map, the further shadows

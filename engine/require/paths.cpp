@@ -26,7 +26,7 @@ public:
         std::uint32_t mirrors = 0;
         for (const std::size_t object : scene::mirrors(now))
             mirror_number_of_object_[object] = ++mirrors;
-        for (const dvec3& centre : scene::list_capture_centres(now))
+        for (const dvec3& centre : scene::capture_centres(now))
             centres_.emplace_back(centre - question.camera.eye);
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i)
@@ -78,7 +78,7 @@ private:
     /// Returns how the ray tracer reflects rays at an object, if lobes are traced. Textures of the
     /// roughness are ignored.
     static SurfaceReflection find_reflection(const scene::Material& material, bool is_mirror) {
-        if (!scene::has_specular_part(material))
+        if (!scene::has_specular(material))
             return is_mirror ? SurfaceReflection::sharp : SurfaceReflection::none;
         return material.roughness <= shared::kMaxSharpRoughness ? SurfaceReflection::sharp
                                                                 : SurfaceReflection::rough;
@@ -104,11 +104,10 @@ private:
                                     (!is_mirror && scene::is_one_sided(material)
                                          ? bvh::kOneSidedFlag
                                          : 0);
-        const dmat3 turns = scene::compute_normal_matrix(object.world_from_object);
+        const dmat3 turns = scene::normal_matrix(object.world_from_object);
         const auto place = [&](std::uint32_t i) {
-            return vec3(
-                scene::transform_point_to_world(object.world_from_object, mesh.positions[i]) -
-                question.camera.eye);
+            return vec3(scene::transform_point(object.world_from_object, mesh.positions[i]) -
+                        question.camera.eye);
         };
         for (const uvec3& t : mesh.triangles) {
             triangles.push_back(
@@ -117,7 +116,7 @@ private:
             normals_.resize(3 * triangles.size(), vec3(0));
             for (int k = 0; k < 3; ++k)
                 normals_[3 * (triangles.size() - 1) + static_cast<std::size_t>(k)] = vec3(
-                    scene::transform_normal_to_world(turns, dvec3(mesh.normals[t[k]])));
+                    scene::transform_normal(turns, dvec3(mesh.normals[t[k]])));
         }
     }
 

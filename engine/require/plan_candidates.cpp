@@ -37,7 +37,7 @@ bool is_mirror_flat(const RequiredWorkModelInput& question, const scene::Object&
     const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
     // The errors of the candidates are those of sharp mirrors. A blurred view has a larger error.
     return !flats.is_rough &&
-           flats.flat_area_share(scene::compute_flat_tolerance(question.camera, question.size)) >=
+           flats.flat_share(scene::flat_tolerance(question.camera, question.size)) >=
                1 - kMaxCurvedAreaShare;
 }
 

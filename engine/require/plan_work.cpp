@@ -47,7 +47,7 @@ bool has_varying_material(const scene::Scene& now, const scene::Object& object) 
     if (material.albedo != vec3(0) && (material.two_sided || scene::is_mirror(now, object)))
         return true; // shaders find the side that is seen
     return material.mirror ? material.albedo != vec3(0) && material.reflectance != vec3(1)
-                           : scene::has_specular_part(material);
+                           : scene::has_specular(material);
 }
 
 } // namespace

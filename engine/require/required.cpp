@@ -98,8 +98,7 @@ RequiredWorkModelBuilder::Impl::needed_capture_faces_of_mirror(const PictureFrus
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
         if (model.mirrors[i].is_captured && sight.may_light_path_reach_object(world, i, mirror))
             viewers.push_back(world.list_objects()[world.list_mirror_objects()[i]].box);
-    const dvec3 normal = scene::transform_normal_to_world(scene::compute_normal_matrix(thing.place),
-                                                          flat);
+    const dvec3 normal = scene::transform_normal(scene::normal_matrix(thing.place), flat);
     return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.max_position_rounding_error(),
                                        viewers);
 }

@@ -59,7 +59,7 @@ bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityScen
     return !has_few_mesh_triangles(mesh) ||
            std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
                const auto corner = [&](std::uint32_t i) {
-                   return scene::transform_point_to_world(thing.place, mesh.positions[i]);
+                   return scene::transform_point(thing.place, mesh.positions[i]);
                };
                return picture.may_frustum_contain_triangle({corner(t.x), corner(t.y), corner(t.z)},
                                                            margin);

@@ -33,16 +33,15 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
                                     : share(first) + " of the picture, " + share(reached) +
                                           " with what other mirrors show of it";
     if (reached == first && first > 0) seen = share(first) + " of the picture";
-    const scene::MirrorShape::ShapeKind kind =
-        scene::classify_mirror_shape(question.now, object).kind;
+    const scene::MirrorShape::Kind kind = scene::classify_shape(question.now, object).kind;
     const char* shape = known.is_glass[mirror]                                   ? "glass"
                         : scene::may_reflect_by_lobe(question.now, object)       ? "rough"
                         : question.now.materials[object.material].normal_texture ? "bumpy"
                         : known.is_flat[mirror]
-                            ? kind == scene::MirrorShape::ShapeKind::flat ? "flat" : "flat faces"
-                        : kind == scene::MirrorShape::ShapeKind::flat   ? "not quite flat"
-                        : kind == scene::MirrorShape::ShapeKind::sphere ? "a sphere"
-                                                                        : "curved";
+                            ? kind == scene::MirrorShape::Kind::flat ? "flat" : "flat faces"
+                        : kind == scene::MirrorShape::Kind::flat   ? "not quite flat"
+                        : kind == scene::MirrorShape::Kind::sphere ? "a sphere"
+                                                                   : "curved";
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
     if (known.is_glass[mirror] &&

@@ -34,7 +34,7 @@ Bounds<double> transform_bounds(const Bounds<double>& box, const dmat4& place) {
     Bounds<double> result;
     if (!box.empty())
         for (const dvec3& corner : list_box_corners(box))
-            result.add(scene::transform_point_to_world(place, corner));
+            result.add(scene::transform_point(place, corner));
     return result;
 }
 
@@ -144,8 +144,7 @@ void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_
     const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
     const MeshShapeSummary& mesh = meshes_[thing.mesh];
-    if (!mesh.box.empty())
-        thing.middle = scene::transform_point_to_world(thing.place, mesh.box.centre());
+    if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
     thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;
     ContentHash content_hash;
     content_hash.add(index)
@@ -197,7 +196,7 @@ void VisibilityScene::find_occluder_walls() {
         const scene::Material& material = materials_[thing.material];
         if (thing.is_mover || !can_object_be_wall(material, thing.is_mirror)) continue;
         for (QuadCorners quad : meshes_[thing.mesh].quads) {
-            for (dvec3& corner : quad) corner = scene::transform_point_to_world(thing.rest, corner);
+            for (dvec3& corner : quad) corner = scene::transform_point(thing.rest, corner);
             OccluderWall wall = make_occluder_wall(quad, i);
             wall.front_only = material.front_only && !thing.is_mirror;
             wall.seen_by_camera = thing.seen_by_camera;

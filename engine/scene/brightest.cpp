@@ -16,14 +16,14 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns how strongly one light lights a surface at `point` that faces it, without shadows.
-double light_strength_at_point(const dvec3& point, const PointLight& light) {
+double strength_at(const dvec3& point, const PointLight& light) {
     const double emitted = luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
     const dvec3 way = point - light.position;
     const double square = glm::dot(way, way), distance = std::sqrt(square);
     if (square == 0) return std::numeric_limits<double>::infinity();
     const dvec3 along = way / distance;
-    const double facing = light_share_in_direction(light, along);
+    const double facing = light_share(light, along);
     const double part = std::isinf(light.range) ? 0 : std::pow(distance / light.range, 4);
     const double window = std::clamp(1 - part, 0.0, 1.0);
     double cone = 1;
@@ -40,7 +40,7 @@ struct LightSource {
     double strength = 0;
 };
 
-std::vector<LightSource> list_light_sources(const Scene& scene) {
+std::vector<LightSource> light_sources(const Scene& scene) {
     const dvec3 centre = bounds(scene).centre();
     Scene one; // scene that holds only one light source at a time
     one.meshes = scene.meshes, one.materials = scene.materials;
@@ -48,7 +48,7 @@ std::vector<LightSource> list_light_sources(const Scene& scene) {
     const auto add = [&](std::size_t index) {
         std::size_t point = 0;
         for (const PointLight& light : list_lights(one))
-            sources.push_back({index, point++, light_strength_at_point(centre, light)});
+            sources.push_back({index, point++, strength_at(centre, light)});
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         one.objects = {scene.objects[i]};
@@ -63,7 +63,7 @@ std::vector<LightSource> list_light_sources(const Scene& scene) {
 }
 
 /// Gives the object a material that lights nothing.
-void make_object_emit_nothing(Scene& scene, Object& object) {
+void stop_emission(Scene& scene, Object& object) {
     Material dark = scene.materials[object.material];
     dark.light = vec3(0);
     const auto known = std::ranges::find(scene.materials, dark);
@@ -73,11 +73,10 @@ void make_object_emit_nothing(Scene& scene, Object& object) {
 
 /// Moves the triangles of all points except the `kept` points into a new object that emits no
 /// light.
-void split_off_emitting_triangles(Scene& scene, std::size_t index,
-                                  const std::vector<std::size_t>& kept) {
+void split_emitters(Scene& scene, std::size_t index, const std::vector<std::size_t>& kept) {
     Object rest = scene.objects[index];
     Mesh bright = scene.meshes[rest.mesh], dark = bright;
-    const auto points = find_light_of_each_triangle(bright, rest.world_from_object);
+    const auto points = triangle_lights(bright, rest.world_from_object);
     bright.triangles.clear(), dark.triangles.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool stays = points[i] && std::ranges::find(kept, *points[i]) != kept.end();
@@ -87,7 +86,7 @@ void split_off_emitting_triangles(Scene& scene, std::size_t index,
     scene.meshes.push_back(std::move(bright));
     rest.mesh = scene.meshes.size();
     scene.meshes.push_back(std::move(dark));
-    make_object_emit_nothing(scene, rest);
+    stop_emission(scene, rest);
     scene.objects.push_back(std::move(rest));
 }
 
@@ -95,7 +94,7 @@ void split_off_emitting_triangles(Scene& scene, std::size_t index,
 
 void drop_weakest_lights(Scene& scene, std::size_t most) {
     if (list_lights(scene).size() <= most) return;
-    std::vector<LightSource> sources = list_light_sources(scene);
+    std::vector<LightSource> sources = light_sources(scene);
     std::ranges::stable_sort(sources, std::ranges::greater(), &LightSource::strength);
     struct LightSourceOwner {
         std::vector<std::size_t> kept;
@@ -120,11 +119,11 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
         if (!thing.kept.empty())
             place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
                      std::to_string(thing.points) + " parts";
-        add_unsupported_feature(scene.unsupported, "lights-left-out", place);
+        add_unsupported(scene.unsupported, "lights-left-out", place);
         if (!thing.kept.empty())
-            split_off_emitting_triangles(scene, index, thing.kept);
+            split_emitters(scene, index, thing.kept);
         else if (is_object)
-            make_object_emit_nothing(scene, scene.objects[index]);
+            stop_emission(scene, scene.objects[index]);
     }
     scene.punctual = std::move(punctual);
 }

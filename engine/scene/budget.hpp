@@ -10,7 +10,7 @@ namespace catoptric::scene {
 /// rendering a small picture of it should take at most 1 GiB of memory and 10 s (measured:
 /// docs/extremes.md). A million triangles that share no normal fit. Scenes built in code have no
 /// limits.
-struct SceneLoadBudget {
+struct LoadBudget {
     std::uint64_t file_bytes = 256 << 20; ///< bytes of all files of the scene, each counted once
     std::uint64_t files = 4'000; ///< file names in the scene, whether the files are read or not
     std::uint64_t json_bytes = 64 << 20; ///< bytes of glTF JSON, without the binary chunk of a GLB

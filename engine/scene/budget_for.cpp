@@ -9,10 +9,10 @@
 
 namespace catoptric::scene {
 
-SceneLoadBudget choose_load_budget(const std::filesystem::path& scene,
-                                   const SceneLoadBudgetOverride& wish, std::uint64_t free_bytes) {
+LoadBudget choose_budget(const std::filesystem::path& scene, const BudgetOverride& wish,
+                         std::uint64_t free_bytes) {
     constexpr std::uint64_t kFreeMemoryShareDivisor = 8, kMinFileBytesPerTriangle = 6;
-    SceneLoadBudget budget;
+    LoadBudget budget;
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(scene, none);
     const std::uint64_t stored = none ? 0 : size / kMinFileBytesPerTriangle;

@@ -23,18 +23,18 @@ struct RegisteredBuiltInScene {
     explicit RegisteredBuiltInScene(BuiltInScene scene);
 };
 /// Returns every built-in scene, sorted by `order`, then by name.
-const std::vector<BuiltInScene>& list_built_in_scenes();
+const std::vector<BuiltInScene>& built_in_scenes();
 
 /// Builds the Cornell box with four mirror balls (contract: "The built-in scene").
-Scene make_cornell_mirrors();
+Scene make_cornell();
 /// Builds the Cornell box with four mirror balls and a white front wall that camera rays ignore.
-Scene make_closed_cornell_mirrors();
+Scene make_closed_cornell();
 /// Builds the Cornell box with metal balls of roughness .05, .15, .3 and .5 instead of mirrors.
 Scene make_rough_cornell();
 /// Builds a room with six balls and six slanted slabs of metal, of roughness .05 to .6.
 Scene make_roughness_room();
 /// Builds a closed room with one flat mirror.
-Scene make_flat_mirror_room();
+Scene make_flat_room();
 /// Builds a furnished room: textures, shared meshes, a wall mirror, a smooth floor, two lamps, a
 /// spot.
 Scene make_furnished_room();

@@ -51,7 +51,7 @@ Camera parse_placed_camera(const std::string& text, const SettingOrigin& by) {
     return camera;
 }
 
-std::string list_camera_names(const std::vector<Camera>& cameras) {
+std::string camera_names(const std::vector<Camera>& cameras) {
     constexpr std::size_t kMaxListedCameras = 20;
     std::string list;
     for (std::size_t i = 0; i < std::min(cameras.size(), kMaxListedCameras); ++i)
@@ -62,13 +62,12 @@ std::string list_camera_names(const std::vector<Camera>& cameras) {
 }
 
 std::string format_point(const dvec3& v) {
-    return format_shortest_number(v.x) + "," + format_shortest_number(v.y) + "," +
-           format_shortest_number(v.z);
+    return format_number(v.x) + "," + format_number(v.y) + "," + format_number(v.z);
 }
 
 } // namespace
 
-Camera find_camera_by_name(const std::string& text, const Scene& scene, const SettingOrigin& by) {
+Camera find_camera(const std::string& text, const Scene& scene, const SettingOrigin& by) {
     std::vector<std::string> names;
     for (const Camera& camera : scene.cameras) {
         if (camera.name == text) return camera;
@@ -81,16 +80,15 @@ Camera find_camera_by_name(const std::string& text, const Scene& scene, const Se
         return scene.cameras[std::stoul(text)];
     names.emplace_back("seeded");
     fail(by.failure, by.where, ": scene ", quote(scene.name), " has no camera ", quote(text),
-         "; it has: ", list_camera_names(scene.cameras),
+         "; it has: ", camera_names(scene.cameras),
          "; or seeded, EX,EY,EZ:TX,TY,TZ:FOV, or EX,EY,EZ:TX,TY,TZ:h=HEIGHT",
          suggest_name(text, names));
 }
 
 std::string format_camera(const Camera& camera) {
     return format_point(camera.eye) + ":" + format_point(camera.target) + ":" +
-           (camera.orthographic_height > 0
-                ? "h=" + format_shortest_number(camera.orthographic_height)
-                : format_shortest_number(camera.vertical_fov_degrees));
+           (camera.orthographic_height > 0 ? "h=" + format_number(camera.orthographic_height)
+                                           : format_number(camera.vertical_fov_degrees));
 }
 
 } // namespace catoptric::scene

@@ -20,14 +20,14 @@ bool encloses(const Scene& scene, const Object& object, const dvec3& point) {
     constexpr double kMinInsideWinding = .75;
     if (!contains(bounds(scene, object), point)) return false;
     const Mesh& mesh = scene.meshes[object.mesh];
-    const dvec3 at = transform_point_to_world(glm::inverse(object.world_from_object), point);
-    return std::abs(compute_winding_number(mesh.positions, mesh.triangles, at)) > kMinInsideWinding;
+    const dvec3 at = transform_point(glm::inverse(object.world_from_object), point);
+    return std::abs(winding_number(mesh.positions, mesh.triangles, at)) > kMinInsideWinding;
 }
 
 } // namespace
 
-std::vector<std::size_t> list_objects_within(std::span<const Bounds<double>> bounds,
-                                             std::size_t object) {
+std::vector<std::size_t> objects_within(std::span<const Bounds<double>> bounds,
+                                        std::size_t object) {
     std::vector<std::size_t> within;
     const Bounds<double>& outer = bounds[object];
     for (std::size_t i = 0; i < bounds.size(); ++i)
@@ -39,8 +39,7 @@ std::vector<std::size_t> list_objects_within(std::span<const Bounds<double>> bou
     return within;
 }
 
-dvec3 choose_capture_centre(const Scene& scene, std::size_t mirror,
-                            std::span<const std::size_t> within) {
+dvec3 capture_centre(const Scene& scene, std::size_t mirror, std::span<const std::size_t> within) {
     const Bounds<double> box = bounds(scene, scene.objects[mirror]);
     const auto is_enclosed = [&](const dvec3& place) {
         return std::ranges::any_of(
@@ -76,13 +75,12 @@ dvec3 choose_capture_centre(const Scene& scene, std::size_t mirror,
     return box.centre();
 }
 
-std::vector<dvec3> list_capture_centres(const Scene& scene) {
+std::vector<dvec3> capture_centres(const Scene& scene) {
     std::vector<Bounds<double>> of_objects;
     for (const Object& object : scene.objects) of_objects.push_back(bounds(scene, object));
     std::vector<dvec3> centres;
     for (const std::size_t mirror : mirrors(scene))
-        centres.push_back(
-            choose_capture_centre(scene, mirror, list_objects_within(of_objects, mirror)));
+        centres.push_back(capture_centre(scene, mirror, objects_within(of_objects, mirror)));
     return centres;
 }
 

@@ -76,18 +76,17 @@ void check_transform(const ScenePlace& place, const dmat4& matrix, const char* m
 }
 
 template <typename List>
-void check_list_size(const ScenePlace& place, const List& list, std::size_t wanted,
-                     const char* member) {
+void check_size(const ScenePlace& place, const List& list, std::size_t wanted, const char* member) {
     place.require(list.size() == wanted, member, ": wanted one for each of the ", wanted,
                   " positions, found ", list.size());
 }
 
 void check_mesh(const ScenePlace& place, const Mesh& mesh) {
     const std::size_t count = mesh.positions.size();
-    check_list_size(place, mesh.normals, count, "normals");
+    check_size(place, mesh.normals, count, "normals");
     for (const auto& uv : mesh.uv)
-        if (!uv.empty()) check_list_size(place, uv, count, "texture coordinates");
-    if (!mesh.colours.empty()) check_list_size(place, mesh.colours, count, "colours");
+        if (!uv.empty()) check_size(place, uv, count, "texture coordinates");
+    if (!mesh.colours.empty()) check_size(place, mesh.colours, count, "colours");
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         for (int corner = 0; corner < 3; ++corner)
             place.require(mesh.triangles[i][corner] < count, "triangle ", i,
@@ -220,9 +219,9 @@ void check_object(const ScenePlace& place, const Scene& scene, const Object& obj
 }
 
 void check_light(const ScenePlace& place, const PunctualLight& light) {
-    place.require(std::ranges::find(list_light_kinds(), light.kind, &LightKind::id) !=
-                      list_light_kinds().end(),
-                  "kind: wanted one of the ", list_light_kinds().size(),
+    place.require(std::ranges::find(light_kinds(), light.kind, &LightKind::id) !=
+                      light_kinds().end(),
+                  "kind: wanted one of the ", light_kinds().size(),
                   " kinds of lights, found number ", static_cast<int>(light.kind));
     check_radiance(place, light.intensity, "intensity");
     place.require(light.range > 0, "range: wanted a number above 0, found ", light.range);

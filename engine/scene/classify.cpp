@@ -21,26 +21,25 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr std::size_t kMaterialSampleCount = 4096;
+constexpr std::size_t kSampleCount = 4096;
 constexpr const char* kIndirectGapId = "indirect-left-out";
 constexpr const char* kGlassAsDiffuseGapId = "glass-as-diffuse";
 constexpr const char* kUnshadowedGapId = "environment-unshadowed";
 constexpr const char* kNestedGlassGapId = "nested-glass";
 
 /// The values of a material at one point of a surface.
-struct SampledMaterialValues {
+struct MaterialSample {
     vec4 colour{1}; ///< base colour and alpha
     float metallic = 0, roughness = 1;
 };
 
 /// Sums of a surface's sampled values, weighted by area.
-struct SurfaceAreaSums {
-    SurfaceKindShares sums; // shares are still sums
+struct AreaSums {
+    SurfaceShares sums; // shares are still sums
     double all = 0;
     dvec3 mirror_f0{0};
 
-    void add_sample(const Scene& scene, const Material& material,
-                    const SampledMaterialValues& spot) {
+    void add_sample(const Scene& scene, const Material& material, const MaterialSample& spot) {
         if (material.unlit || spot.colour.w < material.alpha_cutoff) return;
         all += 1;
         sums.smoothest = std::min(sums.smoothest, spot.roughness);
@@ -57,9 +56,9 @@ struct SurfaceAreaSums {
                                                       : sums.rough_dielectric) += 1;
         sums.mirror_dielectric += may_be_mirror;
     }
-    SurfaceKindShares divide_sums_by_area() const {
+    SurfaceShares shares() const {
         if (all == 0) return {};
-        SurfaceKindShares shares = sums;
+        SurfaceShares shares = sums;
         for (double* share : {&shares.mirror, &shares.smooth_dielectric, &shares.rough_dielectric,
                               &shares.mirror_dielectric, &shares.rough_metal})
             *share /= all;
@@ -70,32 +69,30 @@ struct SurfaceAreaSums {
 
 /// Returns whether the values that decide the kind of surface may differ between places. The base
 /// colour matters only for metals, because F0 of a dielectric has no colour.
-bool may_surface_kind_vary(const Material& material, const Mesh& mesh) {
+bool may_vary(const Material& material, const Mesh& mesh) {
     if (material.roughness_texture) return true;
     return material.metallic > 0 && (material.albedo_texture || !mesh.colours.empty());
 }
 
 template <typename Value>
-Value interpolate_corner_values(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
+Value interpolate_corners(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
     return weights.x * at[t.x] + weights.y * at[t.y] + weights.z * at[t.z];
 }
 
-vec4 sample_texture_on_triangle(const Texture& texture, const Mesh& mesh, const uvec3& t,
-                                const vec3& weights) {
+vec4 sample_texture(const Texture& texture, const Mesh& mesh, const uvec3& t, const vec3& weights) {
     const std::vector<vec2>& uv = mesh.uv[std::min<std::uint32_t>(texture.uv_set, 1)];
-    return read_texel(texture, uv.empty() ? vec2(0) : interpolate_corner_values(uv, t, weights));
+    return read_texel(texture, uv.empty() ? vec2(0) : interpolate_corners(uv, t, weights));
 }
 
-SampledMaterialValues sample_material_on_triangle(const Material& material, const Mesh& mesh,
-                                                  const uvec3& t, const vec3& weights) {
-    SampledMaterialValues spot{vec4(material.albedo, material.alpha), material.metallic,
-                               material.roughness};
-    if (!mesh.colours.empty()) spot.colour *= interpolate_corner_values(mesh.colours, t, weights);
+MaterialSample sample_material(const Material& material, const Mesh& mesh, const uvec3& t,
+                               const vec3& weights) {
+    MaterialSample spot{vec4(material.albedo, material.alpha), material.metallic,
+                        material.roughness};
+    if (!mesh.colours.empty()) spot.colour *= interpolate_corners(mesh.colours, t, weights);
     if (material.albedo_texture)
-        spot.colour *= sample_texture_on_triangle(*material.albedo_texture, mesh, t, weights);
+        spot.colour *= sample_texture(*material.albedo_texture, mesh, t, weights);
     if (material.roughness_texture) {
-        const vec4 texel = sample_texture_on_triangle(*material.roughness_texture, mesh, t,
-                                                      weights);
+        const vec4 texel = sample_texture(*material.roughness_texture, mesh, t, weights);
         spot.roughness *= texel.y, spot.metallic *= texel.z;
     }
     return spot;
@@ -103,7 +100,7 @@ SampledMaterialValues sample_material_on_triangle(const Material& material, cons
 
 /// Returns barycentric weights of the sample, spread evenly over a triangle by the plastic number's
 /// sequence (Roberts 2018).
-vec3 sample_barycentric_weights(std::size_t sample) {
+vec3 sample_weights(std::size_t sample) {
     constexpr double kSampleSequenceStepX = .7548776662466927, kSequenceStepY = .5698402909980532;
     double x = .5 + kSampleSequenceStepX * static_cast<double>(sample),
            y = .5 + kSequenceStepY * static_cast<double>(sample);
@@ -112,7 +109,7 @@ vec3 sample_barycentric_weights(std::size_t sample) {
     return {1 - root, root * (1 - y), root * y};
 }
 
-std::vector<double> compute_cumulative_triangle_areas(const Mesh& mesh, const dmat3& linear) {
+std::vector<double> cumulative_areas(const Mesh& mesh, const dmat3& linear) {
     std::vector<double> sums;
     sums.reserve(mesh.triangles.size());
     double sum = 0;
@@ -125,28 +122,26 @@ std::vector<double> compute_cumulative_triangle_areas(const Mesh& mesh, const dm
 }
 
 /// Sums samples of the surface in equal steps of area, so that each triangle has its share.
-SurfaceAreaSums sum_surface_samples(const Scene& scene, const Object& object) {
+AreaSums sum_samples(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
-    SurfaceAreaSums sums;
-    if (!may_surface_kind_vary(material, mesh)) {
+    AreaSums sums;
+    if (!may_vary(material, mesh)) {
         sums.add_sample(
             scene, material,
             {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
         return sums;
     }
-    const std::vector<double> areas = compute_cumulative_triangle_areas(
-        mesh, dmat3(object.world_from_object));
+    const std::vector<double> areas = cumulative_areas(mesh, dmat3(object.world_from_object));
     const double whole = areas.empty() ? 0 : areas.back();
     if (!(whole > 0) || !std::isfinite(whole)) return sums;
     auto triangle = areas.begin();
-    for (std::size_t i = 0; i < kMaterialSampleCount; ++i) {
-        const double wanted = whole * (static_cast<double>(i) + .5) / kMaterialSampleCount;
+    for (std::size_t i = 0; i < kSampleCount; ++i) {
+        const double wanted = whole * (static_cast<double>(i) + .5) / kSampleCount;
         while (triangle + 1 != areas.end() && *triangle < wanted) ++triangle;
         const auto index = static_cast<std::size_t>(triangle - areas.begin());
         sums.add_sample(scene, material,
-                        sample_material_on_triangle(material, mesh, mesh.triangles[index],
-                                                    sample_barycentric_weights(i)));
+                        sample_material(material, mesh, mesh.triangles[index], sample_weights(i)));
     }
     return sums;
 }
@@ -154,13 +149,12 @@ SurfaceAreaSums sum_surface_samples(const Scene& scene, const Object& object) {
 void add_unsupported_materials(Scene& scene, const char* id,
                                const std::set<std::size_t>& materials) {
     for (const std::size_t i : materials)
-        add_unsupported_material(
-            scene.unsupported, id,
-            gltf::format_list_item_label("materials", i, scene.materials[i].name), i);
+        add_unsupported_material(scene.unsupported, id,
+                                 gltf::item_label("materials", i, scene.materials[i].name), i);
 }
 
 /// Keeps only the kMaxGlassMirrors largest objects of glass as mirrors.
-void keep_largest_glass_mirrors(Scene& scene) {
+void limit_glass_mirrors(Scene& scene) {
     std::vector<std::pair<double, std::size_t>> sizes; // negative length of the bounds, object
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
@@ -186,7 +180,7 @@ bool has_diffuse_part(const Material& material) {
     return material.mirror || material.metallic < 1 || material.roughness_texture;
 }
 
-bool has_any_light(const Scene& scene) {
+bool has_light(const Scene& scene) {
     return scene.environment || !scene.punctual.empty() ||
            std::ranges::any_of(scene.objects, [&](const Object& object) {
                return is_visibly_emissive(scene.materials[object.material]);
@@ -201,8 +195,8 @@ vec3 compute_f0(const Material& material, const vec3& colour, float metallic) {
 
 float largest_channel(const vec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
 
-SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object) {
-    return sum_surface_samples(scene, object).divide_sums_by_area();
+SurfaceShares surface_shares(const Scene& scene, const Object& object) {
+    return sum_samples(scene, object).shares();
 }
 
 void find_mirrors(Scene& scene, bool dielectric_mirrors) {
@@ -210,37 +204,37 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
         return gap.id == "smooth-dielectric" || gap.id == "rough-dielectric" ||
                gap.id == "rough-metal" || gap.id == kGlassAsDiffuseGapId;
     });
-    std::map<std::pair<std::size_t, std::size_t>, SurfaceKindShares> known; // by mesh and material
+    std::map<std::pair<std::size_t, std::size_t>, SurfaceShares> known; // by mesh and material
     std::set<std::size_t> smooth_dielectrics, rough_dielectrics, rough_metals; // materials
     for (Object& object : scene.objects) {
         object.mirror = false;
         if (scene.materials[object.material].mirror) continue;
-        SurfaceKindShares surface;
+        SurfaceShares surface;
         // A uniform scale keeps the shares of areas, which then are those of the mesh.
-        if (find_uniform_scale_factor(dmat3(object.world_from_object))) {
+        if (uniform_scale(dmat3(object.world_from_object))) {
             const auto [entry, is_new] = known.try_emplace({object.mesh, object.material});
-            if (is_new) entry->second = measure_surface_kinds(scene, object);
+            if (is_new) entry->second = surface_shares(scene, object);
             surface = entry->second;
         } else {
-            surface = measure_surface_kinds(scene, object);
+            surface = surface_shares(scene, object);
         }
         object.mirror = is_glass(scene.materials[object.material]) ||
-                        surface.mirror >= kMinMirrorAreaShare ||
-                        (dielectric_mirrors && surface.mirror_dielectric >= kMinMirrorAreaShare);
-        if (!object.mirror && surface.smooth_dielectric >= kMinMirrorAreaShare)
+                        surface.mirror >= kMinMirrorShare ||
+                        (dielectric_mirrors && surface.mirror_dielectric >= kMinMirrorShare);
+        if (!object.mirror && surface.smooth_dielectric >= kMinMirrorShare)
             smooth_dielectrics.insert(object.material);
-        if (!object.mirror && surface.rough_dielectric >= kMinMirrorAreaShare)
+        if (!object.mirror && surface.rough_dielectric >= kMinMirrorShare)
             rough_dielectrics.insert(object.material);
         if (surface.rough_metal > 0) rough_metals.insert(object.material);
     }
-    keep_largest_glass_mirrors(scene);
+    limit_glass_mirrors(scene);
     add_unsupported_materials(scene, "rough-dielectric", rough_dielectrics);
     add_unsupported_materials(scene, "smooth-dielectric", smooth_dielectrics);
     add_unsupported_materials(scene, "rough-metal", rough_metals);
     find_exact_spheres(scene);
 }
 
-void add_unsupported_lighting_features(Scene& scene) {
+void add_unsupported_lighting(Scene& scene) {
     std::set<std::size_t> diffuse; // materials
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
         return gap.id == kIndirectGapId || gap.id == kUnshadowedGapId ||
@@ -251,7 +245,7 @@ void add_unsupported_lighting_features(Scene& scene) {
     // Features that are listed first cost most. Features with equal shares of the picture keep this
     // order.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
-    if (has_any_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
+    if (has_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);
     std::set<std::size_t> nested;
     const std::vector<std::uint32_t> ranks = rank_nested_glass(scene);

@@ -8,7 +8,7 @@ namespace catoptric::scene {
 /// Least F0 of a mirror, in its largest channel. A surface that reflects less is a dielectric.
 inline constexpr float kMinMirrorF0 = .2f;
 /// Least share of an object's area that makes the object a mirror or a dielectric.
-inline constexpr double kMinMirrorAreaShare = .05;
+inline constexpr double kMinMirrorShare = .05;
 
 /// Most objects of glass that are mirrors. Each mirror needs a capture, some MiB at face=256.
 inline constexpr std::size_t kMaxGlassMirrors = 64;
@@ -21,7 +21,7 @@ float largest_channel(const vec3& colour);
 
 /// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000
 /// places, the same ones each time. Area that an alpha mask cuts out does not count.
-struct SurfaceKindShares {
+struct SurfaceShares {
     double mirror = 0; ///< F0 at least kMinMirrorF0, roughness up to Scene::mirror_max_roughness
     double smooth_dielectric = 0; ///< reflects less, sharply (shared::kMaxSharpRoughness)
     double rough_dielectric = 0;  ///< reflects less, by a lobe
@@ -31,7 +31,7 @@ struct SurfaceKindShares {
     vec3 mirror_f0{0};      ///< mean F0 of the `mirror` part
     float smoothest = 1;    ///< lowest roughness found
 };
-SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object);
+SurfaceShares surface_shares(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
 /// Objects of glass are mirrors, too: their captures show what they reflect and what is behind. If
@@ -49,6 +49,6 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors = false);
 ///   - "environment-unshadowed": the environment's light on diffuse surfaces, which nothing blocks.
 /// Then comes "nested-glass": solid glass inside other solid glass (rank_nested_glass).
 /// Call it after mirrors, lights and environment are settled.
-void add_unsupported_lighting_features(Scene& scene);
+void add_unsupported_lighting(Scene& scene);
 
 } // namespace catoptric::scene

@@ -15,8 +15,8 @@ std::vector<Material> make_cornell_materials() {
             {.name = "mirror", .mirror = true}};
 }
 
-void add_scaled_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
-                          double radius) {
+void add_scaled_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
+                     double radius) {
     dmat4 world_from_object(radius);
     world_from_object[3] = dvec4(centre, 1);
     scene.objects.push_back({.name = name,
@@ -45,15 +45,15 @@ void add_cornell_walls(Scene& scene) {
 
 } // namespace
 
-Scene make_cornell_mirrors() {
+Scene make_cornell() {
     Scene scene{.name = "cornell-mirrors", .materials = make_cornell_materials(), .exposure = 0};
     add_cornell_walls(scene);
     const std::size_t unit_ball = scene.meshes.size();
     scene.meshes.push_back(ball("ball", 5));
-    add_scaled_unit_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
-    add_scaled_unit_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
-    add_scaled_unit_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
-    add_scaled_unit_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
+    add_scaled_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
+    add_scaled_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
+    add_scaled_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
+    add_scaled_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
     scene.objects.back().motion = HarmonicMotion{.amplitude = {0, 50, 0}, .period = 4};
     scene.cameras.push_back({.name = "contract",
                              .eye = {278, 273, -800},
@@ -62,8 +62,8 @@ Scene make_cornell_mirrors() {
     return scene;
 }
 
-Scene make_closed_cornell_mirrors() {
-    Scene scene = make_cornell_mirrors();
+Scene make_closed_cornell() {
+    Scene scene = make_cornell();
     scene.name = "cornell-mirrors-closed";
     add_quad(scene, "front", kWhite, {0, 0, 0}, {552.8, 0, 0}, {556, 548.8, 0}, {0, 548.8, 0});
     scene.objects.back().seen_by_camera = false;
@@ -71,7 +71,7 @@ Scene make_closed_cornell_mirrors() {
 }
 
 Scene make_rough_cornell() {
-    Scene scene = make_cornell_mirrors();
+    Scene scene = make_cornell();
     scene.name = "cornell-rough";
     scene.mirror_max_roughness = .6f;
     const std::pair<float, const char*> balls[] = {
@@ -91,11 +91,11 @@ namespace {
 
 const RegisteredBuiltInScene kOpenCornellScene{
     {"cornell-mirrors", "Cornell box with four mirror balls, one of them moving; front open",
-     make_cornell_mirrors, 0}};
+     make_cornell, 0}};
 const RegisteredBuiltInScene kClosedCornellScene{
     {"cornell-mirrors-closed",
      "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
-     make_closed_cornell_mirrors, 1}};
+     make_closed_cornell, 1}};
 const RegisteredBuiltInScene kRoughCornellScene{
     {"cornell-rough", "Cornell box with four metal balls of roughness 0.05 to 0.5",
      make_rough_cornell, 7}};

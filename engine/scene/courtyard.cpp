@@ -15,7 +15,7 @@ namespace {
 const dvec3 kDirectionToSun = glm::normalize(dvec3(-.5, .75, .45));
 
 /// Returns the sky: blue above, haze at the horizon, ground below. The sun is a separate light.
-std::shared_ptr<const Environment> make_courtyard_sky() {
+std::shared_ptr<const Environment> make_sky() {
     auto sky = std::make_shared<Environment>();
     sky->name = "sky";
     sky->size = {64, 32};
@@ -36,7 +36,7 @@ std::shared_ptr<const Environment> make_courtyard_sky() {
     return sky;
 }
 
-void add_courtyard_columns(Scene& scene, std::size_t stone) {
+void add_columns(Scene& scene, std::size_t stone) {
     const Mesh column = lathe("column",
                               {{.28, 0},
                                {.28, .12},
@@ -98,7 +98,7 @@ Scene make_courtyard() {
     add_mesh(scene, std::move(ground), paving);
     add_mesh(scene, box("back wall", {-5, 0, -6.3}, {5, 1.6, -6}), brick);
     add_mesh(scene, box("side wall", {-5.3, 0, -6}, {-5, 1, 6}), brick);
-    add_courtyard_columns(scene, stone);
+    add_columns(scene, stone);
     add_mirror_dish(scene, mirror, stone);
     add_ball(scene, "ball", mirror, {1.3, .7, .4}, .7, 5);
     add_mesh(scene, torus("brass ring", .5, .14, 48), brass);
@@ -110,7 +110,7 @@ Scene make_courtyard() {
     sun.world_from_light = dmat4(dvec4(right, 0), dvec4(glm::cross(kDirectionToSun, right), 0),
                                  dvec4(kDirectionToSun, 0), dvec4(0, 0, 0, 1));
     scene.punctual.push_back(sun);
-    scene.environment = make_courtyard_sky();
+    scene.environment = make_sky();
     scene.cameras.push_back(
         {.name = "gate", .eye = {.4, 1.7, 6}, .target = {-.1, .8, 0}, .vertical_fov_degrees = 48});
     scene.cameras.push_back({.name = "corner",

@@ -9,7 +9,7 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns the point rounded to about a millionth of `distance`.
-dvec3 round_to_short_number(const dvec3& point, double distance) {
+dvec3 round_short(const dvec3& point, double distance) {
     const double digits = 6 - std::floor(std::log10(distance)),
                  unit = std::pow(10, std::abs(digits));
     return digits > 0 ? glm::round(point * unit) / unit : glm::round(point / unit) * unit;
@@ -17,7 +17,7 @@ dvec3 round_to_short_number(const dvec3& point, double distance) {
 
 } // namespace
 
-Camera make_default_camera(const Scene& scene, double aspect) {
+Camera default_camera(const Scene& scene, double aspect) {
     constexpr double kSceneShareOfPicture = .9, kAzimuthDegrees = 30,
                      kElevationDegrees = 20; // degrees
     Bounds<double> box = bounds(scene);
@@ -40,8 +40,8 @@ Camera make_default_camera(const Scene& scene, double aspect) {
         distance = std::max(distance, aside / slope + glm::dot(to_eye, corner));
     }
     if (!(distance > 0)) distance = 1;
-    camera.target = round_to_short_number(box.centre(), distance);
-    camera.eye = round_to_short_number(box.centre() + distance * to_eye, distance);
+    camera.target = round_short(box.centre(), distance);
+    camera.eye = round_short(box.centre() + distance * to_eye, distance);
     return camera;
 }
 

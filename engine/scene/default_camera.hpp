@@ -9,6 +9,6 @@ namespace catoptric::scene {
 /// degrees. The eye is as near as the eight corners of the bounds stay within 90 % of the picture's
 /// height and width. The picture is `aspect` times as wide as it is high. Positions are rounded to
 /// about a millionth of the distance, so that they are short to type.
-Camera make_default_camera(const Scene& scene, double aspect = 1);
+Camera default_camera(const Scene& scene, double aspect = 1);
 
 } // namespace catoptric::scene

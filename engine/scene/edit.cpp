@@ -28,7 +28,7 @@ void apply_edit(Scene& scene, const PlacementEdit& edit) {
     Object& object = scene.objects[edit.object];
     check(is_valid_transform(edit.world_from_object), Failure::usage, "object '", object.name,
           "': wanted a finite affine transform with an inverse, found another matrix");
-    object.sphere = transform_exact_sphere(object, edit.world_from_object);
+    object.sphere = move_sphere(object, edit.world_from_object);
     object.world_from_object = edit.world_from_object;
 }
 

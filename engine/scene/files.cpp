@@ -27,13 +27,13 @@ bool is_inside_folder(const fs::path& real, const fs::path& folder) {
 
 /// Returns a path with all links resolved. Returns an empty path, and sets errno, if the path does
 /// not exist or cannot be reached.
-fs::path resolve_symbolic_links(const fs::path& path) {
+fs::path resolve_links(const fs::path& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                            std::free);
     return real ? fs::path(real.get()) : fs::path();
 }
 
-std::string to_lower_case(std::string text) {
+std::string to_lower(std::string text) {
     std::ranges::transform(text, text.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
@@ -48,12 +48,12 @@ std::string_view trim_spaces(std::string_view text) {
 
 /// What a written name may mean: itself, without a comment behind it, without quotes, all with
 /// slashes; and the last steps of these.
-struct MeaningsOfName {
+struct NameMeanings {
     std::vector<std::string> whole, last_steps;
 };
 
-MeaningsOfName list_meanings_of_name(std::string_view written) {
-    MeaningsOfName names;
+NameMeanings meanings_of(std::string_view written) {
+    NameMeanings names;
     names.whole.emplace_back(trim_spaces(written));
     const std::size_t comment = written.find(" #");
     if (comment != written.npos) names.whole.emplace_back(trim_spaces(written.substr(0, comment)));
@@ -83,8 +83,7 @@ struct FileDescriptor {
 
 /// Reads a regular file. Opening a pipe does not block. A link as the last step is not followed, so
 /// the file opened is the file named. Throws `missing_input` or `io`.
-std::string read_regular_file(const fs::path& path, const std::string& place,
-                              BudgetLimitedSum& budget) {
+std::string read_regular_file(const fs::path& path, const std::string& place, LimitedSum& budget) {
     const FileDescriptor file{
         ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW)};
     const int error = errno;
@@ -95,7 +94,7 @@ std::string read_regular_file(const fs::path& path, const std::string& place,
     check(known && S_ISREG(facts.st_mode), Failure::missing_input, place, ": wanted a file, found ",
           known && S_ISDIR(facts.st_mode) ? "a folder" : "a device or a pipe");
     const auto size = static_cast<std::size_t>(facts.st_size);
-    budget.add_amount_within_budget(size, place);
+    budget.add(size, place);
     std::string content(size, '\0');
     std::size_t count = 0;
     while (count < size) {
@@ -111,49 +110,47 @@ std::string read_regular_file(const fs::path& path, const std::string& place,
 
 } // namespace
 
-SceneFileOpener::SceneFileOpener(const fs::path& scene, const fs::path& root,
-                                 SceneLoadBudgetUsage& account)
+FileOpener::FileOpener(const fs::path& scene, const fs::path& root, LoadAccount& account)
     : scene_(scene), account_(account) {
-    folder_ = resolve_symbolic_links(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
+    folder_ = resolve_links(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
     if (root.empty()) return;
-    root_ = resolve_symbolic_links(root);
+    root_ = resolve_links(root);
     std::error_code error;
     check(fs::is_directory(root_, error), Failure::missing_input,
           "--root: wanted a folder, found '", root.string(), "'");
 }
 
-void SceneFileOpener::add_file(const fs::path& real) {
+void FileOpener::add_file(const fs::path& real) {
     if (known_.insert(real.string()).second) found_.push_back(real);
 }
 
-std::string SceneFileOpener::read_main_scene_file() {
-    const fs::path real = resolve_symbolic_links(scene_);
+std::string FileOpener::read_main() {
+    const fs::path real = resolve_links(scene_);
     std::string bytes = read_regular_file(real.empty() ? scene_ : real, scene_.string(),
                                           account_.file_bytes);
     add_file(real);
     return bytes;
 }
 
-void SceneFileOpener::check_file_lies_below_root(const fs::path& real, const std::string& name,
-                                                 const std::string& place) const {
+void FileOpener::check_allowed(const fs::path& real, const std::string& name,
+                               const std::string& place) const {
     check(is_inside_folder(real, folder_) || is_inside_folder(real, root_), Failure::bad_data,
           place, ": wanted a file below '", folder_.string(),
           "' or a folder given with --root, found ", quote(name), ", which is '", real.string(),
           "'");
 }
 
-fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
-                                                  const std::string& place) {
-    account_.files.add_amount_within_budget(1, place);
-    check(!name.empty() && name.size() <= kMaxFileNameLength && name.find('\0') == name.npos,
+fs::path FileOpener::find(const std::string& name, const std::string& place) {
+    account_.files.add(1, place);
+    check(!name.empty() && name.size() <= kMaxNameLength && name.find('\0') == name.npos,
           Failure::bad_data, place, ": wanted the name of a file, found ", quote(name));
     const fs::path path = folder_ / name;
-    fs::path real = resolve_symbolic_links(path);
+    fs::path real = resolve_links(path);
     const int why = errno;
-    check_file_lies_below_root(real.empty() ? path.lexically_normal() : real, name, place);
+    check_allowed(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
-        const fs::path parent = resolve_symbolic_links(path.parent_path());
-        if (!parent.empty()) check_file_lies_below_root(parent / path.filename(), name, place);
+        const fs::path parent = resolve_links(path.parent_path());
+        if (!parent.empty()) check_allowed(parent / path.filename(), name, place);
         errno = why;
         return {};
     }
@@ -165,13 +162,13 @@ fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
     return real;
 }
 
-bool SceneFileOpener::is_allowed_file(const fs::path& real) const {
+bool FileOpener::is_allowed(const fs::path& real) const {
     std::error_code error;
     return (is_inside_folder(real, folder_) || is_inside_folder(real, root_)) &&
            fs::is_regular_file(real, error);
 }
 
-const SceneFileOpener::FolderListing& SceneFileOpener::list_folder(const fs::path& folder) {
+const FileOpener::FolderListing& FileOpener::list_folder(const fs::path& folder) {
     constexpr int kMaxFolderEntries = 65536;
     const auto [entry, is_new] = listings_.try_emplace(folder);
     if (!is_new) return entry->second;
@@ -180,20 +177,20 @@ const SceneFileOpener::FolderListing& SceneFileOpener::list_folder(const fs::pat
     for (fs::directory_iterator at(folder, error), end;
          !error && at != end && count < kMaxFolderEntries; at.increment(error), ++count) {
         const std::string file = at->path().filename().string();
-        const auto [name, is_first] = entry->second.try_emplace(to_lower_case(file), file);
+        const auto [name, is_first] = entry->second.try_emplace(to_lower(file), file);
         if (!is_first) name->second = std::min(name->second, file);
     }
     return entry->second;
 }
 
-fs::path SceneFileOpener::find_in_any_case(const fs::path& folder, const fs::path& name) {
+fs::path FileOpener::find_in_any_case(const fs::path& folder, const fs::path& name) {
     fs::path found = folder;
     std::error_code error;
     for (const fs::path& step : name) {
         if (step == ".." || step.is_absolute()) return {}; // no folder outside is listed
         if (!fs::exists(found / step, error)) {
             const FolderListing& listing = list_folder(found);
-            const auto file = listing.find(to_lower_case(step.string()));
+            const auto file = listing.find(to_lower(step.string()));
             if (file == listing.end()) return {};
             found /= file->second;
         } else {
@@ -203,34 +200,33 @@ fs::path SceneFileOpener::find_in_any_case(const fs::path& folder, const fs::pat
     return found;
 }
 
-fs::path SceneFileOpener::find_as_written(std::string_view written, const fs::path& folder,
-                                          const std::string& place) {
-    const MeaningsOfName names = list_meanings_of_name(written);
+fs::path FileOpener::find_as_written(std::string_view written, const fs::path& folder,
+                                     const std::string& place) {
+    const NameMeanings names = meanings_of(written);
     const std::string first = names.whole.empty() ? std::string(written) : names.whole.front();
-    if (written.size() > kMaxFileNameLength || written.find('\0') != written.npos)
-        return find_scene_file_by_name(first, place); // refuses the name
+    if (written.size() > kMaxNameLength || written.find('\0') != written.npos)
+        return find(first, place); // refuses the name
     for (const std::vector<std::string>* const list : {&names.whole, &names.last_steps})
         for (const std::string& name : *list)
             for (const bool any_case : {false, true})
                 for (const fs::path& from : {folder, folder_}) {
                     const fs::path path = any_case ? find_in_any_case(from, name) : from / name;
-                    const fs::path real = resolve_symbolic_links(path);
+                    const fs::path real = resolve_links(path);
                     if (real.empty()) continue;
                     // A file that is there, but may not be read, is meant none the less.
-                    if (!is_allowed_file(real)) {
-                        check_file_lies_below_root(real, name, place);
-                        return find_scene_file_by_name(path.string(), place);
+                    if (!is_allowed(real)) {
+                        check_allowed(real, name, place);
+                        return find(path.string(), place);
                     }
-                    account_.files.add_amount_within_budget(1, place);
+                    account_.files.add(1, place);
                     add_file(real);
                     return real;
                 }
-    return find_scene_file_by_name(first, place); // says whether the name leads out of the folder
+    return find(first, place); // says whether the name leads out of the folder
 }
 
-fs::path SceneFileOpener::find_required_scene_file(const std::string& name,
-                                                   const std::string& place) {
-    fs::path real = find_scene_file_by_name(name, place);
+fs::path FileOpener::find_required(const std::string& name, const std::string& place) {
+    fs::path real = find(name, place);
     const int error = errno; // from realpath(3), if the path was not found
     check(!real.empty(), Failure::missing_input, place, ": ", quote(name),
           error == ENOENT || error == ENOTDIR
@@ -239,7 +235,7 @@ fs::path SceneFileOpener::find_required_scene_file(const std::string& name,
     return real;
 }
 
-std::string SceneFileOpener::read_file_content(const fs::path& real, const std::string& place) {
+std::string FileOpener::read(const fs::path& real, const std::string& place) {
     return read_regular_file(real, place + ": " + quote(real.filename().string()),
                              account_.file_bytes);
 }

@@ -5,7 +5,7 @@
 
 namespace catoptric::scene {
 
-Scene make_flat_mirror_room() {
+Scene make_flat_room() {
     Scene scene{.name = "flat"};
     const auto add_paint_material = [&](const char* name, vec3 albedo) {
         return add_material(scene, {.name = name, .albedo = albedo});
@@ -47,7 +47,7 @@ Scene make_flat_mirror_room() {
 namespace {
 
 const RegisteredBuiltInScene kFlatMirrorScene{
-    {"flat", "closed room with one flat wall mirror", make_flat_mirror_room, 2}};
+    {"flat", "closed room with one flat wall mirror", make_flat_room, 2}};
 
 } // namespace
 

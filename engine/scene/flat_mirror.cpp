@@ -16,12 +16,12 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns the unit normal of the largest triangle; zero if no triangle has an area.
-dvec3 normal_of_largest_triangle(const Mesh& mesh, const dmat4& world_from_object) {
+dvec3 main_normal(const Mesh& mesh, const dmat4& world_from_object) {
     dvec3 largest(0);
     for (const uvec3& triangle : mesh.triangles) {
-        const dvec3 a = transform_point_to_world(world_from_object, mesh.positions[triangle.x]),
-                    b = transform_point_to_world(world_from_object, mesh.positions[triangle.y]),
-                    c = transform_point_to_world(world_from_object, mesh.positions[triangle.z]);
+        const dvec3 a = transform_point(world_from_object, mesh.positions[triangle.x]),
+                    b = transform_point(world_from_object, mesh.positions[triangle.y]),
+                    c = transform_point(world_from_object, mesh.positions[triangle.z]);
         const dvec3 normal = cross(b - a, c - a);
         if (dot(normal, normal) > dot(largest, largest)) largest = normal;
     }
@@ -30,10 +30,10 @@ dvec3 normal_of_largest_triangle(const Mesh& mesh, const dmat4& world_from_objec
 }
 
 /// Returns the sine of the angle between two unit vectors. For small angles it is about the angle.
-double sine_of_angle_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
+double sine_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
 
 /// Returns the corners of the convex hull of points in a plane (Andrew 1979).
-std::vector<dvec3> compute_convex_hull_in_plane(std::vector<dvec3> points, const dvec3& normal) {
+std::vector<dvec3> convex_hull(std::vector<dvec3> points, const dvec3& normal) {
     const dvec3 size = abs(normal), other = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
                                             : size.y <= size.z                   ? dvec3(0, 1, 0)
                                                                                  : dvec3(0, 0, 1);
@@ -58,7 +58,7 @@ std::vector<dvec3> compute_convex_hull_in_plane(std::vector<dvec3> points, const
     return corners;
 }
 
-constexpr std::size_t kMaxMirrorPlanes = 64, kMaxFlatMirrorTriangles = 65536;
+constexpr std::size_t kMaxPlanes = 64, kMaxFlatMirrorTriangles = 65536;
 constexpr double kCoplanarTolerance =
     1e-4; // 1e-4 radians between normals; for distances, 1e-4 of the surface's extent
 
@@ -68,14 +68,14 @@ struct MeshTriangles {
     std::vector<dvec3> places, normals; ///< places and normals of the mesh's vertices
 
     MeshTriangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
-        const dmat3 turns = compute_normal_matrix(world_from_object);
+        const dmat3 turns = normal_matrix(world_from_object);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            places.push_back(transform_point_to_world(world_from_object, mesh.positions[i]));
-            normals.push_back(transform_normal_to_world(turns, dvec3(mesh.normals[i])));
+            places.push_back(transform_point(world_from_object, mesh.positions[i]));
+            normals.push_back(transform_normal(turns, dvec3(mesh.normals[i])));
         }
     }
     /// Returns a vector along the normal, as long as twice the triangle's area.
-    dvec3 triangle_edge_cross_product(std::size_t i) const {
+    dvec3 edge_cross(std::size_t i) const {
         const uvec3& t = mesh.triangles[i];
         return cross(places[t.y] - places[t.x], places[t.z] - places[t.x]);
     }
@@ -83,8 +83,7 @@ struct MeshTriangles {
     double max_normal_deviation(std::size_t i, const dvec3& normal) const {
         double most = 0;
         for (int corner = 0; corner < 3; ++corner)
-            most = std::max(most,
-                            sine_of_angle_between(normals[mesh.triangles[i][corner]], normal));
+            most = std::max(most, sine_between(normals[mesh.triangles[i][corner]], normal));
         return most;
     }
 };
@@ -97,20 +96,19 @@ struct FlatFaceBuilder {
 };
 
 /// Returns the planes of the triangles whose normals agree; nothing if there are more than
-/// kMaxMirrorPlanes.
-std::optional<std::vector<FlatFaceBuilder>> group_triangles_by_plane(const MeshTriangles& triangles,
-                                                                     double extent) {
+/// kMaxPlanes.
+std::optional<std::vector<FlatFaceBuilder>> group_by_plane(const MeshTriangles& triangles,
+                                                           double extent) {
     std::vector<FlatFaceBuilder> planes;
     for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
-        const dvec3 along = triangles.triangle_edge_cross_product(i),
-                    normal = normalized_or_zero(along);
+        const dvec3 along = triangles.edge_cross(i), normal = normalized_or_zero(along);
         if (normal == dvec3(0) ||
             !(triangles.max_normal_deviation(i, normal) <= kMaxPlaneDeviation))
             continue;
         const uvec3& t = triangles.mesh.triangles[i];
         const auto holds = [&](const FlatFaceBuilder& plane) {
             if (!(dot(plane.normal, normal) > 0 &&
-                  sine_of_angle_between(plane.normal, normal) <= kCoplanarTolerance))
+                  sine_between(plane.normal, normal) <= kCoplanarTolerance))
                 return false;
             return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t corner) {
                 return std::abs(dot(triangles.places[corner] - plane.point, plane.normal)) <=
@@ -119,7 +117,7 @@ std::optional<std::vector<FlatFaceBuilder>> group_triangles_by_plane(const MeshT
         };
         auto plane = std::ranges::find_if(planes, holds);
         if (plane == planes.end()) {
-            if (planes.size() == kMaxMirrorPlanes) return std::nullopt;
+            if (planes.size() == kMaxPlanes) return std::nullopt;
             planes.push_back({.point = triangles.places[t.x], .normal = normal, .triangles = {}});
             plane = planes.end() - 1;
         }
@@ -129,9 +127,8 @@ std::optional<std::vector<FlatFaceBuilder>> group_triangles_by_plane(const MeshT
     return planes;
 }
 
-std::vector<TriangleIndexRun>
-group_triangles_into_runs(const std::vector<std::uint32_t>& ascending) {
-    std::vector<TriangleIndexRun> runs;
+std::vector<TriangleRun> to_runs(const std::vector<std::uint32_t>& ascending) {
+    std::vector<TriangleRun> runs;
     for (const std::uint32_t i : ascending) {
         if (!runs.empty() && runs.back().end == i)
             ++runs.back().end;
@@ -141,21 +138,21 @@ group_triangles_into_runs(const std::vector<std::uint32_t>& ascending) {
     return runs;
 }
 
-FlatFace make_flat_face(const MeshTriangles& triangles, const FlatFaceBuilder& plane, double area,
-                        bool is_one_sided) {
+FlatFace make_face(const MeshTriangles& triangles, const FlatFaceBuilder& plane, double area,
+                   bool is_one_sided) {
     FlatFace face{.point = plane.point,
                   .normal = plane.normal,
                   .corners = {},
                   .share = plane.area / area,
                   .is_one_sided = is_one_sided,
-                  .triangles = group_triangles_into_runs(plane.triangles)};
+                  .triangles = to_runs(plane.triangles)};
     std::vector<dvec3> points;
     for (const std::uint32_t i : plane.triangles) {
         face.off = std::max(face.off, triangles.max_normal_deviation(i, plane.normal));
         for (int corner = 0; corner < 3; ++corner)
             points.push_back(triangles.places[triangles.mesh.triangles[i][corner]]);
     }
-    face.corners = compute_convex_hull_in_plane(points, plane.normal);
+    face.corners = convex_hull(points, plane.normal);
     double size = 0, high = 0;
     for (const dvec3& corner : face.corners)
         size = std::max(size, distance(corner, face.corners.front()));
@@ -166,7 +163,7 @@ FlatFace make_flat_face(const MeshTriangles& triangles, const FlatFaceBuilder& p
 
 } // namespace
 
-double FlatFaces::flat_area_share(double tolerance) const {
+double FlatFaces::flat_share(double tolerance) const {
     double sum = 0;
     for (const FlatFace& face : faces)
         if (face.off <= tolerance) sum += face.share;
@@ -203,62 +200,57 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     Bounds<double> box;
     for (const dvec3& place : triangles.places) box.add(place);
     double area = 0;
-    for (std::uint32_t i = 0; i < count; ++i)
-        area += length(triangles.triangle_edge_cross_product(i));
+    for (std::uint32_t i = 0; i < count; ++i) area += length(triangles.edge_cross(i));
     std::optional<std::vector<FlatFaceBuilder>> planes;
-    if (!box.empty() && area > 0)
-        planes = group_triangles_by_plane(triangles, length(box.extent()));
+    if (!box.empty() && area > 0) planes = group_by_plane(triangles, length(box.extent()));
     if (!planes) return found;
-    std::erase_if(*planes, [&](const FlatFaceBuilder& plane) {
-        return plane.area < kMinFaceAreaShare * area;
-    });
+    std::erase_if(*planes,
+                  [&](const FlatFaceBuilder& plane) { return plane.area < kMinFaceShare * area; });
     std::ranges::stable_sort(*planes, std::ranges::greater(), &FlatFaceBuilder::area);
     if (planes->size() > kMaxFlatFaces) planes->resize(kMaxFlatFaces);
     if (planes->empty()) return found;
     // The normals of a closed body with negative volume point inwards: it is inside out. They are
     // turned below.
     const dvec3 centre = box.centre();
-    const bool is_body = is_closed_triangle_surface(mesh.positions, mesh.triangles);
+    const bool is_body = is_closed_surface(mesh.positions, mesh.triangles);
     double volume = 0;
     for (std::uint32_t i = 0; i < count; ++i)
-        volume += dot(triangles.triangle_edge_cross_product(i),
-                      triangles.places[mesh.triangles[i].x] - centre);
+        volume += dot(triangles.edge_cross(i), triangles.places[mesh.triangles[i].x] - centre);
     std::vector<bool> in_face(count);
     for (FlatFaceBuilder& plane : *planes) {
         for (const std::uint32_t i : plane.triangles) in_face[i] = true;
         if (volume < 0) plane.normal = -plane.normal;
-        found.faces.push_back(make_flat_face(triangles, plane, area, is_body && volume != 0));
+        found.faces.push_back(make_face(triangles, plane, area, is_body && volume != 0));
     }
     std::vector<std::uint32_t> bent;
     for (std::uint32_t i = 0; i < count; ++i)
         if (!in_face[i]) bent.push_back(i);
-    found.bent = group_triangles_into_runs(bent);
+    found.bent = to_runs(bent);
     return found;
 }
 
 std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_from_object) {
     // The test of the first normals rejects most curved meshes, before the whole mesh is tested.
-    const dmat3 turns = compute_normal_matrix(world_from_object);
+    const dmat3 turns = normal_matrix(world_from_object);
     const auto normal_of = [&](std::size_t vertex) {
-        return transform_normal_to_world(turns, dvec3(mesh.normals[vertex]));
+        return transform_normal(turns, dvec3(mesh.normals[vertex]));
     };
     for (const uvec3& triangle : mesh.triangles)
-        if (sine_of_angle_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
+        if (sine_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
             2 * kMaxPlaneDeviation)
             return {};
     FlatFace found;
-    found.normal = normal_of_largest_triangle(mesh, world_from_object);
+    found.normal = main_normal(mesh, world_from_object);
     if (found.normal == dvec3(0)) return {};
     std::vector<dvec3> points;
     for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner) {
-            points.push_back(
-                transform_point_to_world(world_from_object, mesh.positions[triangle[corner]]));
+            points.push_back(transform_point(world_from_object, mesh.positions[triangle[corner]]));
             found.off = std::max(found.off,
-                                 sine_of_angle_between(normal_of(triangle[corner]), found.normal));
+                                 sine_between(normal_of(triangle[corner]), found.normal));
         }
     found.point = points.front();
-    found.corners = compute_convex_hull_in_plane(points, found.normal);
+    found.corners = convex_hull(points, found.normal);
     double size = 0;
     for (const dvec3& corner : found.corners)
         size = std::max(size, distance(corner, found.corners.front()));
@@ -268,7 +260,7 @@ std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_fro
     return found.off <= kMaxPlaneDeviation ? std::optional(found) : std::nullopt;
 }
 
-double compute_flat_tolerance(const Camera& camera, uvec2 size) {
+double flat_tolerance(const Camera& camera, uvec2 size) {
     const double half = camera.orthographic_height > 0
                             ? 1
                             : std::tan(glm::radians(camera.vertical_fov_degrees) / 2);

@@ -10,9 +10,9 @@
 namespace catoptric::scene {
 
 /// Consecutive triangles of a mesh, from `first` to before `end`.
-struct TriangleIndexRun {
+struct TriangleRun {
     std::uint32_t first = 0, end = 0;
-    bool operator==(const TriangleIndexRun&) const = default;
+    bool operator==(const TriangleRun&) const = default;
 };
 
 /// Surface, or a face of a surface, that lies nearly in a plane; world units.
@@ -27,28 +27,28 @@ struct FlatFace {
     double share = 1; ///< share of the surface's area, 0 to 1
     /// True for a face of a closed body, which can be seen only from the side of the normal.
     bool is_one_sided = false;
-    std::vector<TriangleIndexRun> triangles; ///< triangles of this face, ascending
+    std::vector<TriangleRun> triangles; ///< triangles of this face, ascending
 };
 
 /// Flat faces of a surface.
 struct FlatFaces {
-    std::vector<FlatFace> faces;        ///< largest first, at most kMaxFlatFaces
-    std::vector<TriangleIndexRun> bent; ///< triangles that lie in no face, ascending
+    std::vector<FlatFace> faces;   ///< largest first, at most kMaxFlatFaces
+    std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
     /// Why no mirrored view shows what the surface reflects, although it may be flat: "bumpy" or
     /// "glass". Such a surface has no faces. Empty for any other surface.
     std::string_view misfit = {};
     bool is_rough = false; ///< the surface reflects by a lobe (may_reflect_by_lobe)
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
-    double flat_area_share(double tolerance) const;
+    double flat_share(double tolerance) const;
     /// Returns whether the whole surface lies in one plane.
-    bool is_single_plane() const { return faces.size() == 1 && bent.empty(); }
+    bool is_plane() const { return faces.size() == 1 && bent.empty(); }
 };
 
 /// Largest number of faces of a surface, and least share of the surface's area that is a face.
 inline constexpr std::size_t kMaxFlatFaces = 8;
-inline constexpr double kMinFaceAreaShare = 1e-3;
+inline constexpr double kMinFaceShare = 1e-3;
 /// Least share of a surface's area that must lie in flat faces before planes may draw the surface.
-inline constexpr double kMinFlatAreaShare = .5;
+inline constexpr double kMinFlatShare = .5;
 
 /// Largest value of `FlatFace::off`. A surface that deviates more from a plane is not flat at any
 /// picture size.
@@ -73,6 +73,6 @@ FlatFaces find_flat_faces(const Scene& scene, const Object& object);
 /// `size` pixels. It is a sixteenth of the angle of a pixel in the picture's middle. A normal that
 /// is off by this angle turns a reflected ray by an eighth of a pixel. For an orthographic camera,
 /// a pixel counts as the angle whose tangent is 2 / height.
-double compute_flat_tolerance(const Camera& camera, uvec2 size);
+double flat_tolerance(const Camera& camera, uvec2 size);
 
 } // namespace catoptric::scene

@@ -14,31 +14,31 @@ namespace {
 constexpr double kGalleryLength = 14;
 
 /// Mirror on a plinth of height `plinth`: a mesh or a ball.
-struct GalleryExhibit {
+struct Exhibit {
     const char* name;
     dvec3 at; ///< position of the plinth's foot
     double plinth, size;
     enum { ball, box, vase, ring, bell, drum } shape;
 };
-constexpr std::array<GalleryExhibit, 12> kGalleryExhibits{{
-    {"large ball", {-1.3, 0, 1.8}, .4, .45, GalleryExhibit::ball},
-    {"ring", {1.3, 0, 2.6}, .9, .3, GalleryExhibit::ring},
-    {"cube", {-1.4, 0, 3.8}, .8, .3, GalleryExhibit::box},
-    {"small ball", {1.4, 0, 4.5}, 1.1, .15, GalleryExhibit::ball},
-    {"vase", {-1.3, 0, 5.7}, .7, .45, GalleryExhibit::vase},
-    {"bell", {1.3, 0, 6.4}, .8, .4, GalleryExhibit::bell},
-    {"drum", {-1.4, 0, 7.6}, .5, .35, GalleryExhibit::drum},
-    {"huge ball", {1.2, 0, 8.6}, .1, .7, GalleryExhibit::ball},
-    {"second ring", {-1.3, 0, 9.6}, 1, .4, GalleryExhibit::ring},
-    {"marble", {1.4, 0, 10.4}, 1.2, .06, GalleryExhibit::ball},
-    {"second vase", {-1.3, 0, 11.5}, .6, .6, GalleryExhibit::vase},
-    {"block", {1.3, 0, 12.2}, .3, .5, GalleryExhibit::box},
+constexpr std::array<Exhibit, 12> kExhibits{{
+    {"large ball", {-1.3, 0, 1.8}, .4, .45, Exhibit::ball},
+    {"ring", {1.3, 0, 2.6}, .9, .3, Exhibit::ring},
+    {"cube", {-1.4, 0, 3.8}, .8, .3, Exhibit::box},
+    {"small ball", {1.4, 0, 4.5}, 1.1, .15, Exhibit::ball},
+    {"vase", {-1.3, 0, 5.7}, .7, .45, Exhibit::vase},
+    {"bell", {1.3, 0, 6.4}, .8, .4, Exhibit::bell},
+    {"drum", {-1.4, 0, 7.6}, .5, .35, Exhibit::drum},
+    {"huge ball", {1.2, 0, 8.6}, .1, .7, Exhibit::ball},
+    {"second ring", {-1.3, 0, 9.6}, 1, .4, Exhibit::ring},
+    {"marble", {1.4, 0, 10.4}, 1.2, .06, Exhibit::ball},
+    {"second vase", {-1.3, 0, 11.5}, .6, .6, Exhibit::vase},
+    {"block", {1.3, 0, 12.2}, .3, .5, Exhibit::box},
 }};
 
-Mesh make_exhibit_mesh(const GalleryExhibit& exhibit) {
+Mesh make_exhibit_mesh(const Exhibit& exhibit) {
     switch (exhibit.shape) {
-    case GalleryExhibit::box: return box(exhibit.name, {-.7, -1, -.7}, {.7, 1, .7});
-    case GalleryExhibit::vase:
+    case Exhibit::box: return box(exhibit.name, {-.7, -1, -.7}, {.7, 1, .7});
+    case Exhibit::vase:
         return lathe(exhibit.name,
                      {{0, -1},
                       {.3, -1},
@@ -52,7 +52,7 @@ Mesh make_exhibit_mesh(const GalleryExhibit& exhibit) {
                       {.4, 1},
                       {0, 1}},
                      48);
-    case GalleryExhibit::bell:
+    case Exhibit::bell:
         return lathe(exhibit.name,
                      {{0, -1},
                       {.9, -1},
@@ -64,14 +64,13 @@ Mesh make_exhibit_mesh(const GalleryExhibit& exhibit) {
                       {.25, .93},
                       {0, 1}},
                      48);
-    case GalleryExhibit::drum:
+    case Exhibit::drum:
         return lathe(exhibit.name, {{0, -1}, {.6, -1}, {.6, -1}, {.6, 1}, {.6, 1}, {0, 1}}, 48);
     default: return torus(exhibit.name, 1, .35, 48);
     }
 }
 
-void add_gallery_exhibit(Scene& scene, const GalleryExhibit& exhibit, std::size_t stone,
-                         std::size_t mirror) {
+void add_exhibit(Scene& scene, const Exhibit& exhibit, std::size_t stone, std::size_t mirror) {
     const double half = .8 * std::max(exhibit.size, .2);
     Mesh plinth = box(std::string("plinth of ") + exhibit.name,
                       exhibit.at + dvec3(-half, kSupportGap, -half),
@@ -79,9 +78,9 @@ void add_gallery_exhibit(Scene& scene, const GalleryExhibit& exhibit, std::size_
     for (vec2& uv : plinth.uv[0]) uv *= 2;
     add_mesh(scene, std::move(plinth), stone);
     // The exhibit stands just above the plinth, so that no surfaces touch.
-    const double low = exhibit.shape == GalleryExhibit::ring ? .35 : 1;
+    const double low = exhibit.shape == Exhibit::ring ? .35 : 1;
     const dvec3 centre = exhibit.at + dvec3(0, exhibit.plinth + exhibit.size * low + .01, 0);
-    if (exhibit.shape == GalleryExhibit::ball)
+    if (exhibit.shape == Exhibit::ball)
         return add_ball(scene, exhibit.name, mirror, centre, exhibit.size, 4);
     add_mesh(scene, make_exhibit_mesh(exhibit), mirror);
     dmat4 place(exhibit.size);
@@ -141,8 +140,7 @@ Scene make_gallery() {
     Mesh ground = make_box_wall(3, lo, hi);
     for (const dvec3& p : ground.positions) ground.uv[0].push_back(vec2(dvec2(p.x, p.z) / 2.0));
     add_mesh(scene, std::move(ground), floor);
-    for (const GalleryExhibit& exhibit : kGalleryExhibits)
-        add_gallery_exhibit(scene, exhibit, stone, mirror);
+    for (const Exhibit& exhibit : kExhibits) add_exhibit(scene, exhibit, stone, mirror);
     add_wall_mirrors(scene, mirror);
     for (const double z : {2.5, 7.0, 11.5})
         add_quad(scene, "lamp", lamp, {-.5, 3.19, z - .5}, {.5, 3.19, z - .5}, {.5, 3.19, z + .5},

@@ -21,8 +21,8 @@ constexpr double kMaxBallStretch = 1.25; ///< most by which the longest side of 
 
 } // namespace
 
-double compute_closed_volume(const Mesh& mesh) {
-    if (!is_closed_triangle_surface(mesh.positions, mesh.triangles)) return 0;
+double closed_volume(const Mesh& mesh) {
+    if (!is_closed_surface(mesh.positions, mesh.triangles)) return 0;
     double volume = 0; // sum of signed tetrahedra
     const dvec3 origin = mesh.positions.empty() ? dvec3(0) : dvec3(mesh.positions.front());
     for (const uvec3& t : mesh.triangles) {
@@ -34,8 +34,8 @@ double compute_closed_volume(const Mesh& mesh) {
     return std::abs(volume);
 }
 
-std::optional<GlassBody> choose_glass_body_model(const Scene& scene, const Object& object,
-                                                 double volume) {
+std::optional<GlassBody> choose_glass_body(const Scene& scene, const Object& object,
+                                           double volume) {
     const Material& material = scene.materials[object.material];
     if (!is_glass(material)) return std::nullopt;
     if (!material.solid || volume == 0) return GlassBody::thin;

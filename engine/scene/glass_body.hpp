@@ -18,14 +18,13 @@ enum class GlassBody : std::uint32_t {
 
 /// Returns the volume of a closed mesh in its own space; 0 for an open mesh. Costs O(n log n) in
 /// triangles.
-double compute_closed_volume(const Mesh& mesh);
+double closed_volume(const Mesh& mesh);
 
 /// Returns the simple body that is closest to a glass object, or nothing if the object is no glass.
 /// The choice depends on the share of the object's bounds that the object fills, and on the sides
 /// of the bounds. For example, a ball fills .52 of a cube, an upright pane all of its bounds, and a
 /// bottle or an oblique pane little. Sheets and open meshes are thin. `volume`:
-/// compute_closed_volume of the object's mesh. Takes O(vertices), for the bounds.
-std::optional<GlassBody> choose_glass_body_model(const Scene& scene, const Object& object,
-                                                 double volume);
+/// closed_volume of the object's mesh. Takes O(vertices), for the bounds.
+std::optional<GlassBody> choose_glass_body(const Scene& scene, const Object& object, double volume);
 
 } // namespace catoptric::scene

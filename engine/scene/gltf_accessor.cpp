@@ -9,7 +9,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-std::string accessor_type_name(int type) {
+std::string type_name(int type) {
     if (type == TINYGLTF_TYPE_SCALAR) return "SCALAR";
     const int size = type & 15; // tinygltf adds 32 to the size of a matrix
     return (type == size ? "VEC" : "MAT") + std::to_string(size);
@@ -33,29 +33,29 @@ double read_normalised_integer(const AccessorElements& elements, std::size_t ind
     return elements.normalised ? std::max(value / std::numeric_limits<Stored>::max(), -1.0) : value;
 }
 
-AccessorElements read_accessor_of_type(const tinygltf::Model& model, int index, int type,
-                                       const std::string& place) {
+AccessorElements read_typed(const tinygltf::Model& model, int index, int type,
+                            const std::string& place) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     check(accessor.type == type, Failure::bad_data, place, ": wanted an accessor of ",
-          accessor_type_name(type), ", found ", accessor_type_name(accessor.type));
-    return read_accessor_elements(model, index);
+          type_name(type), ", found ", type_name(accessor.type));
+    return read_elements(model, index);
 }
 
 /// Returns whether the components are integers of 8 or 16 bits.
-bool has_short_accessor_integers(const AccessorElements& elements) {
+bool has_short_integers(const AccessorElements& elements) {
     return elements.component >= TINYGLTF_COMPONENT_TYPE_BYTE &&
            elements.component <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
 }
 
 bool is_finite_element(const AccessorElements& elements, std::size_t index) {
     for (int i = 0; i < elements.width; ++i)
-        if (!std::isfinite(read_accessor_number(elements, index, i))) return false;
+        if (!std::isfinite(read_number(elements, index, i))) return false;
     return true;
 }
 
 } // namespace
 
-AccessorElements read_accessor_elements(const tinygltf::Model& model, int index) {
+AccessorElements read_elements(const tinygltf::Model& model, int index) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     const tinygltf::BufferView& view = model.bufferViews[std::size_t(accessor.bufferView)];
     const std::vector<unsigned char>& bytes = model.buffers[std::size_t(view.buffer)].data;
@@ -69,24 +69,24 @@ AccessorElements read_accessor_elements(const tinygltf::Model& model, int index)
             .normalised = accessor.normalized};
 }
 
-AccessorElements GltfReadContext::floats(int index, int type, BudgetLimitedSum& total,
-                                         const std::string& place, AllowedAccessorIntegers also) {
-    const AccessorElements elements = read_accessor_of_type(document.model, index, type, place);
-    const bool is_whole = has_short_accessor_integers(elements) &&
-                          ((also == AllowedAccessorIntegers::normalised && elements.normalised) ||
-                           (also == AllowedAccessorIntegers::quantised && document.is_quantised));
+AccessorElements ReadContext::floats(int index, int type, LimitedSum& total,
+                                     const std::string& place, AllowedIntegers also) {
+    const AccessorElements elements = read_typed(document.model, index, type, place);
+    const bool is_whole = has_short_integers(elements) &&
+                          ((also == AllowedIntegers::normalised && elements.normalised) ||
+                           (also == AllowedIntegers::quantised && document.is_quantised));
     check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT || is_whole, Failure::bad_data, place,
           ": wanted floats, found component type ", elements.component);
     if (!finite.insert(index).second) return elements;
-    total.add_amount_within_budget(elements.count, place);
+    total.add(elements.count, place);
     for (std::size_t i = 0; i < elements.count && !is_whole; ++i)
         check(is_finite_element(elements, i), Failure::bad_data, place, ": element ", i,
               ": wanted finite numbers, found NaN or infinity");
     return elements;
 }
 
-AccessorElements GltfReadContext::whole(int index, const std::string& place, int type) const {
-    const AccessorElements elements = read_accessor_of_type(document.model, index, type, place);
+AccessorElements ReadContext::whole(int index, const std::string& place, int type) const {
+    const AccessorElements elements = read_typed(document.model, index, type, place);
     const bool is_unsigned = elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
@@ -95,7 +95,7 @@ AccessorElements GltfReadContext::whole(int index, const std::string& place, int
     return elements;
 }
 
-double read_accessor_number(const AccessorElements& elements, std::size_t index, int component) {
+double read_number(const AccessorElements& elements, std::size_t index, int component) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
         return read_normalised_integer<std::int8_t>(elements, index, component);
@@ -109,13 +109,12 @@ double read_accessor_number(const AccessorElements& elements, std::size_t index,
     }
 }
 
-dvec3 read_accessor_vector(const AccessorElements& elements, std::size_t index) {
-    return {read_accessor_number(elements, index, 0), read_accessor_number(elements, index, 1),
-            read_accessor_number(elements, index, 2)};
+dvec3 read_vector(const AccessorElements& elements, std::size_t index) {
+    return {read_number(elements, index, 0), read_number(elements, index, 1),
+            read_number(elements, index, 2)};
 }
 
-std::uint32_t read_accessor_integer(const AccessorElements& elements, std::size_t index,
-                                    int component) {
+std::uint32_t read_integer(const AccessorElements& elements, std::size_t index, int component) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return read_stored_component<std::uint8_t>(elements, index, component);
@@ -125,7 +124,7 @@ std::uint32_t read_accessor_integer(const AccessorElements& elements, std::size_
     }
 }
 
-std::uint32_t primitive_restart_index(const AccessorElements& elements) {
+std::uint32_t restart_index(const AccessorElements& elements) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return std::numeric_limits<std::uint8_t>::max();
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return std::numeric_limits<std::uint16_t>::max();

@@ -25,7 +25,7 @@ inline bool is_factor_extension(std::string_view name) {
 /// Checks the type of every known member. Unknown members are ignored. Throws `bad_data` for a
 /// member of the wrong type, an index of no object, or lists over the budget. Defined in
 /// gltf_members.cpp.
-void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account);
+void check_known_members(const JsonObject& root, LoadAccount& account);
 /// Returns the members that are read, taken from a checked document. Members that tinygltf needs
 /// and the document lacks are added with placeholder values.
 Json keep_known_members(Json document);
@@ -37,6 +37,6 @@ void check_view_bounds(const JsonObject& root, const std::vector<GltfBuffer>& bu
 /// Checks rules that involve more than one member, and notes extensions and animation channels that
 /// are not read. Throws `bad_data`, also for an image file outside the folders that `files` allows.
 /// Defined in gltf_unread.cpp.
-void check_cross_references(const JsonObject& root, SceneFileOpener& files, LoaderNotes& notes);
+void check_cross_references(const JsonObject& root, FileOpener& files, LoaderNotes& notes);
 
 } // namespace catoptric::scene::gltf

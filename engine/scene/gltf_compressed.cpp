@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
 /// Bytes by which a compressed byte of Draco's data counts against the budget, in addition to the
 /// result.
-constexpr std::uint64_t kDecodedBytesPerDracoByte = 4;
+constexpr std::uint64_t kMaxDracoRatio = 4;
 
 /// Removes an extension that was decoded, so that it does not count as unread.
 void erase_extension(Json& item, std::string_view name) {
@@ -34,18 +34,18 @@ struct ByteRange {
 };
 
 /// Returns the bytes that `part` gives by `buffer`, `byteOffset` and `byteLength`.
-ByteRange find_buffer_bytes(const GltfContainer& container, const JsonObject& part) {
+ByteRange find_buffer_bytes(const Container& container, const JsonObject& part) {
     const GltfBuffer& buffer =
         container.buffers[part.needed_index("buffer", container.buffers.size())];
     const std::uint64_t offset = part.whole("byteOffset", 0), length = part.whole("byteLength", 0);
-    part.require_condition(
-        length >= 1 && offset <= buffer.length && length <= buffer.length - offset, "wanted ",
-        length, " bytes, at least 1, from ", offset, " on, found a buffer of ", buffer.length);
+    part.require(length >= 1 && offset <= buffer.length && length <= buffer.length - offset,
+                 "wanted ", length, " bytes, at least 1, from ", offset, " on, found a buffer of ",
+                 buffer.length);
     return {container.files[buffer.file].data() + offset, length};
 }
 
 /// Adds bytes as a buffer of their own. Returns its index.
-std::size_t add_buffer_of_bytes(GltfContainer& container, ByteList bytes) {
+std::size_t append_buffer(Container& container, ByteList bytes) {
     container.buffers.push_back({container.files.size(), bytes.size()});
     container.files.push_back(std::move(bytes));
     return container.buffers.size() - 1;
@@ -72,38 +72,35 @@ constexpr std::array<MeshoptFilter, 4> kMeshoptFilters{
 MeshoptMode read_meshopt_mode(const JsonObject& extension) {
     constexpr std::array<std::string_view, 3> kModes{"ATTRIBUTES", "TRIANGLES", "INDICES"};
     const auto* const mode = std::ranges::find(kModes, extension.text("mode"));
-    extension.require_condition(
-        mode != kModes.end(), "mode: wanted ATTRIBUTES, TRIANGLES or INDICES, found ",
-        extension.has_member("mode") ? describe_json_value(*extension.find("mode")) : "none");
+    extension.require(mode != kModes.end(), "mode: wanted ATTRIBUTES, TRIANGLES or INDICES, found ",
+                      extension.has("mode") ? describe(*extension.find("mode")) : "none");
     return static_cast<MeshoptMode>(mode - kModes.begin());
 }
 
 /// Returns the elements of a compressed view.
-ByteList decode_meshopt_view(const GltfContainer& container, const JsonObject& extension,
-                             SceneLoadBudgetUsage& account) {
+ByteList decode_meshopt_view(const Container& container, const JsonObject& extension,
+                             LoadAccount& account) {
     const ByteRange bytes = find_buffer_bytes(container, extension);
     const MeshoptMode mode = read_meshopt_mode(extension);
     const std::uint64_t count = extension.whole("count", 0),
                         stride = extension.whole("byteStride", 0);
     const bool is_attribute = mode == MeshoptMode::attributes;
-    extension.require_condition(
+    extension.require(
         is_attribute ? stride >= 4 && stride <= 256 && stride % 4 == 0 : stride == 2 || stride == 4,
         "byteStride: wanted ", is_attribute ? "a multiple of 4 from 4 to 256" : "2 or 4",
         ", found ", stride);
-    extension.require_condition(count >= 1 && (mode != MeshoptMode::triangles || count % 3 == 0),
-                                "count: wanted at least 1",
-                                mode == MeshoptMode::triangles ? " and a multiple of 3" : "",
-                                ", found ", count);
+    extension.require(count >= 1 && (mode != MeshoptMode::triangles || count % 3 == 0),
+                      "count: wanted at least 1",
+                      mode == MeshoptMode::triangles ? " and a multiple of 3" : "", ", found ",
+                      count);
     const std::string name = extension.text("filter", "NONE");
     const auto* const filter = std::ranges::find(kMeshoptFilters, name, &MeshoptFilter::name);
-    extension.require_condition(filter != kMeshoptFilters.end() &&
-                                    (filter->undo == nullptr || is_attribute) &&
-                                    filter->fits(stride),
-                                "filter: wanted NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL that "
-                                "fits the mode and a stride of ",
-                                stride, ", found ", describe_json_value(Json(name)));
-    account.decoded_bytes.add_amount_within_budget(count > ~0ull / stride ? ~0ull : count * stride,
-                                                   extension.place());
+    extension.require(filter != kMeshoptFilters.end() &&
+                          (filter->undo == nullptr || is_attribute) && filter->fits(stride),
+                      "filter: wanted NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL that "
+                      "fits the mode and a stride of ",
+                      stride, ", found ", describe(Json(name)));
+    account.decoded_bytes.add(count > ~0ull / stride ? ~0ull : count * stride, extension.place());
     ByteList elements(count * stride);
     int failed = 0;
     if (mode == MeshoptMode::attributes)
@@ -114,35 +111,34 @@ ByteList decode_meshopt_view(const GltfContainer& container, const JsonObject& e
     else
         failed = meshopt_decodeIndexSequence(elements.data(), count, stride, bytes.first,
                                              bytes.size);
-    extension.require_condition(failed == 0, "wanted ", count, " elements of ", stride,
-                                " bytes in meshopt's format, found ", bytes.size,
-                                " bytes that do not decode to them");
+    extension.require(failed == 0, "wanted ", count, " elements of ", stride,
+                      " bytes in meshopt's format, found ", bytes.size,
+                      " bytes that do not decode to them");
     if (filter->undo != nullptr) filter->undo(elements.data(), count, stride);
     return elements;
 }
 
-void decode_meshopt_views(GltfContainer& container, const std::string& file,
-                          SceneLoadBudgetUsage& account) {
+void decode_meshopt_views(Container& container, const std::string& file, LoadAccount& account) {
     const std::size_t views = JsonObject(container.document, file).size("bufferViews");
     for (std::size_t i = 0; i < views; ++i) {
         ByteList elements;
         {
             const JsonObject root(container.document, file);
-            const auto extension = root.at("bufferViews", i).read_extension(kMeshoptExtension);
+            const auto extension = root.at("bufferViews", i).extension(kMeshoptExtension);
             if (!extension) continue;
             elements = decode_meshopt_view(container, *extension, account);
         }
         Json& view = container.document["bufferViews"][i];
         view["byteOffset"] = 0u;
         view["byteLength"] = elements.size();
-        view["buffer"] = add_buffer_of_bytes(container, std::move(elements));
+        view["buffer"] = append_buffer(container, std::move(elements));
         erase_extension(view, kMeshoptExtension);
     }
 }
 
 // ---- KHR_draco_mesh_compression
 
-DracoType read_draco_component_type(const JsonObject& accessor) {
+DracoType read_component_type(const JsonObject& accessor) {
     switch (accessor.whole("componentType", 0)) {
     case TINYGLTF_COMPONENT_TYPE_BYTE: return DracoType::int8;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return DracoType::uint8;
@@ -155,12 +151,11 @@ DracoType read_draco_component_type(const JsonObject& accessor) {
 
 /// Returns the components of an element of VEC4, for example 4. Throws `bad_data` for a matrix,
 /// which no vertex attribute is.
-std::size_t read_draco_component_count(const JsonObject& accessor) {
+std::size_t read_component_count(const JsonObject& accessor) {
     constexpr std::array<std::string_view, 4> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4"};
     const auto* const type = std::ranges::find(kTypes, accessor.text("type"));
-    accessor.require_condition(
-        type != kTypes.end(), "type: wanted SCALAR or VEC2 .. VEC4, found ",
-        accessor.has_member("type") ? describe_json_value(*accessor.find("type")) : "none");
+    accessor.require(type != kTypes.end(), "type: wanted SCALAR or VEC2 .. VEC4, found ",
+                     accessor.has("type") ? describe(*accessor.find("type")) : "none");
     return static_cast<std::size_t>(type - kTypes.begin()) + 1;
 }
 
@@ -173,14 +168,13 @@ struct DecodedAccessor {
 
 /// Gives the primitive new accessors with decoded data. The old accessors stay, because other
 /// primitives may use them.
-void set_decoded_accessors(GltfContainer& container, std::vector<DecodedAccessor> decoded,
-                           std::size_t mesh, std::size_t primitive) {
+void set_accessors(Container& container, std::vector<DecodedAccessor> decoded, std::size_t mesh,
+                   std::size_t primitive) {
     Json& document = container.document;
     for (DecodedAccessor& one : decoded) {
         const std::size_t length = one.bytes.size();
         document["bufferViews"].push_back(
-            {{"buffer", add_buffer_of_bytes(container, std::move(one.bytes))},
-             {"byteLength", length}});
+            {{"buffer", append_buffer(container, std::move(one.bytes))}, {"byteLength", length}});
         one.accessor["bufferView"] = document["bufferViews"].size() - 1;
         one.accessor["byteOffset"] = 0u;
         one.accessor.erase("sparse");
@@ -197,7 +191,7 @@ void set_decoded_accessors(GltfContainer& container, std::vector<DecodedAccessor
 
 /// Makes accessors that only described Draco's data as small as possible. Without this, they would
 /// be filled with zeros of full length.
-void shrink_accessors_without_data(Json& document, const std::vector<std::size_t>& accessors) {
+void shrink_accessors(Json& document, const std::vector<std::size_t>& accessors) {
     for (const std::size_t index : accessors) {
         Json& accessor = document["accessors"][index];
         if (!accessor.contains("bufferView") && !accessor.contains("sparse"))
@@ -205,52 +199,50 @@ void shrink_accessors_without_data(Json& document, const std::vector<std::size_t
     }
 }
 
-std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& container,
+std::vector<DecodedAccessor> decode_draco_primitive(const Container& container,
                                                     const JsonObject& root,
                                                     const JsonObject& primitive,
                                                     const JsonObject& extension,
-                                                    SceneLoadBudgetUsage& account) {
+                                                    LoadAccount& account) {
     const JsonObject view = root.at("bufferViews",
                                     extension.needed_index("bufferView", root.size("bufferViews")));
     const ByteRange bytes = find_buffer_bytes(container, view);
-    const std::optional<JsonObject> compressed = extension.read_object_member("attributes"),
-                                    attributes = primitive.read_object_member("attributes");
-    extension.require_condition(compressed && attributes, "wanted attributes, found none");
+    const std::optional<JsonObject> compressed = extension.object("attributes"),
+                                    attributes = primitive.object("attributes");
+    extension.require(compressed && attributes, "wanted attributes, found none");
     const std::uint64_t mode = primitive.whole("mode", TINYGLTF_MODE_TRIANGLES);
-    primitive.require_condition(mode == TINYGLTF_MODE_TRIANGLES ||
-                                    mode == TINYGLTF_MODE_TRIANGLE_STRIP,
-                                "mode: wanted 4 or 5 beside ", kDracoExtension, ", found ", mode);
+    primitive.require(mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP,
+                      "mode: wanted 4 or 5 beside ", kDracoExtension, ", found ", mode);
     std::vector<DecodedAccessor> decoded;
     std::vector<DracoAttribute> wanted;
-    for (const auto& [name, value] : compressed->json_value().items()) {
+    for (const auto& [name, value] : compressed->json().items()) {
         const JsonObject accessor = root.at("accessors",
                                             attributes->needed_index(name, root.size("accessors")));
-        decoded.push_back({name, accessor.json_value(), {}});
+        decoded.push_back({name, accessor.json(), {}});
         wanted.push_back({.id = static_cast<std::uint32_t>(
                               std::min(compressed->whole(name, 0), std::uint64_t{~0u})),
-                          .type = read_draco_component_type(accessor),
-                          .width = read_draco_component_count(accessor)});
+                          .type = read_component_type(accessor),
+                          .width = read_component_count(accessor)});
     }
     // Decoding takes time in proportion to the compressed bytes. They count once for each
     // primitive, even if many primitives name the same bytes.
-    account.decoded_bytes.add_amount_within_budget(bytes.size * kDecodedBytesPerDracoByte,
-                                                   extension.place());
+    account.decoded_bytes.add(bytes.size * kMaxDracoRatio, extension.place());
     const DracoCodec& codec = draco_codec();
     DracoCounts counts;
     std::string wrong = codec.read_counts({bytes.first, bytes.size}, counts);
-    extension.require_condition(wrong.empty(), wrong);
-    account.mesh_triangles.check_amount_fits_budget(counts.triangles, extension.place());
-    account.positions.check_amount_fits_budget(counts.points, extension.place());
-    extension.require_condition(counts.points <= std::uint64_t{3} * counts.triangles,
-                                "wanted at most three points for each of ", counts.triangles,
-                                " triangles, found ", counts.points);
+    extension.require(wrong.empty(), wrong);
+    account.mesh_triangles.check_fits(counts.triangles, extension.place());
+    account.positions.check_fits(counts.points, extension.place());
+    extension.require(counts.points <= std::uint64_t{3} * counts.triangles,
+                      "wanted at most three points for each of ", counts.triangles,
+                      " triangles, found ", counts.points);
     std::vector<std::uint32_t> corners;
     wrong = codec.decode({bytes.first, bytes.size}, wanted, corners);
-    extension.require_condition(wrong.empty(), wrong);
+    extension.require(wrong.empty(), wrong);
 
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         decoded[i].bytes = std::move(wanted[i].values);
-        const std::size_t element = accessor_element_bytes(root.at(
+        const std::size_t element = element_bytes(root.at(
             "accessors", attributes->needed_index(decoded[i].attribute, root.size("accessors"))));
         decoded[i].accessor["count"] = decoded[i].bytes.size() / element;
     }
@@ -261,12 +253,11 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
                         {"type", "SCALAR"}},
                        ByteList(first, first + corners.size() * sizeof(std::uint32_t))});
     for (const DecodedAccessor& one : decoded)
-        account.decoded_bytes.add_amount_within_budget(one.bytes.size(), extension.place());
+        account.decoded_bytes.add(one.bytes.size(), extension.place());
     return decoded;
 }
 
-void decode_draco_primitives(GltfContainer& container, const std::string& file,
-                             SceneLoadBudgetUsage& account) {
+void decode_draco_primitives(Container& container, const std::string& file, LoadAccount& account) {
     std::vector<std::size_t> described; // accessors that describe Draco's data
     const std::size_t meshes = JsonObject(container.document, file).size("meshes");
     for (std::size_t i = 0; i < meshes; ++i) {
@@ -277,27 +268,26 @@ void decode_draco_primitives(GltfContainer& container, const std::string& file,
             {
                 const JsonObject root(container.document, file);
                 const JsonObject primitive = root.at("meshes", i).at("primitives", k);
-                const auto extension = primitive.read_extension(kDracoExtension);
+                const auto extension = primitive.extension(kDracoExtension);
                 if (!extension) continue;
                 decoded = decode_draco_primitive(container, root, primitive, *extension, account);
                 const std::size_t count = root.size("accessors");
                 if (const auto indices = primitive.index("indices", count))
                     described.push_back(*indices);
-                const JsonObject attributes = *primitive.read_object_member("attributes");
+                const JsonObject attributes = *primitive.object("attributes");
                 for (const DecodedAccessor& one : decoded)
                     if (!one.attribute.empty())
                         described.push_back(attributes.needed_index(one.attribute, count));
             }
-            set_decoded_accessors(container, std::move(decoded), i, k);
+            set_accessors(container, std::move(decoded), i, k);
         }
     }
-    shrink_accessors_without_data(container.document, described);
+    shrink_accessors(container.document, described);
 }
 
 } // namespace
 
-void decode_compressed_geometry(GltfContainer& container, const std::string& file,
-                                SceneLoadBudgetUsage& account) {
+void decode_geometry(Container& container, const std::string& file, LoadAccount& account) {
     decode_meshopt_views(container, file, account);
     decode_draco_primitives(container, file, account);
 }

@@ -19,7 +19,7 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// Extensions that a file may require, besides KHR_materials_*. They are read, or the scene can be
 /// shown without them.
-constexpr std::string_view kAllowedRequiredExtensions[] = {
+constexpr std::string_view kAllowedExtensions[] = {
     "KHR_mesh_quantization",   "KHR_lights_punctual",
     "KHR_texture_transform",   "EXT_texture_webp",
     "KHR_xmp_json_ld",         "KHR_techniques_webgl",
@@ -44,40 +44,40 @@ struct GlbChunks {
     std::string_view binary; ///< the binary part; empty if the file has none
 };
 
-std::uint32_t read_glb_word(std::string_view bytes, std::size_t offset) {
+std::uint32_t read_word(std::string_view bytes, std::size_t offset) {
     std::uint32_t word = 0; // glTF and all supported machines are little-endian
     std::memcpy(&word, bytes.data() + offset, sizeof word);
     return word;
 }
 
 /// Returns the JSON and the first binary chunk of a GLB. Any other file is taken as JSON text.
-GlbChunks read_glb_chunks(const std::string& file, std::string_view bytes, LoaderNotes& notes) {
+GlbChunks read_chunks(const std::string& file, std::string_view bytes, LoaderNotes& notes) {
     if (!bytes.starts_with("glTF")) return {bytes, {}};
     check(bytes.size() >= 20, Failure::bad_data, file, ": header: wanted 20 bytes, found ",
           bytes.size());
-    check(read_glb_word(bytes, 4) == 2, Failure::bad_data, file,
-          ": header: wanted GLB version 2, found ", read_glb_word(bytes, 4));
-    const std::uint32_t said = read_glb_word(bytes, 8);
+    check(read_word(bytes, 4) == 2, Failure::bad_data, file,
+          ": header: wanted GLB version 2, found ", read_word(bytes, 4));
+    const std::uint32_t said = read_word(bytes, 8);
     check(said >= 20 && said <= bytes.size(), Failure::bad_data, file, ": header: wanted ", said,
           " bytes, found ", bytes.size());
-    notes.add_note("bytes after the end that the header gives, left out", std::to_string(said),
-                   bytes.size() - said);
+    notes.add("bytes after the end that the header gives, left out", std::to_string(said),
+              bytes.size() - said);
     bytes = bytes.substr(0, said);
-    const std::uint32_t length = read_glb_word(bytes, 12);
-    check(read_glb_word(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data,
+    const std::uint32_t length = read_word(bytes, 12);
+    check(read_word(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data,
           file, ": first chunk: wanted JSON of at most ", bytes.size() - 20, " bytes, found ",
           length);
     const std::string_view rest = bytes.substr(20 + length);
-    if (rest.size() < 8 || read_glb_word(rest, 4) != kBinaryChunk)
+    if (rest.size() < 8 || read_word(rest, 4) != kBinaryChunk)
         return {bytes.substr(20, length), {}};
-    const std::uint32_t binary = read_glb_word(rest, 0);
+    const std::uint32_t binary = read_word(rest, 0);
     check(binary <= rest.size() - 8, Failure::bad_data, file, ": second chunk: wanted at most ",
           rest.size() - 8, " bytes, found ", binary);
     return {bytes.substr(20, length), rest.substr(8, binary)};
 }
 
 /// Returns whether the version is a text "MAJOR.MINOR" of at most 2.0.
-bool is_read_gltf_version(const Json& version) {
+bool is_read_version(const Json& version) {
     if (!version.is_string()) return false;
     const std::string& text = version.get_ref<const std::string&>();
     const std::size_t dot = text.find('.');
@@ -91,113 +91,112 @@ bool is_read_gltf_version(const Json& version) {
     return minor >= 0 && major >= 0 && (major < 2 || (major == 2 && minor == 0));
 }
 
-void check_gltf_version(const JsonObject& root) {
-    const std::optional<JsonObject> asset = root.read_object_member("asset");
+void check_version(const JsonObject& root) {
+    const std::optional<JsonObject> asset = root.object("asset");
     const Json* version = asset ? asset->find("version") : nullptr;
-    root.require_condition(
-        version && version->is_string() && version->get_ref<const std::string&>().starts_with("2."),
-        "asset.version: wanted \"2.0\", found ", version ? describe_json_value(*version) : "null");
+    root.require(version && version->is_string() &&
+                     version->get_ref<const std::string&>().starts_with("2."),
+                 "asset.version: wanted \"2.0\", found ", version ? describe(*version) : "null");
     const Json* least = asset ? asset->find("minVersion") : nullptr;
-    root.require_condition(least == nullptr || is_read_gltf_version(*least),
-                           "asset.minVersion: wanted at most \"2.0\", found ",
-                           least ? describe_json_value(*least) : "null");
+    root.require(least == nullptr || is_read_version(*least),
+                 "asset.minVersion: wanted at most \"2.0\", found ",
+                 least ? describe(*least) : "null");
 }
 
 void check_required_extensions(const JsonObject& root) {
     const Json* required = root.find("extensionsRequired");
     if (required == nullptr) return;
-    root.require_condition(required->is_array(), "extensionsRequired: wanted an array, found ",
-                           describe_json_value(*required));
+    root.require(required->is_array(), "extensionsRequired: wanted an array, found ",
+                 describe(*required));
     for (const Json& extension : *required) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "";
         const auto* const squeezed = std::ranges::find(kUnsupportedCompressions, name,
                                                        &UnsupportedCompression::extension);
-        root.require_condition(squeezed == std::end(kUnsupportedCompressions),
-                               "extensionsRequired: ", describe_json_value(extension),
-                               squeezed == std::end(kUnsupportedCompressions) ? ""
-                                                                              : squeezed->sentence);
+        root.require(squeezed == std::end(kUnsupportedCompressions),
+                     "extensionsRequired: ", describe(extension),
+                     squeezed == std::end(kUnsupportedCompressions) ? "" : squeezed->sentence);
         const bool is_drawn = name.starts_with("KHR_materials_") ||
-                              std::ranges::find(kAllowedRequiredExtensions, name) !=
-                                  std::end(kAllowedRequiredExtensions);
-        root.require_condition(is_drawn,
-                               "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
-                               "KHR_mesh_quantization, KHR_lights_punctual, "
-                               "KHR_draco_mesh_compression, EXT_meshopt_compression or "
-                               "EXT_mesh_gpu_instancing, found ",
-                               describe_json_value(extension));
+                              std::ranges::find(kAllowedExtensions, name) !=
+                                  std::end(kAllowedExtensions);
+        root.require(is_drawn,
+                     "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
+                     "KHR_mesh_quantization, KHR_lights_punctual, "
+                     "KHR_draco_mesh_compression, EXT_meshopt_compression or "
+                     "EXT_mesh_gpu_instancing, found ",
+                     describe(extension));
     }
 }
 
-class GltfBufferCollector {
+class BufferCollector {
 public:
-    GltfBufferCollector(GltfContainer& container, SceneFileOpener& files, std::string_view binary)
-        : gltf_container_(container), files_(files), binary_(binary) {}
+    BufferCollector(Container& container, FileOpener& files, std::string_view binary)
+        : container_(container), files_(files), binary_(binary) {}
 
     void add_buffer(const JsonObject& buffer) {
         if (is_empty_fallback(buffer)) {
             // The compressed views of this buffer hold the data. Uncompressed views do not fit into
             // the single byte, so they are errors.
-            gltf_container_.buffers.push_back({store_file_bytes({0}), 1});
+            container_.buffers.push_back({store_file({0}), 1});
             return;
         }
-        const std::size_t file = find_file_of_buffer(buffer);
+        const std::size_t file = find_file(buffer);
         const std::uint64_t length = buffer.whole("byteLength", 0),
-                            size = gltf_container_.files[file].size();
-        buffer.require_condition(length >= 1 && length <= size, "byteLength: wanted 1 to ", size,
-                                 ", the bytes that are there, found ", length);
-        gltf_container_.buffers.push_back({file, length});
+                            size = container_.files[file].size();
+        buffer.require(length >= 1 && length <= size, "byteLength: wanted 1 to ", size,
+                       ", the bytes that are there, found ", length);
+        container_.buffers.push_back({file, length});
     }
 
 private:
     /// Returns whether a buffer has no data and only stands for the decoded data of compressed
     /// views.
     bool is_empty_fallback(const JsonObject& buffer) const {
-        const auto meshopt = buffer.read_extension(kMeshoptExtension);
-        return meshopt && meshopt->flag("fallback", false) && !buffer.has_member("uri");
+        const auto meshopt = buffer.extension(kMeshoptExtension);
+        return meshopt && meshopt->flag("fallback", false) && !buffer.has("uri");
     }
-    std::size_t find_file_of_buffer(const JsonObject& buffer) {
-        if (!buffer.has_member("uri")) {
-            buffer.require_condition(
+    std::size_t find_file(const JsonObject& buffer) {
+        if (!buffer.has("uri")) {
+            buffer.require(
                 buffer.index_in_list() == 0 && !binary_.empty(),
                 "wanted a uri, or a GLB's binary chunk and the first place, found neither");
-            return store_file_bytes({binary_.begin(), binary_.end()});
+            return store_file({binary_.begin(), binary_.end()});
         }
         const std::string uri = buffer.text("uri");
-        if (is_data_uri(uri)) return store_file_bytes(decode_data_uri(uri, buffer.place()));
-        const fs::path real = files_.find_required_scene_file(
-            file_name_from_uri(uri, buffer.place()), buffer.place());
-        const auto [entry, is_new] = read_.try_emplace(real, gltf_container_.files.size());
+        if (is_data_uri(uri)) return store_file(decode_data_uri(uri, buffer.place()));
+        const fs::path real = files_.find_required(name_from_uri(uri, buffer.place()),
+                                                   buffer.place());
+        const auto [entry, is_new] = read_.try_emplace(real, container_.files.size());
         if (is_new) {
-            const std::string bytes = files_.read_file_content(real, buffer.place());
-            store_file_bytes({bytes.begin(), bytes.end()});
+            const std::string bytes = files_.read(real, buffer.place());
+            store_file({bytes.begin(), bytes.end()});
         }
         return entry->second;
     }
-    std::size_t store_file_bytes(ByteList bytes) {
-        gltf_container_.files.push_back(std::move(bytes));
-        return gltf_container_.files.size() - 1;
+    std::size_t store_file(ByteList bytes) {
+        container_.files.push_back(std::move(bytes));
+        return container_.files.size() - 1;
     }
 
-    GltfContainer& gltf_container_;
-    SceneFileOpener& files_;
+    Container& container_;
+    FileOpener& files_;
     std::string_view binary_;
     std::map<fs::path, std::size_t> read_;
 };
 
 } // namespace
 
-GltfContainer read_gltf_container(const std::string& file, SceneFileOpener& files,
-                                  SceneLoadBudgetUsage& account, LoaderNotes& notes) {
-    GltfContainer container;
-    const std::string bytes = files.read_main_scene_file();
-    const GlbChunks chunks = read_glb_chunks(file, bytes, notes);
+Container read_container(const std::string& file, FileOpener& files, LoadAccount& account,
+                         LoaderNotes& notes) {
+    Container container;
+    const std::string bytes = files.read_main();
+    const GlbChunks chunks = read_chunks(file, bytes, notes);
     container.document = parse_json(file, chunks.json, account);
     const JsonObject root(container.document, file);
     check(container.document.is_object(), Failure::bad_data, file,
-          ": JSON: wanted an object, found ", describe_json_value(container.document));
-    check_gltf_version(root);
+          ": JSON: wanted an object, found ", describe(container.document));
+    check_version(root);
     check_required_extensions(root);
-    GltfBufferCollector buffers(container, files, chunks.binary);
+    BufferCollector buffers(container, files, chunks.binary);
     root.each("buffers", [&](const JsonObject& buffer) { buffers.add_buffer(buffer); });
     return container;
 }

@@ -27,7 +27,7 @@ tinygltf::FsCallbacks make_file_callbacks(std::vector<ByteList>& files) {
 
 /// Returns the JSON text of the members that are read. Each file of the container becomes one
 /// buffer.
-std::string serialise_read_members(GltfContainer& container) {
+std::string serialise_members(Container& container) {
     Json document = keep_known_members(std::move(container.document));
     for (Json& view : document["bufferViews"])
         view["buffer"] = container.buffers[view["buffer"].get<std::size_t>()].file;
@@ -60,27 +60,27 @@ std::vector<std::vector<double>> read_morph_weights(const JsonObject& root,
 std::optional<double> read_exposure(const JsonObject& root) {
     const std::size_t count = root.size("scenes");
     if (count == 0) return std::nullopt;
-    const std::optional<JsonObject> ours = find_catoptric_extras(
+    const std::optional<JsonObject> ours = find_extras(
         root.at("scenes", root.index("scene", count).value_or(0)));
-    if (!ours || !ours->has_member("exposure")) return std::nullopt;
+    if (!ours || !ours->has("exposure")) return std::nullopt;
     const double stops = ours->number("exposure", 0);
-    ours->require_condition(std::abs(stops) <= kMaxExposureStops, "exposure: wanted ",
-                            -kMaxExposureStops, " to ", kMaxExposureStops, ", found ", stops);
+    ours->require(std::abs(stops) <= kMaxExposureStops, "exposure: wanted ", -kMaxExposureStops,
+                  " to ", kMaxExposureStops, ", found ", stops);
     return stops;
 }
 
 /// Reads whether each animation repeats, from its `extras`: {"repeats": true}.
-std::vector<bool> read_animation_repeats(const JsonObject& root) {
+std::vector<bool> read_repeats(const JsonObject& root) {
     std::vector<bool> repeats;
     root.each("animations", [&](const JsonObject& animation) {
-        const std::optional<JsonObject> ours = find_catoptric_extras(animation);
+        const std::optional<JsonObject> ours = find_extras(animation);
         repeats.push_back(ours && ours->flag("repeats", false));
     });
     return repeats;
 }
 
-tinygltf::Model parse_gltf(const std::string& file, GltfContainer& container) {
-    const std::string text = serialise_read_members(container);
+tinygltf::Model parse_gltf(const std::string& file, Container& container) {
+    const std::string text = serialise_members(container);
     tinygltf::TinyGLTF parser;
     parser.SetFsCallbacks(make_file_callbacks(container.files));
     tinygltf::Model model;
@@ -93,32 +93,31 @@ tinygltf::Model parse_gltf(const std::string& file, GltfContainer& container) {
 
 } // namespace
 
-std::string GltfDocument::describe_node(std::size_t node) const {
-    return format_list_item_label("nodes", node, model.nodes[node].name);
+std::string Document::describe_node(std::size_t node) const {
+    return item_label("nodes", node, model.nodes[node].name);
 }
 
-GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
-                                SceneLoadBudgetUsage& account, LoaderNotes& notes,
-                                std::vector<UnsupportedFeature>& unsupported) {
-    GltfContainer container = read_gltf_container(file, files, account, notes);
-    GltfDocument document{.file = file};
+Document read_document(const std::string& file, FileOpener& files, LoadAccount& account,
+                       LoaderNotes& notes, std::vector<UnsupportedFeature>& unsupported) {
+    Container container = read_container(file, files, account, notes);
+    Document document{.file = file};
     check_known_members(JsonObject(container.document, file), account);
-    decode_compressed_geometry(container, file, account);
+    decode_geometry(container, file, account);
     check_view_bounds(JsonObject(container.document, file), container.buffers);
-    expand_sparse_accessors(container, file, account);
+    expand_sparse(container, file, account);
     expand_instances(container, file, account, notes);
     {
         const JsonObject root(container.document, file);
         check_cross_references(root, files, notes);
-        document.marks = read_all_node_extras(root);
+        document.marks = read_all_extras(root);
         document.exposure = read_exposure(root);
         document.weights = read_morph_weights(root, "meshes");
         document.node_weights = read_morph_weights(root, "nodes");
         document.is_quantised = uses_extension(root, "KHR_mesh_quantization");
-        const MaterialReadContext source{root, container, files, account, notes, unsupported};
+        const MaterialContext source{root, container, files, account, notes, unsupported};
         document.materials = read_materials(source);
         document.lights = read_lights(source);
-        document.repeats = read_animation_repeats(root);
+        document.repeats = read_repeats(root);
     }
     document.model = parse_gltf(file, container);
     return document;

@@ -24,18 +24,18 @@ namespace catoptric::scene::gltf {
 /// `sphere`: centre and radius of the sphere, in node space, that the mesh approximates. `true`
 /// stands for [0, 0, 0, 1]. A node with a uniform scale keeps the sphere exact in world space.
 /// `distance`: distance from a camera to its target, in world units.
-struct GltfNodeExtras {
+struct NodeExtras {
     std::optional<Sphere> sphere;
     std::optional<double> distance;
     bool seen_by_camera = true;
 };
 
-struct GltfDocument {
+struct Document {
     std::string file; ///< begins every message
     tinygltf::Model model;
     // These members are read before tinygltf parses the file. The library tinygltf does not read
     // some of these members, and cuts others to 32 bits.
-    std::vector<GltfNodeExtras> marks; ///< marks of each node
+    std::vector<NodeExtras> marks; ///< marks of each node
     std::vector<Material> materials;
     PunctualLights lights;
     /// Morph target weights of each mesh.
@@ -52,9 +52,8 @@ struct GltfDocument {
 };
 
 /// Reads a .gltf or .glb. Throws the same errors as `load_gltf`.
-GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
-                                SceneLoadBudgetUsage& account, LoaderNotes& notes,
-                                std::vector<UnsupportedFeature>& unsupported);
+Document read_document(const std::string& file, FileOpener& files, LoadAccount& account,
+                       LoaderNotes& notes, std::vector<UnsupportedFeature>& unsupported);
 
 // ---- gltf_accessor.cpp
 
@@ -66,37 +65,35 @@ struct AccessorElements {
     int width;                 ///< components per element
     bool normalised;
 };
-AccessorElements read_accessor_elements(const tinygltf::Model& model, int accessor);
+AccessorElements read_elements(const tinygltf::Model& model, int accessor);
 /// Returns one component of an element. Normalised integers become values in [-1, 1].
-double read_accessor_number(const AccessorElements& elements, std::size_t index, int component);
-dvec3 read_accessor_vector(const AccessorElements& elements, std::size_t index);
-std::uint32_t read_accessor_integer(const AccessorElements& elements, std::size_t index,
-                                    int component = 0);
+double read_number(const AccessorElements& elements, std::size_t index, int component);
+dvec3 read_vector(const AccessorElements& elements, std::size_t index);
+std::uint32_t read_integer(const AccessorElements& elements, std::size_t index, int component = 0);
 /// Returns the primitive restart index, the largest value of the component type.
-std::uint32_t primitive_restart_index(const AccessorElements& elements);
+std::uint32_t restart_index(const AccessorElements& elements);
 
 /// The document, the load options and the lists that functions add to while they build a scene.
-struct GltfReadContext {
+struct ReadContext {
     /// Which integers an accessor may hold besides floats. `nothing`: none. `normalised`:
     /// normalised ones of 8 or 16 bits. `quantised`: any of 8 or 16 bits, if the file uses
     /// KHR_mesh_quantization.
-    enum class AllowedAccessorIntegers { nothing, normalised, quantised };
+    enum class AllowedIntegers { nothing, normalised, quantised };
 
     /// Returns the elements of an accessor of floats, or of the integers that `also` allows. The
     /// first request for an accessor adds its elements to `total` and checks that floats are
     /// finite. Throws `bad_data` beginning with `place` for a float that is not finite, for other
     /// components, or for a type other than `type` (TINYGLTF_TYPE_*).
-    AccessorElements floats(int accessor, int type, BudgetLimitedSum& total,
-                            const std::string& place,
-                            AllowedAccessorIntegers also = AllowedAccessorIntegers::nothing);
+    AccessorElements floats(int accessor, int type, LimitedSum& total, const std::string& place,
+                            AllowedIntegers also = AllowedIntegers::nothing);
     /// Returns the elements of an accessor of unsigned integers, scalars unless `type` says
     /// otherwise. Throws `bad_data` beginning with `place` for any other accessor.
     AccessorElements whole(int accessor, const std::string& place,
                            int type = TINYGLTF_TYPE_SCALAR) const;
 
-    const GltfDocument& document;
-    const SceneFileOptions& options;
-    SceneLoadBudgetUsage& account;
+    const Document& document;
+    const FileOptions& options;
+    LoadAccount& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
     std::set<int> finite; ///< accessors whose elements have been checked and counted
@@ -105,60 +102,60 @@ struct GltfReadContext {
 // ---- gltf_node.cpp
 
 /// Reads the marks of each node, from its `extras`. Throws `bad_data`.
-std::vector<GltfNodeExtras> read_all_node_extras(const JsonObject& root);
+std::vector<NodeExtras> read_all_extras(const JsonObject& root);
 /// Returns a node's transform into its parent's space. Throws `bad_data` for a rotation of zero or
 /// infinite length.
-dmat4 node_transform_to_parent(const GltfDocument& document, std::size_t node);
+dmat4 parent_from_node(const Document& document, std::size_t node);
 /// Returns the root nodes of the default scene, or of the first scene if there is no default. A
 /// file without scenes has every node without a parent as a root.
-std::vector<int> list_root_nodes(const tinygltf::Model& model);
+std::vector<int> root_nodes(const tinygltf::Model& model);
 /// Checks that the nodes form a forest: at most one parent each, no node its own ancestor, and at
 /// most 4096 levels. Throws `bad_data` if they do not.
-void check_nodes_form_forest(const GltfDocument& document);
+void check_forest(const Document& document);
 
 /// Reads the name of each camera and its field of view or, if orthographic, its height. Throws
 /// `bad_data`.
-std::vector<Camera> read_cameras(const GltfDocument& document);
+std::vector<Camera> read_cameras(const Document& document);
 
 // ---- gltf_mesh.cpp
 
 /// The primitives of a glTF mesh that share a material. They become one mesh of the scene, because
 /// a mirror is a node and exporters may split its mesh into any number of primitives.
-struct GltfMeshPart {
+struct MeshPart {
     std::size_t material = 0;
     std::vector<std::size_t> primitives;
 };
 
 /// Returns the parts of each mesh, ordered by the first use of their materials. Appends a white
 /// material to `materials` if a primitive has none.
-std::vector<std::vector<GltfMeshPart>> read_mesh_parts(std::vector<Material>& materials,
-                                                       GltfReadContext& context);
+std::vector<std::vector<MeshPart>> read_mesh_parts(std::vector<Material>& materials,
+                                                   ReadContext& context);
 /// Returns a mesh's place for messages, such as "FILE: meshes[0] 'm'".
-std::string describe_mesh_place(const GltfDocument& document, std::size_t mesh);
+std::string mesh_place(const Document& document, std::size_t mesh);
 /// Builds the mesh of one part, without unused vertices. Normals may be missing or have zero
 /// length. `weights`: weights of the morph targets. `joints`: for each joint of the skin, the
 /// transform from its bind space to world space. With joints, the vertices are in world space.
 /// Throws `bad_data`.
-Mesh build_part_mesh(std::size_t mesh, const GltfMeshPart& part, const std::vector<double>& weights,
-                     const GltfReadContext& context, const std::vector<dmat4>* joints = nullptr);
+Mesh build_part(std::size_t mesh, const MeshPart& part, const std::vector<double>& weights,
+                const ReadContext& context, const std::vector<dmat4>* joints = nullptr);
 
 // ---- gltf_animation.cpp
 
 /// The motion of a node in its parent's space. Values of a track replace the node's own. A null
 /// track means that this part of the transform does not move.
-struct NodeMotionTracks {
+struct NodeTracks {
     std::shared_ptr<const TranslationTrack> translations, scales;
     std::shared_ptr<const RotationTrack> rotations;
-    bool has_any_track() const { return translations || scales || rotations; }
+    bool has_track() const { return translations || scales || rotations; }
 };
 /// The animation that moves the nodes of the scene.
 struct NodeAnimation {
-    std::vector<NodeMotionTracks> nodes; ///< tracks of each node
+    std::vector<NodeTracks> nodes; ///< tracks of each node
     bool repeats = false;
 };
 /// Reads the animation that the options choose. The other animations are checked, too. Throws
-/// `bad_data`, or the failure of `SceneFileOptions::animation_by` for a name that no animation has.
-NodeAnimation read_animation(GltfReadContext& context);
+/// `bad_data`, or the failure of `FileOptions::animation_by` for a name that no animation has.
+NodeAnimation read_animation(ReadContext& context);
 
 // ---- gltf_rig.cpp
 
@@ -171,14 +168,13 @@ struct PlacedNode {
 
 /// Returns the world transform and motion of each node. The transform is that at rest or, if the
 /// node follows a rig, that at time 0. Throws `bad_data` for a node that the scene reaches twice.
-std::vector<PlacedNode> compute_placed_nodes(const GltfDocument& document,
-                                             const NodeAnimation& animation);
+std::vector<PlacedNode> place_nodes(const Document& document, const NodeAnimation& animation);
 
 /// Returns, for each joint of a skin, the transform from its bind space to world space. `at_rest`
 /// holds the world transform of each node. Throws `bad_data`.
-std::vector<dmat4> compute_joint_transforms(int skin, const std::vector<dmat4>& at_rest,
-                                            GltfReadContext& context);
+std::vector<dmat4> joint_transforms(int skin, const std::vector<dmat4>& at_rest,
+                                    ReadContext& context);
 /// Returns the transform from each node to world space, with nothing animated.
-std::vector<dmat4> compute_rest_transforms(const GltfDocument& document);
+std::vector<dmat4> rest_transforms(const Document& document);
 
 } // namespace catoptric::scene::gltf

@@ -13,52 +13,50 @@ namespace {
 
 constexpr std::size_t kMaxNodeDepth = 4096; // levels of nested nodes
 
-double read_positive_number(const JsonObject& item, const Json& value, std::string_view what) {
-    item.require_condition(value.is_number() && value.get<double>() > 0, what,
-                           ": wanted a number above 0, found ", describe_json_value(value));
+double read_positive(const JsonObject& item, const Json& value, std::string_view what) {
+    item.require(value.is_number() && value.get<double>() > 0, what,
+                 ": wanted a number above 0, found ", describe(value));
     return value.get<double>();
 }
 
-std::optional<Sphere> read_sphere_extra(const JsonObject& ours) {
+std::optional<Sphere> read_sphere(const JsonObject& ours) {
     const Json* value = ours.find("sphere");
     if (value == nullptr || *value == false) return std::nullopt;
     if (*value == true) return Sphere{.radius = 1};
-    ours.require_condition(value->is_array() && value->size() == 4,
-                           "sphere: wanted true, false or [x, y, z, r], found ",
-                           describe_json_value(*value));
+    ours.require(value->is_array() && value->size() == 4,
+                 "sphere: wanted true, false or [x, y, z, r], found ", describe(*value));
     const std::vector<double> numbers = ours.numbers("sphere", 4);
     return Sphere{.centre = {numbers[0], numbers[1], numbers[2]},
-                  .radius = read_positive_number(ours, (*value)[3], "sphere")};
+                  .radius = read_positive(ours, (*value)[3], "sphere")};
 }
 
-GltfNodeExtras read_node_extras(const JsonObject& node) {
-    GltfNodeExtras marks;
+NodeExtras read_node_extras(const JsonObject& node) {
+    NodeExtras marks;
     const Json* extras = node.find("extras"); // any type; only objects are ours
     if (extras == nullptr || !extras->is_object()) return marks;
-    const std::optional<JsonObject> ours = node.read_object_member("extras")->read_object_member(
-        "catoptric");
+    const std::optional<JsonObject> ours = node.object("extras")->object("catoptric");
     if (!ours) return marks;
-    marks.sphere = read_sphere_extra(*ours);
+    marks.sphere = read_sphere(*ours);
     if (const Json* distance = ours->find("distance"))
-        marks.distance = read_positive_number(*ours, *distance, "distance");
+        marks.distance = read_positive(*ours, *distance, "distance");
     marks.seen_by_camera = ours->flag("seen_by_camera", true);
     return marks;
 }
 
 } // namespace
 
-std::vector<GltfNodeExtras> read_all_node_extras(const JsonObject& root) {
-    std::vector<GltfNodeExtras> marks;
+std::vector<NodeExtras> read_all_extras(const JsonObject& root) {
+    std::vector<NodeExtras> marks;
     root.each("nodes", [&](const JsonObject& node) { marks.push_back(read_node_extras(node)); });
     return marks;
 }
 
-std::vector<Camera> read_cameras(const GltfDocument& document) {
+std::vector<Camera> read_cameras(const Document& document) {
     std::vector<Camera> cameras;
     for (const tinygltf::Camera& from : document.model.cameras) {
         const auto require = [&](bool ok, const auto&... parts) {
             check(ok, Failure::bad_data, document.file, ": ",
-                  format_list_item_label("cameras", cameras.size(), from.name), parts...);
+                  item_label("cameras", cameras.size(), from.name), parts...);
         };
         Camera camera{.name = from.name};
         if (from.type == "orthographic") {
@@ -78,7 +76,7 @@ std::vector<Camera> read_cameras(const GltfDocument& document) {
     return cameras;
 }
 
-dmat4 node_transform_to_parent(const GltfDocument& document, std::size_t index) {
+dmat4 parent_from_node(const Document& document, std::size_t index) {
     const tinygltf::Node& node = document.model.nodes[index];
     const std::vector<double>&r = node.rotation, &scale = node.scale, &t = node.translation;
     dmat4 result(1);
@@ -96,7 +94,7 @@ dmat4 node_transform_to_parent(const GltfDocument& document, std::size_t index) 
     return result;
 }
 
-void check_nodes_form_forest(const GltfDocument& document) {
+void check_forest(const Document& document) {
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
     const auto require = [&](bool ok, std::size_t node, const auto&... parts) {
         if (!ok)
@@ -128,7 +126,7 @@ void check_nodes_form_forest(const GltfDocument& document) {
         require(depth[i] > 0, i, ": wanted a tree, found a node within itself");
 }
 
-std::vector<int> list_root_nodes(const tinygltf::Model& model) {
+std::vector<int> root_nodes(const tinygltf::Model& model) {
     if (!model.scenes.empty())
         return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
     std::vector<bool> is_child(model.nodes.size(), false);

@@ -12,7 +12,7 @@ namespace catoptric::scene::gltf {
 /// Checks a primitive's attributes, morph targets and indices. Throws `bad_data` beginning with
 /// `place` if they cannot be drawn.
 void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                     GltfReadContext& context);
+                     ReadContext& context);
 
 struct GltfVertex {
     dvec3 position, normal; ///< a normal of zero means none
@@ -29,8 +29,8 @@ struct GltfPrimitive {
     vec4 colour(std::size_t index) const;
     /// Moves a vertex into world space by the weighted mean of its joints. Joints beyond the list
     /// are ignored. A vertex whose weights add up to zero stays. Needs `joints` and `weights`.
-    void pose_vertex_by_joints(std::size_t index, const std::vector<dmat4>& world_from_bound,
-                               dvec3& position, dvec3& normal) const;
+    void pose(std::size_t index, const std::vector<dmat4>& world_from_bound, dvec3& position,
+              dvec3& normal) const;
 
     int mode;
     AccessorElements positions;
@@ -45,7 +45,7 @@ struct GltfPrimitive {
 
 /// Returns indices into the positions, three for each triangle. Throws `bad_data` beginning with
 /// `place` for an index of no position, or for a restart index.
-std::vector<std::uint32_t> list_triangle_corners(const GltfPrimitive& primitive,
-                                                 const std::string& place);
+std::vector<std::uint32_t> triangle_corners(const GltfPrimitive& primitive,
+                                            const std::string& place);
 
 } // namespace catoptric::scene::gltf

@@ -24,17 +24,17 @@ namespace {
 
 using tinygltf::Value;
 
-int write_texture_coordinates(GltfWriter& writer, const std::vector<vec2>& list) {
+int write_uv(Writer& writer, const std::vector<vec2>& list) {
     writer.append_accessor(list, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return list_size_as_int(writer.model.accessors) - 1;
+    return int_size(writer.model.accessors) - 1;
 }
 
-int write_vertex_colours(GltfWriter& writer, const std::vector<vec4>& list) {
+int write_colours(Writer& writer, const std::vector<vec4>& list) {
     writer.append_accessor(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return list_size_as_int(writer.model.accessors) - 1;
+    return int_size(writer.model.accessors) - 1;
 }
 
-int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
+int write_indices(Writer& writer, const Mesh& mesh, bool inside_out) {
     std::vector<std::uint32_t> wide;
     for (const uvec3& t : mesh.triangles)
         wide.insert(wide.end(), {t.x, inside_out ? t.z : t.y, inside_out ? t.y : t.z});
@@ -43,16 +43,16 @@ int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
     else
         writer.append_accessor(std::vector<std::uint16_t>(wide.begin(), wide.end()),
                                TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-    return list_size_as_int(writer.model.accessors) - 1;
+    return int_size(writer.model.accessors) - 1;
 }
 
 /// Returns the glTF mesh of an object, and adds it if it is new. glTF stores the material with the
 /// triangles. Objects with a mirrored transform get a mesh with reversed winding.
-int find_or_write_mesh(GltfWriter& writer, const Object& object) {
+int find_or_write_mesh(Writer& writer, const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     tinygltf::Model& model = writer.model;
     const auto [entry, is_new] = writer.meshes.try_emplace(
-        {object.mesh, object.material, inside_out}, list_size_as_int(model.meshes));
+        {object.mesh, object.material, inside_out}, int_size(model.meshes));
     if (!is_new) return entry->second;
     const Mesh& mesh = writer.scene.meshes[object.mesh];
     tinygltf::Primitive primitive;
@@ -61,11 +61,9 @@ int find_or_write_mesh(GltfWriter& writer, const Object& object) {
     auto& attributes = primitive.attributes;
     attributes["POSITION"] = writer.vectors({mesh.positions.begin(), mesh.positions.end()});
     attributes["NORMAL"] = writer.vectors(mesh.normals);
-    if (!mesh.uv[0].empty())
-        attributes["TEXCOORD_0"] = write_texture_coordinates(writer, mesh.uv[0]);
-    if (!mesh.uv[1].empty())
-        attributes["TEXCOORD_1"] = write_texture_coordinates(writer, mesh.uv[1]);
-    if (!mesh.colours.empty()) attributes["COLOR_0"] = write_vertex_colours(writer, mesh.colours);
+    if (!mesh.uv[0].empty()) attributes["TEXCOORD_0"] = write_uv(writer, mesh.uv[0]);
+    if (!mesh.uv[1].empty()) attributes["TEXCOORD_1"] = write_uv(writer, mesh.uv[1]);
+    if (!mesh.colours.empty()) attributes["COLOR_0"] = write_colours(writer, mesh.colours);
     primitive.indices = write_indices(writer, mesh, inside_out);
     tinygltf::Mesh to;
     to.name = mesh.name, to.primitives = {std::move(primitive)};
@@ -82,19 +80,17 @@ Value make_object_extras(const Object& object) {
     if (object.sphere && object.sphere->centre == dvec3(world[3]) && object.sphere->radius == scale)
         ours["sphere"] = Value(true);
     else if (object.sphere) {
-        const dvec3 centre = transform_point_to_world(glm::inverse(world), object.sphere->centre);
-        ours["sphere"] = make_number_list(
-            {centre.x, centre.y, centre.z, object.sphere->radius / scale});
+        const dvec3 centre = transform_point(glm::inverse(world), object.sphere->centre);
+        ours["sphere"] = number_list({centre.x, centre.y, centre.z, object.sphere->radius / scale});
     }
     if (!object.seen_by_camera) ours["seen_by_camera"] = Value(false);
-    return ours.empty() ? Value() : make_catoptric_extras(std::move(ours));
+    return ours.empty() ? Value() : make_extras(std::move(ours));
 }
 
 /// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
-void add_gltf_node_below_parent(GltfWriter& writer, const RigAttachment* follows,
-                                tinygltf::Node node) {
-    const int parent = follows ? writer.gltf_node_of_rig_attachment(*follows) : -1;
-    const int index = list_size_as_int(writer.model.nodes);
+void add_child_node(Writer& writer, const RigAttachment* follows, tinygltf::Node node) {
+    const int parent = follows ? writer.node_of(*follows) : -1;
+    const int index = int_size(writer.model.nodes);
     writer.model.nodes.push_back(std::move(node));
     if (parent < 0)
         writer.model.scenes[0].nodes.push_back(index);
@@ -104,19 +100,19 @@ void add_gltf_node_below_parent(GltfWriter& writer, const RigAttachment* follows
 
 /// Adds a node with its transform and motion. A moving node stores its translation separately. If
 /// the rest of its transform is more than a scale, a child node gets the rest.
-void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motion,
+void add_object_node(Writer& writer, const dmat4& world, const Motion& motion,
                      tinygltf::Node node) {
     tinygltf::Model& model = writer.model;
-    if (const RigAttachment* follows = find_followed_node(motion)) {
+    if (const RigAttachment* follows = followed_node(motion)) {
         node.matrix = to_numbers(follows->node_from_object);
-        return add_gltf_node_below_parent(writer, follows, std::move(node));
+        return add_child_node(writer, follows, std::move(node));
     }
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
     const bool is_scale = dmat3(world) == glm::matrixCompMult(dmat3(world), dmat3(1));
     const std::optional<TranslationTrack> keys = motion_to_keys(motion);
-    const int index = list_size_as_int(model.nodes);
+    const int index = int_size(model.nodes);
     model.scenes[0].nodes.push_back(index);
-    if (keys) writer.add_gltf_motion(*keys, rest, index);
+    if (keys) writer.add_motion(*keys, rest, index);
     if (is_scale && rest != dvec3(0)) node.translation = to_numbers(rest);
     if (is_scale && scale != dvec3(1)) node.scale = to_numbers(scale);
     if (!is_scale && keys) {
@@ -132,7 +128,7 @@ void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motio
     model.nodes.push_back(std::move(node));
 }
 
-void add_object(GltfWriter& writer, const Object& object) {
+void add_object(Writer& writer, const Object& object) {
     if (writer.scene.meshes[object.mesh].triangles.empty()) return;
     tinygltf::Node node;
     node.name = object.name, node.mesh = find_or_write_mesh(writer, object),
@@ -141,7 +137,7 @@ void add_object(GltfWriter& writer, const Object& object) {
 }
 
 /// Adds a camera and its node. glTF cameras look along -z with +y up.
-void add_camera(GltfWriter& writer, const Camera& camera) {
+void add_camera(Writer& writer, const Camera& camera) {
     const double distance = glm::distance(camera.eye, camera.target);
     const dvec3 forward = normalized_or_zero(camera.target - camera.eye);
     const dvec3 right = normalized_or_zero(glm::cross(forward, camera.up));
@@ -151,10 +147,10 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
                       dvec4(camera.eye, 1));
     const RigAttachment* follows = camera.follows.rig ? &camera.follows : nullptr;
     tinygltf::Node node;
-    node.name = camera.name, node.camera = list_size_as_int(writer.model.cameras);
+    node.name = camera.name, node.camera = int_size(writer.model.cameras);
     node.matrix = to_numbers(follows ? follows->node_from_object * world : world);
-    node.extras = make_catoptric_extras({{"distance", Value(distance)}});
-    add_gltf_node_below_parent(writer, follows, std::move(node));
+    node.extras = make_extras({{"distance", Value(distance)}});
+    add_child_node(writer, follows, std::move(node));
     tinygltf::Camera& to = writer.model.cameras.emplace_back();
     to.name = camera.name;
     // We do not clip; these planes lie a factor of 1000 nearer and farther than the target.
@@ -170,15 +166,14 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
     }
 }
 
-void add_light(GltfWriter& writer, const PunctualLight& light) {
+void add_light(Writer& writer, const PunctualLight& light) {
     const LightKind& kind = find_light_kind(light.kind);
     const std::string extension = "KHR_lights_punctual";
     const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     tinygltf::Light to;
     to.name = light.name;
-    to.type = gltf_type_of_light_kind(kind);
-    if (to.type != kind.name)
-        to.extras = make_catoptric_extras({{"light", Value(std::string(kind.name))}});
+    to.type = gltf_type_of(kind);
+    if (to.type != kind.name) to.extras = make_extras({{"light", Value(std::string(kind.name))}});
     to.intensity = largest;
     to.color = to_numbers(largest > 0 ? dvec3(light.intensity) / largest : dvec3(1));
     if (std::isfinite(light.range)) to.range = light.range;
@@ -187,13 +182,13 @@ void add_light(GltfWriter& writer, const PunctualLight& light) {
     tinygltf::Node node;
     node.name = light.name;
     node.extensions[extension] = Value(
-        Value::Object{{"light", Value(list_size_as_int(writer.model.lights))}});
+        Value::Object{{"light", Value(int_size(writer.model.lights))}});
     writer.model.lights.push_back(std::move(to));
     add_object_node(writer, light.world_from_light, light.motion, std::move(node));
 }
 
 /// Returns the bytes of a GLB file with the writer's contents. Throws `io` above 4 GiB.
-std::string pack_glb(GltfWriter& writer) {
+std::string pack_glb(Writer& writer) {
     tinygltf::Model& model = writer.model;
     if (!writer.bytes.empty()) model.buffers.emplace_back().data = std::move(writer.bytes);
     std::ostringstream stream;
@@ -212,17 +207,17 @@ std::vector<double> to_numbers(const dmat4& matrix) {
     return list;
 }
 
-Value make_catoptric_extras(Value::Object ours) {
+Value make_extras(Value::Object ours) {
     return Value(Value::Object{{"catoptric", Value(std::move(ours))}});
 }
 
-Value make_number_list(const std::vector<double>& list) {
+Value number_list(const std::vector<double>& list) {
     Value::Array array;
     for (const double number : list) array.emplace_back(number + 0.0);
     return Value(std::move(array));
 }
 
-tinygltf::BufferView& GltfWriter::view(const void* first, std::size_t size) {
+tinygltf::BufferView& Writer::view(const void* first, std::size_t size) {
     tinygltf::BufferView& view = model.bufferViews.emplace_back();
     view.buffer = 0, view.byteOffset = bytes.size(), view.byteLength = size;
     const auto* const data = static_cast<const unsigned char*>(first);
@@ -231,16 +226,16 @@ tinygltf::BufferView& GltfWriter::view(const void* first, std::size_t size) {
     return view;
 }
 
-int GltfWriter::vectors(const std::vector<vec3>& list) {
+int Writer::vectors(const std::vector<vec3>& list) {
     Bounds<float> box;
     for (const vec3& v : list) box.add(v);
     tinygltf::Accessor& accessor = append_accessor(list, TINYGLTF_TYPE_VEC3,
                                                    TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = to_numbers(box.lo), accessor.maxValues = to_numbers(box.hi);
-    return list_size_as_int(model.accessors) - 1;
+    return int_size(model.accessors) - 1;
 }
 
-void GltfWriter::use(const std::string& extension) {
+void Writer::use(const std::string& extension) {
     if (std::ranges::find(model.extensionsUsed, extension) == model.extensionsUsed.end())
         model.extensionsUsed.push_back(extension);
 }
@@ -249,13 +244,13 @@ void GltfWriter::use(const std::string& extension) {
 
 void save_glb(const Scene& scene, const std::filesystem::path& path) {
     check_scene(scene);
-    gltf::GltfWriter writer{.scene = scene};
+    gltf::Writer writer{.scene = scene};
     tinygltf::Model& model = writer.model;
     model.asset.version = "2.0", model.asset.generator = "catoptric";
     model.defaultScene = 0;
     model.scenes.emplace_back().name = scene.name;
     if (scene.exposure)
-        model.scenes[0].extras = gltf::make_catoptric_extras(
+        model.scenes[0].extras = gltf::make_extras(
             {{"exposure", tinygltf::Value(*scene.exposure)}});
     writer.motion.name = "motion";
     for (const Material& material : scene.materials) writer.add_material(material);

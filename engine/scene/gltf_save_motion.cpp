@@ -25,23 +25,21 @@ TranslationTrack motion_to_keys(const HarmonicMotion& motion) {
     return keys;
 }
 
-int write_key_times(GltfWriter& writer, const std::vector<double>& list) {
+int write_times(Writer& writer, const std::vector<double>& list) {
     const std::vector<float> times(list.begin(), list.end());
     tinygltf::Accessor& accessor = writer.append_accessor(times, TINYGLTF_TYPE_SCALAR,
                                                           TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = {times.front()}, accessor.maxValues = {times.back()};
-    return list_size_as_int(writer.model.accessors) - 1;
+    return int_size(writer.model.accessors) - 1;
 }
 
-int write_key_values(GltfWriter& writer, const std::vector<vec3>& list) {
-    return writer.vectors(list);
-}
-int write_key_values(GltfWriter& writer, const std::vector<vec4>& list) {
+int write_values(Writer& writer, const std::vector<vec3>& list) { return writer.vectors(list); }
+int write_values(Writer& writer, const std::vector<vec4>& list) {
     writer.append_accessor(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return list_size_as_int(writer.model.accessors) - 1;
+    return int_size(writer.model.accessors) - 1;
 }
 
-bool is_repeating_motion(const Motion& motion) {
+bool is_repeating(const Motion& motion) {
     if (const auto* frames = std::get_if<Keyframes>(&motion)) return frames->repeats;
     if (const auto* follows = std::get_if<RigAttachment>(&motion))
         return follows->rig && follows->rig->repeats;
@@ -54,14 +52,12 @@ std::optional<TranslationTrack> motion_to_keys(const Motion& motion) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion))
         return motion_to_keys(*harmonic);
     if (const auto* frames = std::get_if<Keyframes>(&motion))
-        if (TranslationTrack keys = motion_keys_in_world_space(*frames); !keys.times.empty())
-            return keys;
+        if (TranslationTrack keys = keys_in_world(*frames); !keys.times.empty()) return keys;
     return std::nullopt;
 }
 
 template <typename Value>
-void GltfWriter::add_gltf_animation_track(const Track<Value>& track, int node,
-                                          const std::string& path) {
+void Writer::add_track(const Track<Value>& track, int node, const std::string& path) {
     using enum Interpolation;
     if (track.times.empty()) return;
     const bool is_cubic = track.interpolation == cubic;
@@ -72,27 +68,27 @@ void GltfWriter::add_gltf_animation_track(const Track<Value>& track, int node,
         if (is_cubic) output.emplace_back(track.out_tangents[i]);
     }
     tinygltf::AnimationSampler sampler;
-    sampler.input = write_key_times(*this, track.times);
-    sampler.output = write_key_values(*this, output);
+    sampler.input = write_times(*this, track.times);
+    sampler.output = write_values(*this, output);
     sampler.interpolation = is_cubic                      ? "CUBICSPLINE"
                             : track.interpolation == step ? "STEP"
                                                           : "LINEAR";
     tinygltf::AnimationChannel channel;
-    channel.sampler = list_size_as_int(motion.samplers);
+    channel.sampler = int_size(motion.samplers);
     channel.target_node = node, channel.target_path = path;
     motion.samplers.push_back(std::move(sampler));
     motion.channels.push_back(std::move(channel));
 }
 
-void GltfWriter::add_gltf_motion(const TranslationTrack& keys, const dvec3& rest, int node) {
+void Writer::add_motion(const TranslationTrack& keys, const dvec3& rest, int node) {
     TranslationTrack there = keys;
     for (dvec3& value : there.values) value += rest;
-    add_gltf_animation_track(there, node, "translation");
+    add_track(there, node, "translation");
 }
 
-int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
+int Writer::add_rig_node(const NodeRig::RigNode& node, int parent) {
     const auto add = [&](tinygltf::Node to) {
-        const int index = list_size_as_int(model.nodes);
+        const int index = int_size(model.nodes);
         model.nodes.push_back(std::move(to));
         if (parent < 0)
             model.scenes[0].nodes.push_back(index);
@@ -109,13 +105,13 @@ int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
     moving.translation = to_numbers(node.translation), moving.scale = to_numbers(node.scale);
     moving.rotation = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
     const int index = add(std::move(moving));
-    if (node.translations) add_gltf_animation_track(*node.translations, index, "translation");
-    if (node.rotations) add_gltf_animation_track(*node.rotations, index, "rotation");
-    if (node.scales) add_gltf_animation_track(*node.scales, index, "scale");
+    if (node.translations) add_track(*node.translations, index, "translation");
+    if (node.rotations) add_track(*node.rotations, index, "rotation");
+    if (node.scales) add_track(*node.scales, index, "scale");
     return index;
 }
 
-int GltfWriter::gltf_node_of_rig_attachment(const RigAttachment& follows) {
+int Writer::node_of(const RigAttachment& follows) {
     const auto [entry, is_new] = rigs.try_emplace(follows.rig.get());
     if (is_new) {
         std::vector<int> nodes;
@@ -126,16 +122,16 @@ int GltfWriter::gltf_node_of_rig_attachment(const RigAttachment& follows) {
     return rigs[follows.rig.get()][follows.node];
 }
 
-void GltfWriter::finish_motion() {
+void Writer::finish_motion() {
     if (motion.channels.empty()) return;
-    const auto goes_on = [](const auto& thing) { return is_repeating_motion(thing.motion); };
+    const auto goes_on = [](const auto& thing) { return is_repeating(thing.motion); };
     const auto camera_goes_on = [](const Camera& camera) {
         return !camera.follows.rig || camera.follows.rig->repeats;
     };
     const bool all = std::ranges::all_of(scene.objects, goes_on) &&
                      std::ranges::all_of(scene.punctual, goes_on) &&
                      std::ranges::all_of(scene.cameras, camera_goes_on);
-    if (all) motion.extras = make_catoptric_extras({{"repeats", tinygltf::Value(true)}});
+    if (all) motion.extras = make_extras({{"repeats", tinygltf::Value(true)}});
     model.animations = {std::move(motion)};
 }
 

@@ -14,7 +14,7 @@ constexpr std::string_view kBase64Digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Decodes percent-encoded bytes such as "%20". A '%' without two hexadecimal digits stays.
-std::string decode_percent_encoding(std::string_view uri) {
+std::string decode_percent(std::string_view uri) {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
         const std::string_view digits = uri.substr(i + 1, 2);
@@ -29,13 +29,13 @@ std::string decode_percent_encoding(std::string_view uri) {
 
 } // namespace
 
-std::string file_name_from_uri(const std::string& uri, const std::string& place) {
+std::string name_from_uri(const std::string& uri, const std::string& place) {
     const auto wanted = [&](bool ok, std::string_view what) {
         check(ok, Failure::bad_data, place, ": uri: wanted a path relative to the scene, found ",
               quote(uri), what);
     };
     wanted(uri.find(':') >= uri.find_first_of("/?#"), ", which has a scheme");
-    const std::string name = decode_percent_encoding(uri);
+    const std::string name = decode_percent(uri);
     wanted(!name.starts_with('/'), ", which is absolute");
     wanted(name.find('\\') == name.npos, ", which has a backslash");
     wanted(name.find('\0') == name.npos, ", which has a NUL");

@@ -13,7 +13,7 @@
 
 namespace catoptric::scene::gltf {
 
-int list_size_as_int(const auto& list) { return static_cast<int>(list.size()); }
+int int_size(const auto& list) { return static_cast<int>(list.size()); }
 
 template <typename Vector>
 std::vector<double> to_numbers(const Vector& v) {
@@ -23,11 +23,11 @@ std::vector<double> to_numbers(const Vector& v) {
 std::vector<double> to_numbers(const dmat4& matrix);
 
 /// Returns `extras` that hold `ours` under the key "catoptric".
-tinygltf::Value make_catoptric_extras(tinygltf::Value::Object ours);
-tinygltf::Value make_number_list(const std::vector<double>& list);
+tinygltf::Value make_extras(tinygltf::Value::Object ours);
+tinygltf::Value number_list(const std::vector<double>& list);
 
 /// Builds a tinygltf model and the bytes of its single buffer.
-struct GltfWriter {
+struct Writer {
     const Scene& scene;
     tinygltf::Model model;
     ByteList bytes;
@@ -47,7 +47,7 @@ struct GltfWriter {
     tinygltf::Accessor& append_accessor(const std::vector<Element>& list, int type, int component) {
         view(list.data(), list.size() * sizeof(Element));
         tinygltf::Accessor& accessor = model.accessors.emplace_back();
-        accessor.bufferView = list_size_as_int(model.bufferViews) - 1, accessor.count = list.size();
+        accessor.bufferView = int_size(model.bufferViews) - 1, accessor.count = list.size();
         accessor.type = type, accessor.componentType = component;
         return accessor;
     }
@@ -58,19 +58,19 @@ struct GltfWriter {
 
     // gltf_save_material.cpp
     void add_material(const Material& material);
-    tinygltf::TextureInfo add_texture_info(const Texture& texture);
+    tinygltf::TextureInfo texture_info(const Texture& texture);
     int image(const Image& image);
     int sampler(const Texture& texture);
 
     // gltf_save_motion.cpp
 
     /// Animates the translation of `node`. `keys` are relative to `rest`, its translation at rest.
-    void add_gltf_motion(const TranslationTrack& keys, const dvec3& rest, int node);
+    void add_motion(const TranslationTrack& keys, const dvec3& rest, int node);
     template <typename Value>
-    void add_gltf_animation_track(const Track<Value>& track, int node, const std::string& path);
+    void add_track(const Track<Value>& track, int node, const std::string& path);
     /// Returns the glTF node of the rig node that `follows` names. The first call for a rig adds
     /// all of its nodes.
-    int gltf_node_of_rig_attachment(const RigAttachment& follows);
+    int node_of(const RigAttachment& follows);
     int add_rig_node(const NodeRig::RigNode& node, int parent);
     /// Moves the animation into the model, if it has channels.
     void finish_motion();

@@ -57,7 +57,7 @@ Image encode_light(const ImageShape& shape, const ColourChannels& layout,
 } // namespace
 
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, SceneLoadBudgetUsage& account,
+                                          const std::string& place, LoadAccount& account,
                                           bool is_light) {
     std::string format = detect_format(bytes);
     if (format.empty() && is_targa_file(file)) format = "targa";
@@ -71,11 +71,11 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
         check(shape.size.x <= kMaxTextureSide && shape.size.y <= kMaxTextureSide, Failure::bad_data,
               place, ": wanted sides of at most ", kMaxTextureSide, " texels, found ", shape.size.x,
               "x", shape.size.y);
-        account.texels.check_amount_fits_budget(texels(shape), place);
+        account.texels.check_fits(texels(shape), place);
     };
     ImageReader image_reader(source, format, place, judge, ImageColours());
     const ImageShape& shape = image_reader.shape();
-    account.texels.add_amount_within_budget(texels(shape), place);
+    account.texels.add(texels(shape), place);
     const ColourChannels channels = find_colour_channels(shape, place);
     if (is_light && (format == "openexr" || format == "hdr")) {
         Image image = encode_light(shape, channels, image_reader.floats());
@@ -88,13 +88,13 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
               .texels = pack_texels(shape, channels, image_reader.bytes())});
 }
 
-std::string encode_image_png(const Image& image) {
+std::string encode_png(const Image& image) {
     std::vector<std::uint8_t> values;
     values.reserve(4 * image.texels.size());
     for (const std::uint32_t texel : image.texels)
         for (int shift = 0; shift < 32; shift += 8)
             values.push_back(static_cast<std::uint8_t>(texel >> shift));
-    return encode_png({image.size, 4, {"R", "G", "B", "A"}}, values);
+    return catoptric::encode_png({image.size, 4, {"R", "G", "B", "A"}}, values);
 }
 
 } // namespace catoptric::scene

@@ -15,10 +15,10 @@ namespace catoptric::scene {
 /// above 65535 texels, or more texels than the budget, is refused before decoding. `is_light`: the
 /// texels are sRGB colours. Files of floats hold linear light and are encoded then, clamped to 1.
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, SceneLoadBudgetUsage& account,
+                                          const std::string& place, LoadAccount& account,
                                           bool is_light = true);
 
 /// Returns the bytes of a PNG file of the image.
-std::string encode_image_png(const Image& image);
+std::string encode_png(const Image& image);
 
 } // namespace catoptric::scene

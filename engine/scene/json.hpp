@@ -19,14 +19,13 @@ using Json = nlohmann::json;
 
 /// Parses JSON. Throws `bad_data` naming `file` for invalid JSON, for values nested 64 deep or
 /// more, or for text over the budget.
-Json parse_json(const std::string& file, std::string_view text, SceneLoadBudgetUsage& account);
+Json parse_json(const std::string& file, std::string_view text, LoadAccount& account);
 
 /// Returns a short description of a value for messages: `"text"`, `3.5`, `an array`.
-std::string describe_json_value(const Json& value);
+std::string describe(const Json& value);
 
 /// Returns "nodes[3] 'lamp'", or "nodes[3]" without a name.
-std::string format_list_item_label(std::string_view list, std::size_t index,
-                                   const std::string& name = {});
+std::string item_label(std::string_view list, std::size_t index, const std::string& name = {});
 
 /// An object of the document and the path to it. An absent member gives a default. A member of the
 /// wrong type throws `bad_data` with its place, the expected type and the value found. Valid while
@@ -36,24 +35,24 @@ public:
     JsonObject(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
 
     /// Returns the object's place for messages: "FILE: nodes[3] 'lamp': mesh".
-    std::string place() const { return *file_ + describe_json_place(": ", steps_); }
+    std::string place() const { return *file_ + path(": ", steps_); }
     /// Returns the place without the file: "nodes[3] 'lamp': mesh".
-    std::string describe_json_place() const { return describe_json_place("", steps_); }
+    std::string path() const { return path("", steps_); }
     /// Returns the label up to its last list element: "nodes[3] 'lamp'".
     std::string entry() const;
     template <typename... Parts>
-    void require_condition(bool ok, const Parts&... parts) const {
+    void require(bool ok, const Parts&... parts) const {
         if (!ok) fail(Failure::bad_data, place(), ": ", parts...);
     }
 
-    bool has_member(std::string_view key) const { return find(key) != nullptr; }
+    bool has(std::string_view key) const { return find(key) != nullptr; }
     /// Returns the member `key`, or null if it is absent.
     const Json* find(std::string_view key) const;
-    const Json& json_value() const { return *json_; }
+    const Json& json() const { return *json_; }
 
-    std::optional<JsonObject> read_object_member(std::string_view key) const;
+    std::optional<JsonObject> object(std::string_view key) const;
     /// Returns the member `name` of the member "extensions", or none if either is absent.
-    std::optional<JsonObject> read_extension(std::string_view name) const;
+    std::optional<JsonObject> extension(std::string_view name) const;
     /// Returns the number of objects in the list `key`, 0 if it is absent.
     std::size_t size(std::string_view key) const;
     /// Returns one object of the list `key`, which must exist and be longer than `index`.
@@ -83,26 +82,26 @@ public:
 
 private:
     /// One step of the path: the member `key` or, with an index, one element of the list `key`.
-    struct JsonPathStep {
+    struct PathStep {
         std::string_view key;
         std::optional<std::size_t> index;
         const Json* json = nullptr; ///< the value that the step leads to
     };
     static constexpr std::size_t kMaxPathSteps = 8; // nested extensions need no more steps
 
-    JsonObject to(const JsonPathStep& step) const;
-    std::string describe_json_place(std::string_view before, std::size_t steps) const;
-    std::uint64_t read_json_whole_number(const Json& value, std::string_view key) const;
-    std::size_t read_json_index(const Json& value, std::string_view key, std::size_t count) const;
+    JsonObject to(const PathStep& step) const;
+    std::string path(std::string_view before, std::size_t steps) const;
+    std::uint64_t to_whole(const Json& value, std::string_view key) const;
+    std::size_t to_index(const Json& value, std::string_view key, std::size_t count) const;
     const Json* list(std::string_view key) const;
 
     const Json* json_;
     const std::string* file_;
-    std::array<JsonPathStep, kMaxPathSteps> way_{};
+    std::array<PathStep, kMaxPathSteps> way_{};
     std::size_t steps_ = 0; ///< 0 for the document itself
 };
 
 /// Returns the object "catoptric" of an object's `extras`, if any. `extras` may be of any type.
-std::optional<JsonObject> find_catoptric_extras(const JsonObject& item);
+std::optional<JsonObject> find_extras(const JsonObject& item);
 
 } // namespace catoptric::scene::gltf

@@ -19,40 +19,36 @@ namespace catoptric::scene {
 namespace {
 
 /// Sets of vertices that triangles connect. At first, each vertex is a set of its own.
-class ConnectedVertexSets {
+class VertexSets {
 public:
-    explicit ConnectedVertexSets(std::size_t count) : parent_(count) {
+    explicit VertexSets(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), std::size_t(0));
     }
-    std::size_t find_root_vertex_of_set(std::size_t vertex) {
+    std::size_t root(std::size_t vertex) {
         while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
         return vertex;
     }
-    void join_vertex_sets(std::size_t a, std::size_t b) {
-        parent_[find_root_vertex_of_set(a)] = find_root_vertex_of_set(b);
-    }
+    void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
 
 private:
     std::vector<std::size_t> parent_;
 };
 
-struct LampComponentSums {
+struct ComponentSums {
     dvec3 positions{0}, normals{0};
     double position_count = 0, normal_count = 0, area = 0;
     dmat3 facets{0};  ///< outer products of the facets' unit normals, times their areas
     dmat3 moments{0}; ///< integral over the area: outer products of points minus the mean position
     bool closed = true;
 
-    void add_position_to_component_sums(const dvec3& position) {
-        positions += position, position_count += 1;
-    }
+    void add_position(const dvec3& position) { positions += position, position_count += 1; }
     void add_vertex(const dvec3& normal, double its_area) {
         normals += normal, normal_count += 1, area += its_area;
     }
     dvec3 mean_position() const { return positions / position_count; }
     /// Adds a triangle to `moments`. Call it after all positions are added. The mean outer product
     /// of a triangle's points is that of its corners and of their sum, divided by 12.
-    void add_triangle_to_moments(const std::array<dvec3, 3>& corners, double triangle_area) {
+    void add_triangle(const std::array<dvec3, 3>& corners, double triangle_area) {
         dvec3 sum(0);
         dmat3 products(0);
         for (const dvec3& corner : corners) {
@@ -66,13 +62,13 @@ struct LampComponentSums {
 /// Returns whether the mean normal is zero. The mean of float unit normals that should cancel
 /// differs from zero by their rounding, 2^-24 for each component. The limit is 16 times this
 /// rounding, still far below any real mean.
-bool has_zero_mean_normal(const LampComponentSums& sums) {
+bool has_no_normal(const ComponentSums& sums) {
     const double rounding = 16 * std::ldexp(1.0, -24);
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
 
 /// Rotates the columns of `axes` until the symmetric `matrix` is diagonal along them (Jacobi 1846).
-void diagonalise_matrix(dmat3& matrix, dmat3& axes) {
+void diagonalise(dmat3& matrix, dmat3& axes) {
     constexpr int kJacobiSweeps =
         12; // each sweep squares the error; a float's precision takes four
     for (int turn = 0; turn < 3 * kJacobiSweeps; ++turn) {
@@ -106,10 +102,10 @@ double mean_projected_length(const dvec3& cosines) {
 /// direction d is near the root of their mean square cosine, a quadratic form of d. The root is
 /// exact for a board. For a tube and a ball it is the true mean times a constant. The constant
 /// follows from the mean over all directions, which is a half for any surface.
-void set_two_sided_axes(PointLight& light, const LampComponentSums& sums) {
+void set_two_sided_axes(PointLight& light, const ComponentSums& sums) {
     dmat3 squares = sums.facets / sums.area;
     light.axes = dmat3(1);
-    diagonalise_matrix(squares, light.axes);
+    diagonalise(squares, light.axes);
     dvec3 cosines(squares[0][0], squares[1][1], squares[2][2]);
     cosines = glm::sqrt(glm::max(cosines, 0.0));
     // The axis with the largest cosine comes last, because shadow maps look along it.
@@ -123,9 +119,9 @@ void set_two_sided_axes(PointLight& light, const LampComponentSums& sums) {
 }
 
 /// Returns PointLight::half_axes. An even spread over [-a, a] has the variance a^2 / 3.
-dmat3 find_half_axes_of_lamp(const LampComponentSums& sums) {
+dmat3 find_half_axes(const ComponentSums& sums) {
     dmat3 variances = sums.moments / sums.area, axes(1);
-    diagonalise_matrix(variances, axes);
+    diagonalise(variances, axes);
     std::array<int, 3> order{0, 1, 2};
     std::ranges::stable_sort(order, std::ranges::greater(),
                              [&](int axis) { return variances[axis][axis]; });
@@ -140,43 +136,42 @@ dmat3 find_half_axes_of_lamp(const LampComponentSums& sums) {
     return half_axes;
 }
 
-PointLight make_point_light(const LampComponentSums& sums, const Material& material) {
+PointLight make_point_light(const ComponentSums& sums, const Material& material) {
     PointLight light{.position = sums.mean_position(),
                      .area = sums.area,
                      .is_lamp = true,
                      .closed = sums.closed,
-                     .half_axes = find_half_axes_of_lamp(sums),
+                     .half_axes = find_half_axes(sums),
                      .emission = scene::emitted_radiance(material)};
     if (light.closed) return light;
     if (material.two_sided)
         set_two_sided_axes(light, sums);
-    else if (!has_zero_mean_normal(sums))
+    else if (!has_no_normal(sums))
         light.normal = glm::normalize(sums.normals);
     return light;
 }
 
-dvec3 triangle_cross_product(const std::vector<dvec3>& world, const uvec3& t) {
+dvec3 edge_product(const std::vector<dvec3>& world, const uvec3& t) {
     return glm::cross(world[t.y] - world[t.x], world[t.z] - world[t.x]);
 }
 
-double compute_triangle_area(const std::vector<dvec3>& world, const uvec3& t) {
-    return 0.5 * glm::length(triangle_cross_product(world, t));
+double triangle_area(const std::vector<dvec3>& world, const uvec3& t) {
+    return 0.5 * glm::length(edge_product(world, t));
 }
 
 /// Sums of each connected component, in the order of their first vertices, and the component of
 /// each triangle with an area.
-struct ConnectedMeshComponents {
-    std::vector<LampComponentSums> sums;
+struct MeshComponents {
+    std::vector<ComponentSums> sums;
     std::vector<std::optional<std::size_t>> of_triangles;
 };
 
-ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_object) {
+MeshComponents find_components(const Mesh& mesh, const dmat4& world_from_object) {
     std::vector<dvec3> world;
-    for (const dvec3& p : mesh.positions)
-        world.push_back(transform_point_to_world(world_from_object, p));
-    const std::vector<std::size_t> first = find_first_vertex_at_each_position(mesh.positions);
+    for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
+    const std::vector<std::size_t> first = weld_vertices(mesh.positions);
 
-    ConnectedVertexSets islands(world.size());
+    VertexSets islands(world.size());
     // Area of the triangles whose first corner is the vertex.
     std::vector<double> area(world.size(), 0);
     std::vector<dmat3> facets(world.size(), dmat3(0));
@@ -184,45 +179,45 @@ ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& worl
     std::vector<TriangleCorners> corners;
     for (const uvec3& t : mesh.triangles) {
         corners.push_back({first[t.x], first[t.y], first[t.z]});
-        const double triangle_area = compute_triangle_area(world, t);
-        if (!(triangle_area > 0)) continue;
-        islands.join_vertex_sets(first[t.x], first[t.y]);
-        islands.join_vertex_sets(first[t.x], first[t.z]);
+        const double own_area = triangle_area(world, t);
+        if (!(own_area > 0)) continue;
+        islands.join(first[t.x], first[t.y]);
+        islands.join(first[t.x], first[t.z]);
         used[t.x] = used[t.y] = used[t.z] = true;
-        area[t.x] += triangle_area;
-        const dvec3 facet = normalized_or_zero(triangle_cross_product(world, t));
-        facets[t.x] += triangle_area * glm::outerProduct(facet, facet);
+        area[t.x] += own_area;
+        const dvec3 facet = normalized_or_zero(edge_product(world, t));
+        facets[t.x] += own_area * glm::outerProduct(facet, facet);
     }
 
-    const dmat3 normal_to_world = compute_normal_matrix(world_from_object);
+    const dmat3 normal_to_world = normal_matrix(world_from_object);
     std::map<std::size_t, std::size_t> index_of_root;
-    ConnectedMeshComponents components;
-    std::vector<LampComponentSums>& sums = components.sums;
+    MeshComponents components;
+    std::vector<ComponentSums>& sums = components.sums;
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (!used[i]) continue;
-        const std::size_t root = islands.find_root_vertex_of_set(first[i]);
+        const std::size_t root = islands.root(first[i]);
         const std::size_t index = index_of_root.try_emplace(root, sums.size()).first->second;
         if (index == sums.size()) sums.emplace_back();
         const dvec3 normal = normalized_or_zero(normal_to_world * dvec3(mesh.normals[i]));
         sums[index].add_vertex(normal, area[i]);
         sums[index].facets += facets[i];
-        if (!counted[first[i]]) sums[index].add_position_to_component_sums(world[i]);
+        if (!counted[first[i]]) sums[index].add_position(world[i]);
         counted[first[i]] = true;
     }
-    for_each_edge(list_triangle_edges(corners), [&](std::span<const TriangleEdge> edge) {
+    for_each_edge(triangle_edges(corners), [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 2) return;
         for (const std::size_t end : {edge[0].low, edge[0].high})
-            if (const auto index = index_of_root.find(islands.find_root_vertex_of_set(end));
+            if (const auto index = index_of_root.find(islands.root(end));
                 index != index_of_root.end())
                 sums[index->second].closed = false;
     });
     for (const uvec3& t : mesh.triangles) {
-        const double triangle_area = compute_triangle_area(world, t);
+        const double own_area = triangle_area(world, t);
         std::optional<std::size_t>& index = components.of_triangles.emplace_back();
-        if (!(triangle_area > 0)) continue;
-        index = index_of_root.at(islands.find_root_vertex_of_set(first[t.x]));
-        sums[*index].add_triangle_to_moments({world[t.x], world[t.y], world[t.z]}, triangle_area);
+        if (!(own_area > 0)) continue;
+        index = index_of_root.at(islands.root(first[t.x]));
+        sums[*index].add_triangle({world[t.x], world[t.y], world[t.z]}, own_area);
     }
     return components;
 }
@@ -250,7 +245,7 @@ std::uint64_t morton_code(const dvec3& middle) {
 
 /// Sorts facets so that equal parts of their area, one after the other, are compact patches. In the
 /// order of a mesh, points at equal steps of area could all lie on one side of a lamp.
-void sort_facets_in_space(std::vector<LampFacet>& facets) {
+void sort_facets(std::vector<LampFacet>& facets) {
     Bounds<double> box;
     const auto middle = [](const LampFacet& facet) {
         return facet.corner + (facet.second + facet.third) / 3.0;
@@ -269,27 +264,24 @@ void sort_facets_in_space(std::vector<LampFacet>& facets) {
 }
 
 /// Returns the triangles of the mesh by component.
-std::vector<std::vector<LampFacet>> list_lamp_facets(const Mesh& mesh,
-                                                     const dmat4& world_from_object,
-                                                     const ConnectedMeshComponents& components) {
+std::vector<std::vector<LampFacet>> lamp_facets(const Mesh& mesh, const dmat4& world_from_object,
+                                                const MeshComponents& components) {
     std::vector<dvec3> world;
-    for (const dvec3& p : mesh.positions)
-        world.push_back(transform_point_to_world(world_from_object, p));
-    const dmat3 normal_to_world = compute_normal_matrix(world_from_object);
+    for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
+    const dmat3 normal_to_world = normal_matrix(world_from_object);
     std::vector<std::vector<LampFacet>> facets(components.sums.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (!components.of_triangles[i]) continue;
         const uvec3& t = mesh.triangles[i];
         LampFacet facet{world[t.x], world[t.y] - world[t.x], world[t.z] - world[t.x],
-                        normalized_or_zero(triangle_cross_product(world, t)),
-                        compute_triangle_area(world, t)};
+                        normalized_or_zero(edge_product(world, t)), triangle_area(world, t)};
         const dvec3 vertex_normals = normal_to_world *
                                      (dvec3(mesh.normals[t.x]) + dvec3(mesh.normals[t.y]) +
                                       dvec3(mesh.normals[t.z]));
         if (glm::dot(facet.normal, vertex_normals) < 0) facet.normal = -facet.normal;
         facets[*components.of_triangles[i]].push_back(facet);
     }
-    for (std::vector<LampFacet>& component : facets) sort_facets_in_space(component);
+    for (std::vector<LampFacet>& component : facets) sort_facets(component);
     return facets;
 }
 
@@ -321,7 +313,7 @@ void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& la
                          .half_axes = lamp.half_axes / std::sqrt(double(count)),
                          .emission = lamp.emission};
         if (two_sided && !lamp.closed) {
-            LampComponentSums one;
+            ComponentSums one;
             one.area = light.area;
             one.facets = light.area * glm::outerProduct(facet->normal, facet->normal);
             set_two_sided_axes(light, one);
@@ -350,12 +342,12 @@ PointLight make_point_light(const PunctualLight& punctual) {
 
 } // namespace
 
-std::vector<std::optional<std::size_t>>
-find_light_of_each_triangle(const Mesh& mesh, const dmat4& world_from_object) {
-    return find_mesh_components(mesh, world_from_object).of_triangles;
+std::vector<std::optional<std::size_t>> triangle_lights(const Mesh& mesh,
+                                                        const dmat4& world_from_object) {
+    return find_components(mesh, world_from_object).of_triangles;
 }
 
-double light_share_in_direction(const PointLight& light, const dvec3& along) {
+double light_share(const PointLight& light, const dvec3& along) {
     if (light.normal != dvec3(0)) return std::max(0.0, glm::dot(light.normal, along));
     if (light.cosines != dvec3(0)) return glm::length(light.cosines * (along * light.axes));
     return light.is_lamp ? .25 : 1;
@@ -367,11 +359,10 @@ std::vector<PointLight> list_lights(const Scene& scene) {
         const Material& material = scene.materials[object.material];
         if (scene::emitted_radiance(material) == vec3(0)) continue;
         const Mesh& mesh = scene.meshes[object.mesh];
-        const ConnectedMeshComponents components = find_mesh_components(mesh,
-                                                                        object.world_from_object);
+        const MeshComponents components = find_components(mesh, object.world_from_object);
         std::vector<std::vector<LampFacet>> facets;
         if (scene.light_samples > 1)
-            facets = list_lamp_facets(mesh, object.world_from_object, components);
+            facets = lamp_facets(mesh, object.world_from_object, components);
         for (std::size_t i = 0; i < components.sums.size(); ++i) {
             const PointLight lamp = make_point_light(components.sums[i], material);
             if (scene.light_samples > 1)

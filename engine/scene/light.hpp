@@ -45,11 +45,11 @@ std::vector<PointLight> list_lights(const Scene& scene);
 ///   - Any other lamp, mainly a closed one: a quarter, the mean over all directions of the share
 ///     that a convex body shows.
 ///   - A light without a surface: 1.
-double light_share_in_direction(const PointLight& light, const dvec3& along);
+double light_share(const PointLight& light, const dvec3& along);
 
 /// Returns for each triangle the index of its light; nothing for a triangle without area. The index
 /// counts the lights that `list_lights` makes of this mesh alone, from 0.
-std::vector<std::optional<std::size_t>> find_light_of_each_triangle(const Mesh& mesh,
-                                                                    const dmat4& world_from_object);
+std::vector<std::optional<std::size_t>> triangle_lights(const Mesh& mesh,
+                                                        const dmat4& world_from_object);
 
 } // namespace catoptric::scene

@@ -11,7 +11,7 @@ RegisteredLightKind::RegisteredLightKind(const LightKind& kind) {
     table_rows<LightKind>().push_back(kind);
 }
 
-const std::vector<LightKind>& list_light_kinds() {
+const std::vector<LightKind>& light_kinds() {
     static const std::vector<LightKind> kSortedLightKinds = [] {
         std::vector<LightKind> rows = sorted_rows<LightKind>(&LightKind::id);
         check(std::ranges::adjacent_find(rows, {}, &LightKind::id) == rows.end(), Failure::internal,
@@ -22,13 +22,13 @@ const std::vector<LightKind>& list_light_kinds() {
 }
 
 const LightKind& find_light_kind(PunctualLight::Kind id) {
-    const auto kind = std::ranges::find(list_light_kinds(), id, &LightKind::id);
-    check(kind != list_light_kinds().end(), Failure::internal, "there is no kind of light ",
+    const auto kind = std::ranges::find(light_kinds(), id, &LightKind::id);
+    check(kind != light_kinds().end(), Failure::internal, "there is no kind of light ",
           static_cast<int>(id));
     return *kind;
 }
 
-std::string_view gltf_type_of_light_kind(const LightKind& kind) {
+std::string_view gltf_type_of(const LightKind& kind) {
     return kind.gltf_type.empty() ? kind.name : kind.gltf_type;
 }
 

@@ -54,11 +54,11 @@ struct RegisteredLightKind {
 };
 
 /// Returns all kinds by `id`.
-const std::vector<LightKind>& list_light_kinds();
+const std::vector<LightKind>& light_kinds();
 /// Returns the row of a kind. Throws `internal` for a kind that is not in the table.
 const LightKind& find_light_kind(PunctualLight::Kind id);
 /// Returns the type of a kind in KHR_lights_punctual.
-std::string_view gltf_type_of_light_kind(const LightKind& kind);
+std::string_view gltf_type_of(const LightKind& kind);
 
 /// Reads the angles of the object "spot". Throws `bad_data`.
 void read_spot_cone(const gltf::JsonObject& light, PunctualLight& to);
@@ -81,7 +81,7 @@ inline void visit_light_members(const PointLight& light, Visit&& visit) {
     visit(cos_inner), visit(cos_outer), visit(directional), visit(kind);
 }
 
-/// Returns whether two lights shine in the same way. Compares lights as scene::scene_at_time leaves
+/// Returns whether two lights shine in the same way. Compares lights as scene::scene_at leaves
 /// them: without motion. Names do not count.
 bool have_equal_emission(const PunctualLight& a, const PunctualLight& b);
 

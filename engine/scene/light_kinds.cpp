@@ -10,32 +10,30 @@
 namespace catoptric::scene {
 
 void read_spot_cone(const gltf::JsonObject& light, PunctualLight& to) {
-    const std::optional<gltf::JsonObject> spot = light.read_object_member("spot");
+    const std::optional<gltf::JsonObject> spot = light.object("spot");
     const double inner = spot ? spot->number("innerConeAngle", 0) : 0;
     const double outer = spot ? spot->number("outerConeAngle", std::numbers::pi / 4)
                               : std::numbers::pi / 4;
-    light.require_condition(inner >= 0 && inner <= outer && outer <= std::numbers::pi / 2 + 1e-6,
-                            "spot: wanted angles with 0 <= inner <= outer <= pi / 2, found ", inner,
-                            " and ", outer);
+    light.require(inner >= 0 && inner <= outer && outer <= std::numbers::pi / 2 + 1e-6,
+                  "spot: wanted angles with 0 <= inner <= outer <= pi / 2, found ", inner, " and ",
+                  outer);
     to.cos_inner = std::cos(inner), to.cos_outer = std::cos(outer);
 }
 
 namespace {
 
 /// Returns the width of a spot's edge as a difference of cosines, at least .001.
-double spot_light_edge_width(const PointLight& light) {
+double spot_edge_width(const PointLight& light) {
     return std::max(.001, light.cos_inner - light.cos_outer);
 }
 
-double spot_light_share(const PointLight& light, double cosine) {
-    const double cone = std::clamp((cosine - light.cos_outer) / spot_light_edge_width(light), 0.0,
-                                   1.0);
+double spot_share(const PointLight& light, double cosine) {
+    const double cone = std::clamp((cosine - light.cos_outer) / spot_edge_width(light), 0.0, 1.0);
     return cone * cone;
 }
 
-LightShaderNumbers spot_light_shader_numbers(const PointLight& light) {
-    return {static_cast<float>(light.cos_outer),
-            static_cast<float>(1 / spot_light_edge_width(light))};
+LightShaderNumbers spot_numbers(const PointLight& light) {
+    return {static_cast<float>(light.cos_outer), static_cast<float>(1 / spot_edge_width(light))};
 }
 
 const RegisteredLightKind kPointLightKind{{.id = PunctualLight::Kind::point,
@@ -45,8 +43,8 @@ const RegisteredLightKind kPointLightKind{{.id = PunctualLight::Kind::point,
 const RegisteredLightKind kSpotLightKind{{.id = PunctualLight::Kind::spot,
                                           .name = "spot",
                                           .shader_kind = shared::kLightKindPoint,
-                                          .share = spot_light_share,
-                                          .shader_numbers = spot_light_shader_numbers,
+                                          .share = spot_share,
+                                          .shader_numbers = spot_numbers,
                                           .read = read_spot_cone}};
 const RegisteredLightKind kDirectionalLightKind{{.id = PunctualLight::Kind::directional,
                                                  .name = "directional",

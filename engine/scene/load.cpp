@@ -22,14 +22,14 @@ std::string lower_case_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-Scene classify_scene_mirrors(Scene scene) {
+Scene with_mirrors(Scene scene) {
     find_mirrors(scene);
     scene.meshes.shrink_to_fit(), scene.objects.shrink_to_fit(); // no more are added
     return scene;
 }
 
 /// Throws if the options choose an animation of a scene that has none.
-void check_no_animation_chosen(const std::string& scene, const SceneFileOptions& options) {
+void check_no_animation(const std::string& scene, const FileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ", quote(options.animation),
           ": wanted none");
@@ -38,7 +38,7 @@ void check_no_animation_chosen(const std::string& scene, const SceneFileOptions&
 [[noreturn]] void fail_unknown_scene(const std::string& word) {
     std::vector<std::string> names;
     std::string list;
-    for (const BuiltInScene& scene : list_built_in_scenes()) {
+    for (const BuiltInScene& scene : built_in_scenes()) {
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
@@ -58,13 +58,13 @@ RegisteredBuiltInScene::RegisteredBuiltInScene(BuiltInScene scene) {
     table_rows<BuiltInScene>().push_back(std::move(scene));
 }
 
-const std::vector<BuiltInScene>& list_built_in_scenes() {
+const std::vector<BuiltInScene>& built_in_scenes() {
     static const std::vector<BuiltInScene> kSortedBuiltInScenes = sorted_rows<BuiltInScene>();
     return kSortedBuiltInScenes;
 }
 
-void check_scene_exists(const std::string& name_or_path) {
-    for (const BuiltInScene& scene : list_built_in_scenes())
+void check_exists(const std::string& name_or_path) {
+    for (const BuiltInScene& scene : built_in_scenes())
         if (scene.name == name_or_path) return;
     const std::string extension = lower_case_extension(name_or_path);
     if (extension != ".glb" && extension != ".gltf" && extension != ".obj")
@@ -76,21 +76,21 @@ void check_scene_exists(const std::string& name_or_path) {
 }
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {
-    return load_scene_file(name_or_path, {.root = options.root, .animation = options.animation});
+    return load_file(name_or_path, {.root = options.root, .animation = options.animation});
 }
 
-Scene load_scene_file(const std::string& name_or_path, const SceneFileOptions& options) {
-    for (const BuiltInScene& scene : list_built_in_scenes())
+Scene load_file(const std::string& name_or_path, const FileOptions& options) {
+    for (const BuiltInScene& scene : built_in_scenes())
         if (scene.name == name_or_path) {
-            check_no_animation_chosen(name_or_path, options);
-            return classify_scene_mirrors(scene.make());
+            check_no_animation(name_or_path, options);
+            return with_mirrors(scene.make());
         }
     const std::string extension = lower_case_extension(name_or_path);
     if (extension == ".glb" || extension == ".gltf")
-        return classify_scene_mirrors(load_gltf(name_or_path, options));
+        return with_mirrors(load_gltf(name_or_path, options));
     if (extension == ".obj") {
-        check_no_animation_chosen(name_or_path, options);
-        return classify_scene_mirrors(load_obj(name_or_path, options));
+        check_no_animation(name_or_path, options);
+        return with_mirrors(load_obj(name_or_path, options));
     }
     fail_unknown_scene(name_or_path);
 }

@@ -9,7 +9,7 @@ bool is_one_sided(const Material& material) {
     return material.front_only || emitted_radiance(material) != vec3(0);
 }
 
-bool has_specular_part(const Material& material) {
+bool has_specular(const Material& material) {
     return !material.mirror && (material.metallic > 0 || material.dielectric_f0 != vec3(0) ||
                                 material.dielectric_f90 != vec3(0));
 }

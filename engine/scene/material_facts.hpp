@@ -13,13 +13,13 @@ namespace catoptric::scene {
 struct MaterialFactor {
     std::string_view name;
     float Material::*member;
-    std::string_view extension; ///< glTF extension, or kCoreMaterialFactors
+    std::string_view extension; ///< glTF extension, or kCoreFactors
     std::string_view key;       ///< name of the value in the extension's JSON object
     float gltf_default;         ///< value without this key
     float largest;              ///< values range from 0 to this
 };
 /// The part of a glTF material that holds the factors of glTF itself.
-inline constexpr std::string_view kCoreMaterialFactors = "pbrMetallicRoughness";
+inline constexpr std::string_view kCoreFactors = "pbrMetallicRoughness";
 inline constexpr MaterialFactor kMaterialFactors[] = {
 #define MAKE_FACTOR(name, extension, key, gltf_default, largest)                                   \
     {#name, &Material::name, #extension, #key, gltf_default, largest},
@@ -60,7 +60,7 @@ inline void visit_material_members(const Material& material, Visit&& visit) {
 bool is_one_sided(const Material& material);
 /// Returns whether the surface has a specular part, sharp or rough: it is no Lambertian surface.
 /// False for `mirror`, whose reflectance is another member.
-bool has_specular_part(const Material& material);
+bool has_specular(const Material& material);
 /// Returns whether rays pass through the surface: it transmits at least half of the light and has
 /// no metal. Glass casts no shadow unless Scene::tints_glass_shadows is set.
 bool is_glass(const Material& material);
@@ -68,7 +68,7 @@ bool is_glass(const Material& material);
 /// `mirror` have no clear coat.
 bool has_clear_coat(const Material& material);
 /// Returns F0 of a dielectric with this finite index of refraction in air (Fresnel's equations).
-inline double compute_dielectric_f0(double ior) {
+inline double f0_from_ior(double ior) {
     const double root = (ior - 1) / (ior + 1);
     return root * root;
 }

@@ -22,46 +22,45 @@ constexpr double kNormalAngleTolerance = .01;   // tolerance of normals, radians
 
 /// Triangles of an object in the world, relative to the centre of its bounds. Each place has one
 /// number.
-struct CentredObjectTriangles {
+struct CentredTriangles {
     std::vector<dvec3> places;
     std::vector<TriangleCorners> triangles;
     dvec3 centre{0};
     double extent = 0; ///< longest side of the bounds
 
-    dvec3 triangle_edge_cross_product(const TriangleCorners& t) const {
+    dvec3 edge_cross(const TriangleCorners& t) const {
         return glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
     }
 };
 
-CentredObjectTriangles make_centred_triangles(const Scene& scene, const Object& object) {
+CentredTriangles centred_triangles(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const Bounds<double> box = bounds(scene, object);
-    CentredObjectTriangles soup;
+    CentredTriangles soup;
     if (box.empty()) return soup;
     soup.centre = box.centre();
     soup.extent = std::max({box.extent().x, box.extent().y, box.extent().z});
-    const std::vector<std::size_t> first = find_first_vertex_at_each_position(mesh.positions);
+    const std::vector<std::size_t> first = weld_vertices(mesh.positions);
     std::vector<std::size_t> place(first.size(), soup.places.max_size());
     const auto place_of = [&](std::uint32_t vertex) {
         std::size_t& number = place[first[vertex]];
         if (number == soup.places.max_size()) {
             number = soup.places.size();
             const dvec3& p = mesh.positions[first[vertex]];
-            soup.places.push_back(transform_point_to_world(object.world_from_object, p) -
-                                  soup.centre);
+            soup.places.push_back(transform_point(object.world_from_object, p) - soup.centre);
         }
         return number;
     };
     for (const uvec3& t : mesh.triangles) {
         const TriangleCorners corners{place_of(t.x), place_of(t.y), place_of(t.z)};
-        if (has_three_distinct_places(corners)) soup.triangles.push_back(corners);
+        if (has_distinct_corners(corners)) soup.triangles.push_back(corners);
     }
     return soup;
 }
 
-bool are_triangles_coplanar(const CentredObjectTriangles& soup) {
+bool are_coplanar(const CentredTriangles& soup) {
     dvec3 sum(0);
-    for (const TriangleCorners& t : soup.triangles) sum += soup.triangle_edge_cross_product(t);
+    for (const TriangleCorners& t : soup.triangles) sum += soup.edge_cross(t);
     const dvec3 normal = normalized_or_zero(sum);
     if (normal == dvec3(0)) return false;
     const double height = glm::dot(normal, soup.places[soup.triangles.front()[0]]);
@@ -70,13 +69,13 @@ bool are_triangles_coplanar(const CentredObjectTriangles& soup) {
             return std::abs(glm::dot(normal, soup.places[i]) - height) <=
                    kFlatnessTolerance * soup.extent;
         });
-        return in_plane && glm::dot(normal, soup.triangle_edge_cross_product(t)) > 0;
+        return in_plane && glm::dot(normal, soup.edge_cross(t)) > 0;
     });
 }
 
 /// Returns the sphere that fits the places best by least squares. |p|^2 = 2 c.p + (r^2 - |c|^2) is
 /// linear in c and in the bracket. Solved in units of the extent.
-std::optional<Sphere> fit_sphere(const CentredObjectTriangles& soup) {
+std::optional<Sphere> fit_sphere(const CentredTriangles& soup) {
     dmat4 matrix(0);
     dvec4 wanted(0);
     for (const dvec3& place : soup.places) {
@@ -95,12 +94,12 @@ std::optional<Sphere> fit_sphere(const CentredObjectTriangles& soup) {
 
 /// Returns the largest distance of a vertex from the sphere, in radii. Returns 1 if facets cut off
 /// so much that the mesh is a cube rather than a ball.
-double max_distance_from_sphere(const Sphere& sphere, const CentredObjectTriangles& soup) {
+double max_deviation(const Sphere& sphere, const CentredTriangles& soup) {
     double farthest = 0;
     for (const dvec3& place : soup.places)
         farthest = std::max(farthest, std::abs(glm::length(place - sphere.centre) - sphere.radius));
     for (const TriangleCorners& t : soup.triangles) {
-        const dvec3 normal = normalized_or_zero(soup.triangle_edge_cross_product(t));
+        const dvec3 normal = normalized_or_zero(soup.edge_cross(t));
         const double height = std::abs(glm::dot(normal, soup.places[t[0]] - sphere.centre));
         if (!(height >= (1 - kFacetRadiusTolerance) * sphere.radius)) return 1;
     }
@@ -111,13 +110,13 @@ double max_distance_from_sphere(const Sphere& sphere, const CentredObjectTriangl
 /// with flat-shaded facets reflects as its facets do, not as a sphere.
 bool has_sphere_normals(const Sphere& sphere, const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    const dmat3 turns = compute_normal_matrix(object.world_from_object);
+    const dmat3 turns = normal_matrix(object.world_from_object);
     return std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
         return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t i) {
             const dvec3 out = normalized_or_zero(
-                            transform_point_to_world(object.world_from_object, mesh.positions[i]) -
+                            transform_point(object.world_from_object, mesh.positions[i]) -
                             sphere.centre),
-                        normal = transform_normal_to_world(turns, dvec3(mesh.normals[i]));
+                        normal = transform_normal(turns, dvec3(mesh.normals[i]));
             return glm::length(glm::cross(out, normal)) <= kNormalAngleTolerance;
         });
     });
@@ -131,31 +130,28 @@ bool may_be_sphere(const Scene& scene, const Object& object) {
     const dvec3 centre = box.centre();
     const double radius = std::max({box.extent().x, box.extent().y, box.extent().z}) / 2;
     return std::ranges::all_of(scene.meshes[object.mesh].positions, [&](const dvec3& p) {
-        const double far = glm::distance(transform_point_to_world(object.world_from_object, p),
-                                         centre);
+        const double far = glm::distance(transform_point(object.world_from_object, p), centre);
         return std::abs(far - radius) <= kFacetRadiusTolerance * radius;
     });
 }
 
 /// Sums over the edges at which triangles meet.
-struct MeshEdgeBendingSums {
+struct BendingSums {
     bool closed = true;
     double outwards = 0, inwards = 0; ///< bend angles times lengths of the edges
 
-    bool is_bending_share_dominant(double bends) const {
+    bool is_dominant(double bends) const {
         return bends >= kMinBendingShare * (outwards + inwards);
     }
 };
 
 /// Measures how a mesh bends at its edges. An edge bends inwards if the tip of one triangle lies
 /// above the plane of the other.
-MeshEdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
-    MeshEdgeBendingSums edges;
+BendingSums measure_bends(const CentredTriangles& soup) {
+    BendingSums edges;
     const auto add = [&](const TriangleEdge& here, const TriangleEdge& there) {
-        const dvec3 normal = normalized_or_zero(
-            soup.triangle_edge_cross_product(soup.triangles[here.triangle]));
-        const dvec3 other = normalized_or_zero(
-            soup.triangle_edge_cross_product(soup.triangles[there.triangle]));
+        const dvec3 normal = normalized_or_zero(soup.edge_cross(soup.triangles[here.triangle]));
+        const dvec3 other = normalized_or_zero(soup.edge_cross(soup.triangles[there.triangle]));
         const double above = glm::dot(normal, soup.places[there.tip] - soup.places[here.low]);
         const double angle = std::atan2(glm::length(glm::cross(normal, other)),
                                         glm::dot(normal, other));
@@ -163,7 +159,7 @@ MeshEdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
                                                         glm::distance(soup.places[here.low],
                                                                       soup.places[here.high]);
     };
-    for_each_edge(list_triangle_edges(soup.triangles), [&](std::span<const TriangleEdge> sides) {
+    for_each_edge(triangle_edges(soup.triangles), [&](std::span<const TriangleEdge> sides) {
         edges.closed &= sides.size() == 2;
         if (sides.size() == 2) add(sides[0], sides[1]);
     });
@@ -171,10 +167,10 @@ MeshEdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
 }
 
 /// Returns whether most of the area faces away from a point.
-bool faces_away_from_point(const CentredObjectTriangles& soup, const dvec3& point) {
+bool faces_away(const CentredTriangles& soup, const dvec3& point) {
     double area = 0;
     for (const TriangleCorners& t : soup.triangles) {
-        const dvec3 cross = soup.triangle_edge_cross_product(t);
+        const dvec3 cross = soup.edge_cross(t);
         area += glm::dot(cross, soup.places[t[0]] - point) > 0 ? glm::length(cross)
                                                                : -glm::length(cross);
     }
@@ -183,19 +179,19 @@ bool faces_away_from_point(const CentredObjectTriangles& soup, const dvec3& poin
 
 } // namespace
 
-MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
-    using enum MirrorShape::ShapeKind;
-    const CentredObjectTriangles soup = make_centred_triangles(scene, object);
+MirrorShape classify_shape(const Scene& scene, const Object& object) {
+    using enum MirrorShape::Kind;
+    const CentredTriangles soup = centred_triangles(scene, object);
     MirrorShape shape;
     if (soup.triangles.empty()) return shape;
-    const MeshEdgeBendingSums edges = measure_edge_bends(soup);
+    const BendingSums edges = measure_bends(soup);
     shape.is_closed = edges.closed;
-    if (are_triangles_coplanar(soup)) {
+    if (are_coplanar(soup)) {
         shape.kind = flat;
         return shape;
     }
     if (std::optional<Sphere> fit = fit_sphere(soup)) {
-        const double off = max_distance_from_sphere(*fit, soup);
+        const double off = max_deviation(*fit, soup);
         fit->centre += soup.centre;
         if (off <= kSphereVertexTolerance) shape.fit = fit, shape.tolerance = off;
     }
@@ -208,35 +204,34 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
         (object.sphere || has_sphere_normals(*shape.fit, scene, object)))
         shape.kind = sphere;
     else if (shape.fit) // subdivided balls bend inwards at some edges
-        shape.kind = faces_away_from_point(soup, shape.fit->centre - soup.centre) ? convex
-                                                                                  : concave;
+        shape.kind = faces_away(soup, shape.fit->centre - soup.centre) ? convex : concave;
     else
-        shape.kind = edges.is_bending_share_dominant(edges.outwards)  ? convex
-                     : edges.is_bending_share_dominant(edges.inwards) ? concave
-                                                                      : other;
+        shape.kind = edges.is_dominant(edges.outwards)  ? convex
+                     : edges.is_dominant(edges.inwards) ? concave
+                                                        : other;
     return shape;
 }
 
 void find_exact_spheres(Scene& scene) {
     for (Object& object : scene.objects) {
-        const RigAttachment* follows = find_followed_node(object.motion);
+        const RigAttachment* follows = followed_node(object.motion);
         if (object.sphere || !is_mirror(scene, object) ||
             scene.materials[object.material].normal_texture ||
             is_glass(scene.materials[object.material]) ||
             (follows && !preserves_spheres(*follows)) || !may_be_sphere(scene, object))
             continue;
-        const MirrorShape shape = classify_mirror_shape(scene, object);
-        if (shape.kind == MirrorShape::ShapeKind::sphere) object.sphere = shape.fit;
+        const MirrorShape shape = classify_shape(scene, object);
+        if (shape.kind == MirrorShape::Kind::sphere) object.sphere = shape.fit;
     }
 }
 
-const char* mirror_shape_kind_name(MirrorShape::ShapeKind kind) {
+const char* shape_name(MirrorShape::Kind kind) {
     switch (kind) {
-    case MirrorShape::ShapeKind::flat: return "flat";
-    case MirrorShape::ShapeKind::sphere: return "sphere";
-    case MirrorShape::ShapeKind::convex: return "convex";
-    case MirrorShape::ShapeKind::concave: return "concave";
-    case MirrorShape::ShapeKind::other: break;
+    case MirrorShape::Kind::flat: return "flat";
+    case MirrorShape::Kind::sphere: return "sphere";
+    case MirrorShape::Kind::convex: return "convex";
+    case MirrorShape::Kind::concave: return "concave";
+    case MirrorShape::Kind::other: break;
     }
     return "other";
 }

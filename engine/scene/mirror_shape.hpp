@@ -6,8 +6,8 @@ namespace catoptric::scene {
 
 /// Kind of surface of an object, independent of its material.
 struct MirrorShape {
-    enum class ShapeKind { flat, sphere, convex, concave, other };
-    ShapeKind kind = ShapeKind::other;
+    enum class Kind { flat, sphere, convex, concave, other };
+    Kind kind = Kind::other;
     bool is_closed = false; ///< every edge belongs to two triangles
     /// Sphere that fits the vertices, also of an open surface. `tolerance` is the largest distance
     /// of a vertex from this sphere, in radii. Facets may lie farther inside.
@@ -22,15 +22,15 @@ struct MirrorShape {
 ///     within .01 radian of the sphere's radii.
 ///   - Convex, concave: a part of a sphere, or at least 95 % of the edges' bending (angle times
 ///     length) goes that way, seen from the front.
-MirrorShape classify_mirror_shape(const Scene& scene, const Object& object);
+MirrorShape classify_shape(const Scene& scene, const Object& object);
 
-/// Sets Object::sphere of each mirror that classify_mirror_shape calls a sphere. Rays then
+/// Sets Object::sphere of each mirror that classify_shape calls a sphere. Rays then
 /// intersect the exact sphere. Mirrors that have a sphere keep it. A mirror that a rig stretches
 /// into an ellipsoid at some time gets none, nor does glass, in which rays run inside. A mirror
 /// that is no ball is rejected in O(vertices) at most.
 void find_exact_spheres(Scene& scene);
 
 /// Returns "flat", "sphere", "convex", "concave" or "other".
-const char* mirror_shape_kind_name(MirrorShape::ShapeKind kind);
+const char* shape_name(MirrorShape::Kind kind);
 
 } // namespace catoptric::scene

@@ -18,7 +18,7 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns the time wrapped into [0, end]. After the end, the motion starts again at 0.
-double wrap_time_into_motion(double seconds, double end) {
+double wrap_time(double seconds, double end) {
     if (!(end > 0) || (seconds >= 0 && seconds <= end)) return seconds;
     const double rest = std::fmod(seconds, end);
     return rest < 0 ? rest + end : rest;
@@ -29,16 +29,16 @@ double wrap_time_into_motion(double seconds, double end) {
 ///   p = (2s^3 - 3s^2 + 1) v_k + td (s^3 - 2s^2 + s) b_k
 ///     + (-2s^3 + 3s^2) v_k+1 + td (s^3 - s^2) a_k+1
 template <typename Value>
-Value interpolate_hermite(const Value& value, const Value& out_tangent, const Value& next,
-                          const Value& in_tangent, double s, double interval) {
+Value hermite(const Value& value, const Value& out_tangent, const Value& next,
+              const Value& in_tangent, double s, double interval) {
     const double s2 = s * s, s3 = s2 * s;
     return (2 * s3 - 3 * s2 + 1) * value + interval * (s3 - 2 * s2 + s) * out_tangent +
            (3 * s2 - 2 * s3) * next + interval * (s3 - s2) * in_tangent;
 }
 
-dvec3 interpolate_value(const dvec3& a, const dvec3& b, double s) { return glm::mix(a, b, s); }
+dvec3 interpolate(const dvec3& a, const dvec3& b, double s) { return glm::mix(a, b, s); }
 /// Interpolates two unit quaternions along the shorter arc.
-dvec4 interpolate_value(const dvec4& a, const dvec4& b, double s) {
+dvec4 interpolate(const dvec4& a, const dvec4& b, double s) {
     const glm::dquat q = glm::slerp(glm::dquat(a.w, a.x, a.y, a.z), glm::dquat(b.w, b.x, b.y, b.z),
                                     s);
     return {q.x, q.y, q.z, q.w};
@@ -47,7 +47,7 @@ dvec4 interpolate_value(const dvec4& a, const dvec4& b, double s) {
 /// Returns the track's value at any time: before, between or after its keys. The track has at least
 /// one key.
 template <typename Value>
-Value motion_track_value_at(const Track<Value>& track, double time) {
+Value value_at(const Track<Value>& track, double time) {
     const auto after = std::ranges::upper_bound(track.times, time);
     if (after == track.times.begin()) return track.values.front();
     if (after == track.times.end()) return track.values.back();
@@ -56,29 +56,27 @@ Value motion_track_value_at(const Track<Value>& track, double time) {
     const double s = (time - track.times[k]) / interval;
     using enum Interpolation;
     if (track.interpolation == step) return track.values[k];
-    if (track.interpolation == linear)
-        return interpolate_value(track.values[k], track.values[k + 1], s);
-    return interpolate_hermite(track.values[k], track.out_tangents[k], track.values[k + 1],
-                               track.in_tangents[k + 1], s, interval);
+    if (track.interpolation == linear) return interpolate(track.values[k], track.values[k + 1], s);
+    return hermite(track.values[k], track.out_tangents[k], track.values[k + 1],
+                   track.in_tangents[k + 1], s, interval);
 }
 
 template <typename Value>
-double track_end_time(const std::shared_ptr<const Track<Value>>& track) {
+double end_time(const std::shared_ptr<const Track<Value>>& track) {
     return track == nullptr || track->times.empty() ? 0 : std::max(track->times.back(), 0.0);
 }
 
-double track_end_time(const NodeRig& rig) {
+double end_time(const NodeRig& rig) {
     double end = 0;
     for (const NodeRig::RigNode& node : rig.nodes)
-        end = std::max({end, track_end_time(node.translations), track_end_time(node.rotations),
-                        track_end_time(node.scales)});
+        end = std::max(
+            {end, end_time(node.translations), end_time(node.rotations), end_time(node.scales)});
     return end;
 }
 
-dmat4 rig_node_transform_to_parent(const NodeRig::RigNode& node, double time) {
+dmat4 parent_from_node(const NodeRig::RigNode& node, double time) {
     const auto now = [&](const auto& track, const auto& otherwise) {
-        return track == nullptr || track->times.empty() ? otherwise
-                                                        : motion_track_value_at(*track, time);
+        return track == nullptr || track->times.empty() ? otherwise : value_at(*track, time);
     };
     const dvec4 turn = now(node.rotations, node.rotation);
     const dvec3 scale = now(node.scales, node.scale);
@@ -91,12 +89,12 @@ dmat4 rig_node_transform_to_parent(const NodeRig::RigNode& node, double time) {
 }
 
 /// Transforms of the nodes of rigs at one instant. Each rig is computed once.
-class RigNodeTransformsAtTime {
+class RigAtTime {
 public:
-    explicit RigNodeTransformsAtTime(double seconds) : seconds_(seconds) {}
+    explicit RigAtTime(double seconds) : seconds_(seconds) {}
     dmat4 world_from_object(const RigAttachment& follows) {
         std::vector<dmat4>& pose = poses_[follows.rig.get()];
-        if (pose.empty()) pose = compute_node_transforms(*follows.rig, seconds_);
+        if (pose.empty()) pose = node_transforms(*follows.rig, seconds_);
         return pose[follows.node] * follows.node_from_object;
     }
 
@@ -105,27 +103,25 @@ private:
     std::map<const NodeRig*, std::vector<dmat4>> poses_;
 };
 
-dvec3 motion_offset_at_time(const HarmonicMotion& motion, double seconds) {
+dvec3 offset_at(const HarmonicMotion& motion, double seconds) {
     // 1 - cos(a) = 2 sin^2(a/2) keeps its digits near zero. The remainder is exact.
     const double phase = std::remainder(seconds, motion.period) / motion.period;
     const double sine = std::sin(std::numbers::pi * phase);
     return motion.amplitude * (2 * sine * sine);
 }
 
-dvec3 motion_offset_at_time(const Keyframes& motion, double seconds) {
+dvec3 offset_at(const Keyframes& motion, double seconds) {
     if (motion.keys == nullptr || motion.keys->times.empty()) return dvec3(0);
     const TranslationTrack& keys = *motion.keys;
-    const double time = motion.repeats ? wrap_time_into_motion(seconds, keys.times.back())
-                                       : seconds;
-    return motion.world_from_keys * (motion_track_value_at(keys, time) - motion.rest);
+    const double time = motion.repeats ? wrap_time(seconds, keys.times.back()) : seconds;
+    return motion.world_from_keys * (value_at(keys, time) - motion.rest);
 }
 
 /// Returns the translation of a motion that keeps the object's axes; zero for any other motion.
-dvec3 motion_translation_at_time(const Motion& motion, double seconds) {
+dvec3 translation_at(const Motion& motion, double seconds) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion))
-        return motion_offset_at_time(*harmonic, seconds);
-    if (const auto* frames = std::get_if<Keyframes>(&motion))
-        return motion_offset_at_time(*frames, seconds);
+        return offset_at(*harmonic, seconds);
+    if (const auto* frames = std::get_if<Keyframes>(&motion)) return offset_at(*frames, seconds);
     return dvec3(0);
 }
 
@@ -133,7 +129,7 @@ dvec3 motion_translation_at_time(const Motion& motion, double seconds) {
 /// scaled.
 Camera move_camera_with_node(const Camera& camera, const dmat4& now_from_rest) {
     Camera result = camera;
-    result.eye = transform_point_to_world(now_from_rest, camera.eye);
+    result.eye = transform_point(now_from_rest, camera.eye);
     const dvec3 ahead = normalized_or_zero(dmat3(now_from_rest) * (camera.target - camera.eye));
     result.target = result.eye + glm::distance(camera.target, camera.eye) * ahead;
     result.up = normalized_or_zero(dmat3(now_from_rest) * camera.up);
@@ -143,12 +139,12 @@ Camera move_camera_with_node(const Camera& camera, const dmat4& now_from_rest) {
 
 } // namespace
 
-const RigAttachment* find_followed_node(const Motion& motion) {
+const RigAttachment* followed_node(const Motion& motion) {
     const auto* follows = std::get_if<RigAttachment>(&motion);
     return follows && follows->rig ? follows : nullptr;
 }
 
-TranslationTrack motion_keys_in_world_space(const Keyframes& motion) {
+TranslationTrack keys_in_world(const Keyframes& motion) {
     TranslationTrack keys = motion.keys ? *motion.keys : TranslationTrack();
     for (dvec3& value : keys.values) value = motion.world_from_keys * (value - motion.rest);
     for (dvec3& tangent : keys.in_tangents) tangent = motion.world_from_keys * tangent;
@@ -156,25 +152,25 @@ TranslationTrack motion_keys_in_world_space(const Keyframes& motion) {
     return keys;
 }
 
-std::vector<dmat4> compute_node_transforms(const NodeRig& rig, double seconds) {
-    const double time = rig.repeats ? wrap_time_into_motion(seconds, track_end_time(rig)) : seconds;
+std::vector<dmat4> node_transforms(const NodeRig& rig, double seconds) {
+    const double time = rig.repeats ? wrap_time(seconds, end_time(rig)) : seconds;
     std::vector<dmat4> world;
     world.reserve(rig.nodes.size());
     for (const NodeRig::RigNode& node : rig.nodes) {
-        const dmat4 own = rig_node_transform_to_parent(node, time);
+        const dmat4 own = parent_from_node(node, time);
         world.push_back(node.parent ? world[*node.parent] * own : own);
     }
     return world;
 }
 
-double period_of_motion(const Motion& motion) {
+double motion_period(const Motion& motion) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion)) return harmonic->period;
-    if (const auto* frames = std::get_if<Keyframes>(&motion)) return track_end_time(frames->keys);
-    const RigAttachment* follows = find_followed_node(motion);
-    return follows ? track_end_time(*follows->rig) : 0;
+    if (const auto* frames = std::get_if<Keyframes>(&motion)) return end_time(frames->keys);
+    const RigAttachment* follows = followed_node(motion);
+    return follows ? end_time(*follows->rig) : 0;
 }
 
-double compute_scene_period(const Scene& scene) {
+double scene_period(const Scene& scene) {
     double longest = 0;
     const NodeRig* last =
         nullptr; // a rig may have many nodes; objects that follow the same rig are often neighbours
@@ -182,7 +178,7 @@ double compute_scene_period(const Scene& scene) {
         const auto* follows = std::get_if<RigAttachment>(&motion);
         if (follows && follows->rig.get() == last) return;
         if (follows) last = follows->rig.get();
-        longest = std::max(longest, period_of_motion(motion));
+        longest = std::max(longest, motion_period(motion));
     };
     for (const Object& object : scene.objects) add(object.motion);
     for (const PunctualLight& light : scene.punctual) add(light.motion);
@@ -190,32 +186,31 @@ double compute_scene_period(const Scene& scene) {
     return longest;
 }
 
-Camera camera_at_time(const Camera& camera, double seconds) {
+Camera camera_at(const Camera& camera, double seconds) {
     return camera.follows.rig
-               ? move_camera_with_node(
-                     camera, RigNodeTransformsAtTime(seconds).world_from_object(camera.follows))
+               ? move_camera_with_node(camera, RigAtTime(seconds).world_from_object(camera.follows))
                : camera;
 }
 
-void check_scene_time(double seconds) {
+void check_time(double seconds) {
     check(std::isfinite(seconds), Failure::usage, "time: wanted a finite number of seconds, found ",
           seconds);
 }
 
-void move_scene_to_time(Scene& still, const Scene& scene, double seconds) {
-    check_scene_time(seconds);
+void move_to_time(Scene& still, const Scene& scene, double seconds) {
+    check_time(seconds);
     still.objects = scene.objects, still.punctual = scene.punctual, still.cameras = scene.cameras;
-    RigNodeTransformsAtTime poses(seconds);
+    RigAtTime poses(seconds);
     const auto apply_motion = [&](dmat4& place, const Motion& motion) {
-        if (const RigAttachment* follows = find_followed_node(motion))
+        if (const RigAttachment* follows = followed_node(motion))
             place = poses.world_from_object(*follows);
-        const dvec3 offset = motion_translation_at_time(motion, seconds);
+        const dvec3 offset = translation_at(motion, seconds);
         place[3] += dvec4(offset, 0);
         return offset;
     };
     for (Object& object : still.objects) {
-        if (const RigAttachment* follows = find_followed_node(object.motion))
-            object.sphere = transform_exact_sphere(object, poses.world_from_object(*follows));
+        if (const RigAttachment* follows = followed_node(object.motion))
+            object.sphere = move_sphere(object, poses.world_from_object(*follows));
         const dvec3 offset = apply_motion(object.world_from_object, object.motion);
         if (object.sphere) object.sphere->centre += offset;
         object.motion = std::monostate();
@@ -230,13 +225,13 @@ void move_scene_to_time(Scene& still, const Scene& scene, double seconds) {
 }
 
 SceneAtTime::SceneAtTime(const Scene& scene, double seconds) : scene_(scene) {
-    check_scene_time(seconds);
-    if (is_animated(scene)) moved_ = scene_at_time(scene, seconds);
+    check_time(seconds);
+    if (is_animated(scene)) moved_ = scene_at(scene, seconds);
 }
 
-Scene scene_at_time(const Scene& scene, double seconds) {
+Scene scene_at(const Scene& scene, double seconds) {
     Scene still = scene;
-    move_scene_to_time(still, scene, seconds);
+    move_to_time(still, scene, seconds);
     return still;
 }
 

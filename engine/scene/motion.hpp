@@ -33,13 +33,13 @@ struct NodeRig {
 
 /// Returns the keys with positions and tangents in world space, relative to the object's place at
 /// rest.
-TranslationTrack motion_keys_in_world_space(const Keyframes& motion);
+TranslationTrack keys_in_world(const Keyframes& motion);
 
 /// Returns the world transform of each node of the rig. Throws nothing; costs a few hundred
 /// operations a node.
-std::vector<dmat4> compute_node_transforms(const NodeRig& rig, double seconds);
+std::vector<dmat4> node_transforms(const NodeRig& rig, double seconds);
 
 /// Returns the period of a motion, or the time of its last key, in seconds; 0 if it stands still.
-double period_of_motion(const Motion& motion);
+double motion_period(const Motion& motion);
 
 } // namespace catoptric::scene

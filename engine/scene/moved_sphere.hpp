@@ -8,12 +8,12 @@ namespace catoptric::scene {
 
 /// Returns the factor by which the matrix lengthens every vector, or nothing if the factor depends
 /// on the vector.
-std::optional<double> find_uniform_scale_factor(const dmat3& matrix);
+std::optional<double> uniform_scale(const dmat3& matrix);
 
 /// Returns the object's exact sphere in the world after a move of the object to
 /// `world_from_object`. Returns nothing if the object has no exact sphere, or if the move turns it
 /// into an ellipsoid.
-std::optional<Sphere> transform_exact_sphere(const Object& object, const dmat4& world_from_object);
+std::optional<Sphere> move_sphere(const Object& object, const dmat4& world_from_object);
 
 /// Returns whether a sphere that follows the node stays a sphere of positive radius at all times:
 /// all scales of the node and its ancestors are positive and the same along all axes. Returns false

@@ -16,24 +16,24 @@ namespace {
 constexpr std::size_t kMaxTestedVertices = 16;
 
 /// A solid body of glass: an object's number and the object's bounds in the world.
-struct SolidGlassBody {
+struct SolidGlass {
     std::size_t object = 0;
     Bounds<double> box;
 };
 
-std::vector<SolidGlassBody> list_solid_glass_bodies(const Scene& scene) {
-    std::vector<SolidGlassBody> bodies;
+std::vector<SolidGlass> solid_bodies(const Scene& scene) {
+    std::vector<SolidGlass> bodies;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Material& material = scene.materials[scene.objects[i].material];
         if (!is_glass(material) || !material.solid) continue;
         const Bounds<double> box = bounds(scene, scene.objects[i]);
         if (!box.empty()) bodies.push_back({i, box});
     }
-    std::ranges::sort(bodies, {}, [](const SolidGlassBody& body) { return body.box.lo.x; });
+    std::ranges::sort(bodies, {}, [](const SolidGlass& body) { return body.box.lo.x; });
     return bodies;
 }
 
-bool do_bounds_overlap(const Bounds<double>& a, const Bounds<double>& b) {
+bool overlap(const Bounds<double>& a, const Bounds<double>& b) {
     return all(lessThan(a.lo, b.hi)) && all(lessThan(b.lo, a.hi));
 }
 
@@ -42,8 +42,7 @@ enum class Enclosed { not_at_all, partly, wholly };
 
 /// Tests some vertices of the first body for lying inside the second. The winding number is +-1
 /// inside, 0 outside, and +-1/2 on a face.
-Enclosed test_enclosure(const Scene& scene, const SolidGlassBody& inner,
-                        const SolidGlassBody& outer) {
+Enclosed test_enclosure(const Scene& scene, const SolidGlass& inner, const SolidGlass& outer) {
     constexpr double kMinInsideWinding = .75;
     const Object& inner_object = scene.objects[inner.object];
     const Object& outer_object = scene.objects[outer.object];
@@ -58,7 +57,7 @@ Enclosed test_enclosure(const Scene& scene, const SolidGlassBody& inner,
         const dvec3 world(inner_object.world_from_object * dvec4(vertex, 1));
         if (!(all(lessThan(outer.box.lo, world)) && all(lessThan(world, outer.box.hi)))) continue;
         const dvec3 point(to_outer * dvec4(vertex, 1));
-        const double winding = compute_winding_number(mesh.positions, mesh.triangles, point);
+        const double winding = winding_number(mesh.positions, mesh.triangles, point);
         if (std::abs(winding) > kMinInsideWinding) ++inside;
     }
     return inside == 0       ? Enclosed::not_at_all
@@ -72,11 +71,11 @@ struct OverlappingPair {
 };
 
 /// Returns the pair in its order, if the two bodies share space.
-std::optional<OverlappingPair> order_if_overlapping(const Scene& scene, const SolidGlassBody& a,
-                                                    const SolidGlassBody& b) {
+std::optional<OverlappingPair> order_if_overlapping(const Scene& scene, const SolidGlass& a,
+                                                    const SolidGlass& b) {
     const Enclosed of_a = test_enclosure(scene, a, b), of_b = test_enclosure(scene, b, a);
     if (of_a == Enclosed::not_at_all && of_b == Enclosed::not_at_all) return std::nullopt;
-    const auto ior = [&](const SolidGlassBody& body) {
+    const auto ior = [&](const SolidGlass& body) {
         return scene.materials[scene.objects[body.object].material].ior;
     };
     const bool is_a_first = of_a == Enclosed::wholly   ? of_b != Enclosed::wholly
@@ -86,22 +85,22 @@ std::optional<OverlappingPair> order_if_overlapping(const Scene& scene, const So
     return is_a_first ? OverlappingPair{a.object, b.object} : OverlappingPair{b.object, a.object};
 }
 
-std::vector<OverlappingPair> list_overlapping_pairs(const Scene& scene) {
-    const std::vector<SolidGlassBody> bodies = list_solid_glass_bodies(scene);
+std::vector<OverlappingPair> overlapping_pairs(const Scene& scene) {
+    const std::vector<SolidGlass> bodies = solid_bodies(scene);
     std::map<std::size_t, bool> closed; // by mesh
-    const auto is_closed = [&](const SolidGlassBody& body) {
+    const auto is_closed = [&](const SolidGlass& body) {
         const std::size_t number = scene.objects[body.object].mesh;
         const auto [entry, is_new] = closed.try_emplace(number, false);
         const Mesh& mesh = scene.meshes[number];
-        if (is_new) entry->second = is_closed_triangle_surface(mesh.positions, mesh.triangles);
+        if (is_new) entry->second = is_closed_surface(mesh.positions, mesh.triangles);
         return entry->second;
     };
     std::vector<OverlappingPair> pairs;
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t k = i + 1; k < bodies.size() && bodies[k].box.lo.x < bodies[i].box.hi.x;
              ++k) {
-            const SolidGlassBody &a = bodies[i], &b = bodies[k];
-            if (!do_bounds_overlap(a.box, b.box) || !is_closed(a) || !is_closed(b)) continue;
+            const SolidGlass &a = bodies[i], &b = bodies[k];
+            if (!overlap(a.box, b.box) || !is_closed(a) || !is_closed(b)) continue;
             if (const auto pair = order_if_overlapping(scene, a, b)) pairs.push_back(*pair);
         }
     return pairs;
@@ -111,7 +110,7 @@ std::vector<OverlappingPair> list_overlapping_pairs(const Scene& scene) {
 
 std::vector<std::uint32_t> rank_nested_glass(const Scene& scene) {
     std::vector<std::uint32_t> ranks(scene.objects.size());
-    const std::vector<OverlappingPair> pairs = list_overlapping_pairs(scene);
+    const std::vector<OverlappingPair> pairs = overlapping_pairs(scene);
     for (const OverlappingPair& pair : pairs) ranks[pair.first] = ranks[pair.second] = 1;
     // The ranks of bodies that overlap in a ring rise without end; then some pairs stay unordered.
     bool has_changed = true;

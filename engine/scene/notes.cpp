@@ -8,7 +8,7 @@ constexpr std::size_t kMaxNoteKinds = 40; // as many lines as a user may still r
 
 } // namespace
 
-void LoaderNotes::add_note(std::string_view kind, std::string_view first, std::uint64_t count) {
+void LoaderNotes::add(std::string_view kind, std::string_view first, std::uint64_t count) {
     if (count == 0) return;
     const auto known = index_of_.find(std::string(kind));
     if (known != index_of_.end()) {

@@ -26,18 +26,18 @@ class LoaderNotes {
 public:
     /// Adds `count` occurrences of `kind`. `first` is their place, printable; it is shown if they
     /// are the first of their kind.
-    void add_note(std::string_view kind, std::string_view first, std::uint64_t count = 1);
+    void add(std::string_view kind, std::string_view first, std::uint64_t count = 1);
 
     /// Returns "FILE: KIND: COUNT (first: PLACE)" for each kind, in order of first occurrence.
     /// Occurrences beyond 40 kinds are given only as a number.
     std::vector<std::string> lines(const std::string& file) const;
 
 private:
-    struct RepeatedNote {
+    struct Note {
         std::string text, first;
         std::uint64_t count = 0;
     };
-    std::vector<RepeatedNote> kinds_;
+    std::vector<Note> kinds_;
     std::unordered_map<std::string, std::size_t> index_of_;
     std::uint64_t others_ = 0;
 };

@@ -18,10 +18,10 @@ std::string format_shortest_text(Real number) {
 
 } // namespace
 
-std::string format_shortest_number(double number) { return format_shortest_text(number); }
-std::string format_shortest_number(float number) { return format_shortest_text(number); }
+std::string format_number(double number) { return format_shortest_text(number); }
+std::string format_number(float number) { return format_shortest_text(number); }
 
-double float_to_shortest_double(float number) {
+double shortest_double(float number) {
     return parse_number(format_shortest_text(number)).value_or(double(number));
 }
 

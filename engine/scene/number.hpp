@@ -7,12 +7,12 @@
 namespace catoptric::scene {
 
 /// Returns the shortest text that reads back as the same number; "0" for both zeros.
-std::string format_shortest_number(double number);
-std::string format_shortest_number(float number);
+std::string format_number(double number);
+std::string format_number(float number);
 
 /// Returns the double with the same shortest text as the float, as a person would type it: 0.1 for
 /// 0.1f.
-double float_to_shortest_double(float number);
+double shortest_double(float number);
 
 /// Returns the finite number that the whole of `text` spells, with an optional sign; otherwise
 /// nothing.

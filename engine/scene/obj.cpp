@@ -28,7 +28,7 @@ CornerIndices to_corner_indices(const tinyobj::index_t& corner) {
     return {corner.vertex_index, corner.normal_index, corner.texcoord_index};
 }
 
-void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::RewrittenObjText& text,
+void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::RewrittenText& text,
                 bool has_uv) {
     const auto& [position, normal, uv] = vertex;
     mesh.positions.push_back(text.positions[std::size_t(position)]);
@@ -42,8 +42,8 @@ void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::RewrittenObj
 
 /// Builds a mesh with one vertex for each distinct triple among the corners. Each three corners are
 /// a triangle. Vertices are sorted by the index of position, then normal, then texture coordinates.
-Mesh build_obj_mesh(const obj::RewrittenObjText& text, const std::vector<tinyobj::index_t>& corners,
-                    std::string name, BudgetLimitedSum& vertices, const std::string& place) {
+Mesh build_mesh(const obj::RewrittenText& text, const std::vector<tinyobj::index_t>& corners,
+                std::string name, LimitedSum& vertices, const std::string& place) {
     struct MeshCornerUse {
         CornerIndices triple;
         std::uint32_t corner;
@@ -59,7 +59,7 @@ Mesh build_obj_mesh(const obj::RewrittenObjText& text, const std::vector<tinyobj
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < uses.size(); ++i) count += is_first(i);
-    vertices.add_amount_within_budget(count, place);
+    vertices.add(count, place);
     Mesh mesh{.name = std::move(name)};
     const bool has_uv = std::ranges::any_of(
         corners, [](const tinyobj::index_t& corner) { return corner.texcoord_index >= 0; });
@@ -77,27 +77,26 @@ Mesh build_obj_mesh(const obj::RewrittenObjText& text, const std::vector<tinyobj
 
 struct ObjBuilder {
     const std::string& file;
-    const obj::RewrittenObjText& text;
-    obj::ObjReadContext& context;
+    const obj::RewrittenText& text;
+    obj::ReadContext& context;
     Scene scene;
     /// Material of faces without one. Set on first use.
     std::optional<std::size_t> without_material;
 
     /// The triangles of a shape with the same material.
-    struct ObjShapePart {
+    struct ShapePart {
         int material; ///< -1 if there is none
         std::vector<tinyobj::index_t> corners;
     };
-    static std::vector<ObjShapePart> split_obj_shape_by_material(const tinyobj::mesh_t& mesh);
-    void add_obj_shape(const tinyobj::shape_t& shape);
-    void add_object(const std::string& shape, ObjShapePart part, bool is_only);
+    static std::vector<ShapePart> split_by_material(const tinyobj::mesh_t& mesh);
+    void add_shape(const tinyobj::shape_t& shape);
+    void add_object(const std::string& shape, ShapePart part, bool is_only);
     std::size_t material_index(int material);
 };
 
 /// Returns the parts of a shape, in the order of first use of their materials.
-std::vector<ObjBuilder::ObjShapePart>
-ObjBuilder::split_obj_shape_by_material(const tinyobj::mesh_t& mesh) {
-    std::vector<ObjShapePart> parts;
+std::vector<ObjBuilder::ShapePart> ObjBuilder::split_by_material(const tinyobj::mesh_t& mesh) {
+    std::vector<ShapePart> parts;
     std::unordered_map<int, std::size_t> part_of;
     for (std::size_t i = 0; i < mesh.material_ids.size(); ++i) {
         const auto [entry, is_new] = part_of.try_emplace(mesh.material_ids[i], parts.size());
@@ -121,8 +120,8 @@ std::size_t ObjBuilder::material_index(int material) {
     return *without_material;
 }
 
-void apply_object_comments(const obj::ObjCatoptricComments& remarks, const std::string& group,
-                           Object& object) {
+void apply_comments(const obj::CatoptricComments& remarks, const std::string& group,
+                    Object& object) {
     if (const auto at = remarks.motions.find(group); at != remarks.motions.end())
         object.motion = at->second;
     if (const auto at = remarks.spheres.find(group); at != remarks.spheres.end())
@@ -130,34 +129,33 @@ void apply_object_comments(const obj::ObjCatoptricComments& remarks, const std::
     object.seen_by_camera = !remarks.hidden.contains(group);
 }
 
-void ObjBuilder::add_object(const std::string& shape, ObjShapePart part, bool is_only) {
-    SceneLoadBudgetUsage& account = context.account;
-    account.objects.add_amount_within_budget(1, file, ": object ", quote(shape));
+void ObjBuilder::add_object(const std::string& shape, ShapePart part, bool is_only) {
+    LoadAccount& account = context.account;
+    account.objects.add(1, file, ": object ", quote(shape));
     Object object{
         .name = shape, .mesh = scene.meshes.size(), .material = material_index(part.material)};
     const std::string& material = scene.materials[object.material].name;
-    account.name_bytes.add_amount_within_budget(2 * (shape.size() + 1 + material.size()), file,
-                                                ": object ", quote(shape));
+    account.name_bytes.add(2 * (shape.size() + 1 + material.size()), file, ": object ",
+                           quote(shape));
     if (!is_only) object.name += "/" + material;
-    apply_object_comments(text.remarks, shape, object);
+    apply_comments(text.remarks, shape, object);
 
-    Mesh mesh = build_obj_mesh(text, part.corners, object.name, account.mesh_vertices, file);
+    Mesh mesh = build_mesh(text, part.corners, object.name, account.mesh_vertices, file);
     part.corners = {};
-    account.mesh_vertices.add_amount_within_budget(count_corners_without_normal(mesh), file,
-                                                   ": object ", quote(shape));
+    account.mesh_vertices.add(count_missing_normals(mesh), file, ": object ", quote(shape));
     const std::size_t dropped = repair_mesh(mesh);
-    context.notes.add_note("triangles without area, left out", "in " + quote(object.name), dropped);
+    context.notes.add("triangles without area, left out", "in " + quote(object.name), dropped);
     scene.meshes.push_back(std::move(mesh));
     scene.objects.push_back(std::move(object));
 }
 
-void ObjBuilder::add_obj_shape(const tinyobj::shape_t& shape) {
-    std::vector<ObjShapePart> parts = split_obj_shape_by_material(shape.mesh);
-    for (ObjShapePart& part : parts)
+void ObjBuilder::add_shape(const tinyobj::shape_t& shape) {
+    std::vector<ShapePart> parts = split_by_material(shape.mesh);
+    for (ShapePart& part : parts)
         add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
 }
 
-void check_object_names(const obj::RewrittenObjText& text) {
+void check_object_names(const obj::RewrittenText& text) {
     const std::unordered_set<std::string> known(text.names.begin(), text.names.end());
     for (const auto& [name, where] : text.remarks.named_at)
         if (!known.contains(name))
@@ -167,7 +165,7 @@ void check_object_names(const obj::RewrittenObjText& text) {
 
 /// Returns a material library for tinyobjloader, in which each material is only named by its
 /// number.
-std::string make_library_of_names(const obj::MtlLibrary& library) {
+std::string library_of_names(const obj::MtlLibrary& library) {
     std::string text;
     for (std::size_t i = 0; i < library.drafts.size(); ++i)
         text += "newmtl " + std::to_string(i) + "\n";
@@ -176,9 +174,9 @@ std::string make_library_of_names(const obj::MtlLibrary& library) {
 
 /// Parses the statements with tinyobjloader. Moves them out of `text`, because they may be long.
 struct ParsedObj {
-    ParsedObj(obj::RewrittenObjText& text, const std::string& file) {
+    ParsedObj(obj::RewrittenText& text, const std::string& file) {
         std::istringstream statements(std::move(text.statements)),
-            library(make_library_of_names(text.library));
+            library(library_of_names(text.library));
         tinyobj::MaterialStreamReader libraries(library);
         tinyobj::attrib_t attributes;
         std::vector<tinyobj::material_t> materials;
@@ -192,24 +190,24 @@ struct ParsedObj {
 
 } // namespace
 
-Scene load_obj(const std::filesystem::path& path, const SceneFileOptions& options) {
+Scene load_obj(const std::filesystem::path& path, const FileOptions& options) {
     const std::string file = path.string();
-    SceneLoadBudgetUsage account(options.budget);
-    SceneFileOpener files(path, options.root, account);
+    LoadAccount account(options.budget);
+    FileOpener files(path, options.root, account);
     LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
-    obj::ObjReadContext context{files, account, notes, unsupported};
-    obj::RewrittenObjText text = obj::read_obj_text(file, context);
+    obj::ReadContext context{files, account, notes, unsupported};
+    obj::RewrittenText text = obj::read_obj_text(file, context);
     check_object_names(text);
     const ParsedObj parsed(text, file);
     ObjBuilder builder{.file = file, .text = text, .context = context};
     builder.scene = {.name = path.stem().string(),
-                     .materials = make_library_materials(text.library, context),
+                     .materials = make_materials(text.library, context),
                      .cameras = text.remarks.cameras,
                      .exposure = text.remarks.exposure,
-                     .files = files.list_found_files()};
-    for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_obj_shape(shape);
-    finish_loaded_scene(builder.scene, file, notes, std::move(unsupported));
+                     .files = files.found()};
+    for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
+    finish_scene(builder.scene, file, notes, std::move(unsupported));
     return std::move(builder.scene);
 }
 

@@ -21,8 +21,8 @@ std::string_view trim_blanks(std::string_view text) {
 /// Removes one line from the front of `text` and returns it, trimmed. `line_end` ends it. Lines
 /// that end in a backslash are joined with the next in `joined`. Adds the number of lines read to
 /// `number`.
-std::string_view remove_first_line(std::string_view& text, char line_end, std::size_t& number,
-                                   std::string& joined) {
+std::string_view take_line(std::string_view& text, char line_end, std::size_t& number,
+                           std::string& joined) {
     joined.clear();
     while (!text.empty()) {
         const std::size_t end = text.find(line_end);
@@ -40,15 +40,15 @@ std::string_view remove_first_line(std::string_view& text, char line_end, std::s
 
 } // namespace
 
-std::string_view remove_first_word(std::string_view& text) {
+std::string_view take_word(std::string_view& text) {
     text = trim_blanks(text);
     const std::string_view word = text.substr(0, text.find_first_of(kBlankCharacters));
     text = trim_blanks(text.substr(word.size()));
     return word;
 }
 
-void for_each_obj_line(const std::string& file, std::string_view text,
-                       const std::function<void(const ObjLine&)>& body) {
+void for_each_line(const std::string& file, std::string_view text,
+                   const std::function<void(const Line&)>& body) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     // Without any line feed, carriage returns end the lines, as on the Macintosh of old.
@@ -56,11 +56,11 @@ void for_each_obj_line(const std::string& file, std::string_view text,
     std::string joined, remark;
     for (std::size_t number = 0; !text.empty();) {
         const std::size_t first = number + 1;
-        std::string_view rest = remove_first_line(text, line_end, number, joined);
-        std::string_view keyword = remove_first_word(rest);
-        if (keyword == "#" && remove_first_word(rest) == "catoptric" && !rest.empty()) {
+        std::string_view rest = take_line(text, line_end, number, joined);
+        std::string_view keyword = take_word(rest);
+        if (keyword == "#" && take_word(rest) == "catoptric" && !rest.empty()) {
             remark = "#";
-            remark += remove_first_word(rest);
+            remark += take_word(rest);
             keyword = remark;
         } else if (keyword.empty() || keyword.front() == '#') {
             continue;
@@ -69,64 +69,60 @@ void for_each_obj_line(const std::string& file, std::string_view text,
     }
 }
 
-std::vector<std::string_view> split_words(const ObjLine& line) {
+std::vector<std::string_view> split_words(const Line& line) {
     std::vector<std::string_view> list;
     std::string_view rest = line.rest;
     while (!rest.empty() && rest.front() != '#' && list.size() < kMaxWordsPerLine)
-        list.push_back(remove_first_word(rest));
+        list.push_back(take_word(rest));
     return list;
 }
 
 std::size_t count_words(std::string_view text) {
     std::size_t count = 0;
-    for (; !text.empty() && text.front() != '#'; ++count) remove_first_word(text);
+    for (; !text.empty() && text.front() != '#'; ++count) take_word(text);
     return count;
 }
 
-double parse_word_number(const ObjLine& line, std::string_view word) {
+double parse_word(const Line& line, std::string_view word) {
     if (const std::optional<double> number = parse_number(word)) return *number;
-    fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword,
-         "' wants finite numbers, found ", quote(word));
+    fail(Failure::bad_data, line.place(), ": '", line.keyword, "' wants finite numbers, found ",
+         quote(word));
 }
 
-std::vector<double> parse_word_numbers(const ObjLine& line,
-                                       const std::vector<std::string_view>& words,
-                                       std::size_t first, std::size_t count) {
+std::vector<double> parse_words(const Line& line, const std::vector<std::string_view>& words,
+                                std::size_t first, std::size_t count) {
     if (words.size() < first + count)
-        fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword, "' wants ", count,
+        fail(Failure::bad_data, line.place(), ": '", line.keyword, "' wants ", count,
              " numbers, found ", words.size() - std::min(first, words.size()));
     std::vector<double> list;
-    for (std::size_t i = first; i < first + count; ++i)
-        list.push_back(parse_word_number(line, words[i]));
+    for (std::size_t i = first; i < first + count; ++i) list.push_back(parse_word(line, words[i]));
     return list;
 }
 
-void UnreadStatementCounts::count_statement(const ObjLine& line) {
+void UnreadStatements::count(const Line& line) {
     auto at = counts_.find(line.keyword);
     if (at == counts_.end())
         at = counts_
-                 .try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "",
-                              ObjKeywordCount())
+                 .try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "", KeywordCount())
                  .first;
     if (at->second.lines++ == 0) at->second.first = line.number;
 }
 
-void UnreadStatementCounts::report_unread_obj_statements(const std::string& file,
-                                                         LoaderNotes& notes) const {
+void UnreadStatements::report(const std::string& file, LoaderNotes& notes) const {
     for (const auto& [keyword, count] : counts_)
-        notes.add_note(keyword.empty() ? "other statements, not read"
-                                       : "statements " + quote(keyword) + ", not read",
-                       file + ":" + std::to_string(count.first), count.lines);
+        notes.add(keyword.empty() ? "other statements, not read"
+                                  : "statements " + quote(keyword) + ", not read",
+                  file + ":" + std::to_string(count.first), count.lines);
 }
 
-dvec3 parse_line_vector(const ObjLine& line) {
+dvec3 parse_line_vector(const Line& line) {
     dvec3 vector(0);
     std::string_view rest = line.rest;
     for (int i = 0; i < 3; ++i) {
         if (rest.empty() || rest.front() == '#')
-            fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword,
-                 "' wants 3 numbers, found ", i);
-        vector[i] = parse_word_number(line, remove_first_word(rest));
+            fail(Failure::bad_data, line.place(), ": '", line.keyword, "' wants 3 numbers, found ",
+                 i);
+        vector[i] = parse_word(line, take_word(rest));
     }
     return vector;
 }

@@ -21,8 +21,8 @@ namespace catoptric::scene::obj {
 
 /// A line with a statement or a `# catoptric` comment. The views are valid only during the call
 /// that receives the line.
-struct ObjLine {
-    std::string describe_line_place() const { return *file + ":" + std::to_string(number); }
+struct Line {
+    std::string place() const { return *file + ":" + std::to_string(number); }
 
     const std::string* file;
     std::size_t number;       ///< number of the line, from 1
@@ -32,46 +32,45 @@ struct ObjLine {
 
 /// Calls `body` for each statement and each `# catoptric` comment. Empty lines and other comments
 /// are skipped. A backslash at the end of a line joins it with the next line.
-void for_each_obj_line(const std::string& file, std::string_view text,
-                       const std::function<void(const ObjLine&)>& body);
+void for_each_line(const std::string& file, std::string_view text,
+                   const std::function<void(const Line&)>& body);
 
 /// Removes the first word from the front of `text` and returns it.
-std::string_view remove_first_word(std::string_view& text);
+std::string_view take_word(std::string_view& text);
 
 /// Returns the words of `line.rest` up to a comment, at most 4096 words.
-std::vector<std::string_view> split_words(const ObjLine& line);
+std::vector<std::string_view> split_words(const Line& line);
 /// Returns the number of words up to a comment.
 std::size_t count_words(std::string_view text);
 
 /// Parses a word as a finite number. Throws `bad_data` naming the line.
-double parse_word_number(const ObjLine& line, std::string_view word);
+double parse_word(const Line& line, std::string_view word);
 
 /// Parses the words [first, first + count) as finite numbers. Throws `bad_data` naming the line.
-std::vector<double> parse_word_numbers(const ObjLine& line,
-                                       const std::vector<std::string_view>& words,
-                                       std::size_t first, std::size_t count);
+std::vector<double> parse_words(const Line& line, const std::vector<std::string_view>& words,
+                                std::size_t first, std::size_t count);
 
 /// Parses the first three words of `line.rest` as finite numbers. Throws `bad_data` naming the
 /// line.
-dvec3 parse_line_vector(const ObjLine& line);
+dvec3 parse_line_vector(const Line& line);
 
 /// Counts the statements that are not read, by keyword.
-class UnreadStatementCounts {
+class UnreadStatements {
 public:
-    void count_statement(const ObjLine& line);
+    void count(const Line& line);
     /// Adds a note for each keyword. Keywords after the first 40 share one note.
-    void report_unread_obj_statements(const std::string& file, LoaderNotes& notes) const;
+    void report(const std::string& file, LoaderNotes& notes) const;
 
 private:
-    struct ObjKeywordCount {
+    struct KeywordCount {
         std::uint64_t lines = 0;
         std::size_t first = 0;
     };
-    std::map<std::string, ObjKeywordCount, std::less<>> counts_;
+    std::map<std::string, KeywordCount, std::less<>> counts_;
 };
 
 /// A texture map of a material.
-struct ObjTextureUse {
+struct TextureUse {
     std::string file, place;    ///< name in the library; "FILE:LINE" of the statement
     std::filesystem::path real; ///< real path; empty if the file does not exist
     /// Scale and offset of u and v, with v upwards.
@@ -86,8 +85,8 @@ struct MtlMaterial {
     vec3 emission{0};
     std::optional<double> shininess, ior, roughness, metallic, kind, alpha, transparency, clearcoat,
         clearcoat_roughness;
-    std::optional<ObjTextureUse> colour, cut, normals; ///< map_Kd, map_d and norm
-    bool two_sided = false, fixed_normals = false;     ///< set by `# catoptric` comments
+    std::optional<TextureUse> colour, cut, normals; ///< map_Kd, map_d and norm
+    bool two_sided = false, fixed_normals = false;  ///< set by `# catoptric` comments
 };
 
 /// The materials of all libraries of a file.
@@ -96,20 +95,20 @@ struct MtlLibrary {
 };
 
 /// The inputs and lists that readers use besides the text.
-struct ObjReadContext {
-    SceneFileOpener& files;
-    SceneLoadBudgetUsage& account;
+struct ReadContext {
+    FileOpener& files;
+    LoadAccount& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
 };
 
 /// Reads one .mtl file and appends its materials to `library`. Throws `bad_data`, `missing_input`
 /// or `io`.
-void read_material_library(const std::filesystem::path& real, const std::string& place,
-                           ObjReadContext& context, MtlLibrary& library);
+void read_library(const std::filesystem::path& real, const std::string& place, ReadContext& context,
+                  MtlLibrary& library);
 /// Builds the materials in file order, as scene.md describes them, and reads their images. Throws
 /// `bad_data` for an image that cannot be decoded.
-std::vector<Material> make_library_materials(const MtlLibrary& library, ObjReadContext& context);
+std::vector<Material> make_materials(const MtlLibrary& library, ReadContext& context);
 
 /// The contents of the `# catoptric` comments, by object name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov [HEIGHT]
@@ -120,7 +119,7 @@ std::vector<Material> make_library_materials(const MtlLibrary& library, ObjReadC
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
 ///   # catoptric exposure STOPS           (of the scene)
-struct ObjCatoptricComments {
+struct CatoptricComments {
     std::optional<double> exposure;
     std::vector<Camera> cameras;
     std::map<std::string, Motion> motions;
@@ -131,19 +130,18 @@ struct ObjCatoptricComments {
 };
 
 /// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
-void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
-                           SceneLoadBudgetUsage& account);
+void add_comment(CatoptricComments& remarks, const Line& line, LoadAccount& account);
 
 /// A corner of a face, as indices from 0.
-struct ObjCorner {
+struct Corner {
     std::uint32_t position;
-    std::uint32_t normal; ///< `kMissingObjIndex` if absent
-    std::uint32_t uv;     ///< `kMissingObjIndex` if absent
+    std::uint32_t normal; ///< `kNoIndex` if absent
+    std::uint32_t uv;     ///< `kNoIndex` if absent
 };
-inline constexpr std::uint32_t kMissingObjIndex = ~0u;
+inline constexpr std::uint32_t kNoIndex = ~0u;
 
 /// An .obj file, rewritten for tinyobjloader.
-struct RewrittenObjText {
+struct RewrittenText {
     /// Holds only `mtllib`, `o NUMBER`, `usemtl`, and triangles `f` with valid indices.
     std::string statements = "mtllib all\no 0\n";
     std::vector<std::string> names{1};     ///< names of shapes, by the number of `o`
@@ -151,18 +149,17 @@ struct RewrittenObjText {
     std::vector<vec3> colours;             ///< one per position, or empty
     std::vector<vec2> uv;                  ///< texture coordinates, with v upwards
     MtlLibrary library;
-    ObjCatoptricComments remarks;
+    CatoptricComments remarks;
 };
 
 /// Reads an .obj file and its material libraries. Throws `bad_data` with file and line.
-RewrittenObjText read_obj_text(const std::string& file, ObjReadContext& context);
+RewrittenText read_obj_text(const std::string& file, ReadContext& context);
 
 /// Cuts a polygon into triangles and appends their corners. A convex quad is cut along its shorter
 /// diagonal, any other convex polygon into a fan, and a concave polygon by clipping ears. There are
 /// at most corners - 2 triangles. The work may grow with the cube of the corners; `comparisons`
 /// counts it. Throws `bad_data` naming the line if the count exceeds the budget.
-void triangulate_polygon(std::span<const ObjCorner> polygon, const std::vector<dvec3>& positions,
-                         BudgetLimitedSum& comparisons, const ObjLine& line,
-                         std::vector<ObjCorner>& triangles);
+void triangulate(std::span<const Corner> polygon, const std::vector<dvec3>& positions,
+                 LimitedSum& comparisons, const Line& line, std::vector<Corner>& triangles);
 
 } // namespace catoptric::scene::obj

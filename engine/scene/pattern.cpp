@@ -16,8 +16,7 @@ double pattern_noise(std::uint32_t x, std::uint32_t y) {
 
 /// Makes a square sRGB texture. `colour_of(x, y)` returns the colour of a texel, 0 to 255.
 template <typename Colour>
-Texture make_texture_from_colour_function(std::string name, std::uint32_t edge,
-                                          Colour&& colour_of) {
+Texture make_texture(std::string name, std::uint32_t edge, Colour&& colour_of) {
     auto image = std::make_shared<Image>();
     image->name = std::move(name);
     image->size = {edge, edge};
@@ -33,14 +32,13 @@ Texture make_texture_from_colour_function(std::string name, std::uint32_t edge,
 } // namespace
 
 Texture make_checker_texture(uvec3 dark, uvec3 light, std::uint32_t count) {
-    return make_texture_from_colour_function(
-        "checker", 4 * count, [&](std::uint32_t x, std::uint32_t y) {
-            return dvec3((x / 4 + y / 4) % 2 == 0 ? dark : light);
-        });
+    return make_texture("checker", 4 * count, [&](std::uint32_t x, std::uint32_t y) {
+        return dvec3((x / 4 + y / 4) % 2 == 0 ? dark : light);
+    });
 }
 
 Texture make_plank_texture(uvec3 colour) {
-    return make_texture_from_colour_function("planks", 128, [&](std::uint32_t x, std::uint32_t y) {
+    return make_texture("planks", 128, [&](std::uint32_t x, std::uint32_t y) {
         const std::uint32_t plank = x / 16, end = (y + 48 * plank) % 128;
         const bool is_joint = x % 16 == 0 || end == 0;
         const double tone = .8 + .25 * pattern_noise(plank, (y + 48 * plank) / 128);
@@ -50,16 +48,15 @@ Texture make_plank_texture(uvec3 colour) {
 }
 
 Texture make_wallpaper_texture(uvec3 ground, uvec3 figure) {
-    return make_texture_from_colour_function(
-        "wallpaper", 64, [&](std::uint32_t x, std::uint32_t y) {
-            const bool is_stripe = x % 32 < 3;
-            const double far = std::abs(double(x % 32) - 17) + std::abs(double(y % 32) - 16);
-            return dvec3(is_stripe || (far < 7 && far > 3) ? figure : ground);
-        });
+    return make_texture("wallpaper", 64, [&](std::uint32_t x, std::uint32_t y) {
+        const bool is_stripe = x % 32 < 3;
+        const double far = std::abs(double(x % 32) - 17) + std::abs(double(y % 32) - 16);
+        return dvec3(is_stripe || (far < 7 && far > 3) ? figure : ground);
+    });
 }
 
 Texture make_cloth_texture(uvec3 colour) {
-    return make_texture_from_colour_function("cloth", 32, [&](std::uint32_t x, std::uint32_t y) {
+    return make_texture("cloth", 32, [&](std::uint32_t x, std::uint32_t y) {
         const bool is_over = (x / 2 + y / 2) % 2 == 0;
         return dvec3(colour) * ((is_over ? 1 : .8) * (.92 + .16 * pattern_noise(x, y)));
     });

@@ -18,14 +18,14 @@ namespace {
 /// Range of lengths whose squares are finite, non-zero doubles.
 constexpr double kMaxEdgeLength = 1e150, kMinEdgeLength = 1e-150;
 
-bool is_coordinate_in_range(const dvec3& v) {
+bool is_in_range(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMaxEdgeLength &&
            is_finite(v);
 }
 
 /// Returns a vector along the normal, of any length; zero if the triangle has no area. Edges are
 /// scaled first, so that no size of a triangle over- or underflows.
-dvec3 triangle_normal_direction(const dvec3& a, const dvec3& b, const dvec3& c) {
+dvec3 normal_direction(const dvec3& a, const dvec3& b, const dvec3& c) {
     const auto scaled = [](const dvec3& edge) {
         const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
         return size >= kMinEdgeLength ? edge / size : dvec3(0);
@@ -33,29 +33,29 @@ dvec3 triangle_normal_direction(const dvec3& a, const dvec3& b, const dvec3& c) 
     return glm::cross(scaled(b - a), scaled(c - a));
 }
 
-dvec3 unit_triangle_normal(const Mesh& mesh, const uvec3& t) {
+dvec3 triangle_normal(const Mesh& mesh, const uvec3& t) {
     const auto& p = mesh.positions;
-    return normalized_or_zero(triangle_normal_direction(p[t.x], p[t.y], p[t.z]));
+    return normalized_or_zero(normal_direction(p[t.x], p[t.y], p[t.z]));
 }
 
 std::size_t drop_degenerate_triangles(Mesh& mesh) {
     return std::erase_if(mesh.triangles,
-                         [&](const uvec3& t) { return unit_triangle_normal(mesh, t) == dvec3(0); });
+                         [&](const uvec3& t) { return triangle_normal(mesh, t) == dvec3(0); });
 }
 
 /// Appends a copy of a vertex's element. A list without elements stays empty.
 template <typename Value>
-void repeat_vertex_element(std::vector<Value>& list, std::uint32_t vertex) {
+void repeat_element(std::vector<Value>& list, std::uint32_t vertex) {
     if (!list.empty()) list.push_back(Value(list[vertex]));
 }
 
 template <typename Value>
-void keep_elements_of_used_vertices(std::vector<Value>& list, std::size_t to, std::size_t from) {
+void keep_used(std::vector<Value>& list, std::size_t to, std::size_t from) {
     if (!list.empty()) list[to] = list[from];
 }
 
 template <typename Value>
-void shorten_vertex_lists(std::vector<Value>& list, std::size_t count) {
+void shorten(std::vector<Value>& list, std::size_t count) {
     if (!list.empty()) list.resize(count);
 }
 
@@ -63,11 +63,11 @@ void shorten_vertex_lists(std::vector<Value>& list, std::size_t count) {
 void add_missing_normals(Mesh& mesh) {
     mesh.normals.resize(mesh.positions.size(), vec3(0));
     for (vec3& normal : mesh.normals) normal = vec3(normalized_or_zero(dvec3(normal)));
-    const std::size_t missing = count_corners_without_normal(mesh);
+    const std::size_t missing = count_missing_normals(mesh);
     mesh.positions.reserve(mesh.positions.size() + missing);
     mesh.normals.reserve(mesh.normals.size() + missing);
     for (uvec3& triangle : mesh.triangles) {
-        const vec3 geometric(unit_triangle_normal(mesh, triangle));
+        const vec3 geometric(triangle_normal(mesh, triangle));
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = triangle[corner];
             if (mesh.normals[vertex] != vec3(0)) continue;
@@ -75,8 +75,8 @@ void add_missing_normals(Mesh& mesh) {
             const dvec3 position = mesh.positions[vertex];
             mesh.positions.push_back(position);
             mesh.normals.push_back(geometric);
-            repeat_vertex_element(mesh.uv[0], vertex), repeat_vertex_element(mesh.uv[1], vertex),
-                repeat_vertex_element(mesh.colours, vertex);
+            repeat_element(mesh.uv[0], vertex), repeat_element(mesh.uv[1], vertex),
+                repeat_element(mesh.colours, vertex);
         }
     }
 }
@@ -89,32 +89,30 @@ void drop_unused_vertices(Mesh& mesh) {
         if (renamed[i] == 0) continue;
         mesh.positions[kept] = mesh.positions[i];
         mesh.normals[kept] = mesh.normals[i];
-        keep_elements_of_used_vertices(mesh.uv[0], kept, i),
-            keep_elements_of_used_vertices(mesh.uv[1], kept, i),
-            keep_elements_of_used_vertices(mesh.colours, kept, i);
+        keep_used(mesh.uv[0], kept, i), keep_used(mesh.uv[1], kept, i),
+            keep_used(mesh.colours, kept, i);
         renamed[i] = kept++;
     }
     mesh.positions.resize(kept);
     mesh.normals.resize(kept);
-    shorten_vertex_lists(mesh.uv[0], kept), shorten_vertex_lists(mesh.uv[1], kept),
-        shorten_vertex_lists(mesh.colours, kept);
+    shorten(mesh.uv[0], kept), shorten(mesh.uv[1], kept), shorten(mesh.colours, kept);
     for (uvec3& t : mesh.triangles) t = {renamed[t.x], renamed[t.y], renamed[t.z]};
 }
 
 bool has_surface_area(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const auto world = [&](std::uint32_t i) {
-        return transform_point_to_world(object.world_from_object, mesh.positions[i]);
+        return transform_point(object.world_from_object, mesh.positions[i]);
     };
     return std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
-        return triangle_normal_direction(world(t.x), world(t.y), world(t.z)) != dvec3(0);
+        return normal_direction(world(t.x), world(t.y), world(t.z)) != dvec3(0);
     });
 }
 
 /// Largest alpha of a texture, by its image.
 class LargestAlphas {
 public:
-    double find_largest_alpha(const std::optional<Texture>& texture) {
+    double largest_alpha(const std::optional<Texture>& texture) {
         if (!texture) return 1;
         const auto [entry, is_new] = of_.try_emplace(texture->image.get(), 0.0);
         if (is_new)
@@ -131,7 +129,7 @@ private:
 bool can_be_seen(const Scene& scene, const Object& object, LargestAlphas& alphas) {
     const Material& material = scene.materials[object.material];
     if (!material.blended && material.alpha_cutoff <= 0) return true;
-    double alpha = material.alpha * alphas.find_largest_alpha(material.albedo_texture);
+    double alpha = material.alpha * alphas.largest_alpha(material.albedo_texture);
     const std::vector<vec4>& colours = scene.meshes[object.mesh].colours;
     if (!colours.empty())
         alpha *= double{std::ranges::max(colours, {}, [](const vec4& c) { return c.w; }).w};
@@ -140,7 +138,7 @@ bool can_be_seen(const Scene& scene, const Object& object, LargestAlphas& alphas
 
 } // namespace
 
-std::size_t count_corners_without_normal(const Mesh& mesh) {
+std::size_t count_missing_normals(const Mesh& mesh) {
     std::size_t count = 0;
     for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner)
@@ -159,29 +157,27 @@ bool is_valid_radiance(const vec3& emission) {
     return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
 }
 
-void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& notes,
-                         std::vector<UnsupportedFeature> unsupported) {
+void finish_scene(Scene& scene, const std::string& file, LoaderNotes& notes,
+                  std::vector<UnsupportedFeature> unsupported) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
-            check(is_coordinate_in_range(
-                      transform_point_to_world(object.world_from_object, position)),
+            check(is_in_range(transform_point(object.world_from_object, position)),
                   Failure::bad_data, file, ": object ", quote(object.name),
                   ": wanted finite world coordinates up to 1e150, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_surface_area(scene, object)) return false;
-        notes.add_note("objects that have no triangle with an area, left out", quote(object.name));
+        notes.add("objects that have no triangle with an area, left out", quote(object.name));
         return true;
     });
     for (const std::string& name : remove_distant_objects(scene))
-        notes.add_note("objects farther away than floats reach, left out", quote(name));
+        notes.add("objects farther away than floats reach, left out", quote(name));
     LargestAlphas alphas;
     for (const Object& object : scene.objects)
         if (!can_be_seen(scene, object, alphas))
-            notes.add_note(
-                "objects of which nothing can be seen, because their alpha is 0 or below "
-                "the cutoff",
-                quote(object.name) + ", of material " +
-                    quote(scene.materials[object.material].name));
+            notes.add("objects of which nothing can be seen, because their alpha is 0 or below "
+                      "the cutoff",
+                      quote(object.name) + ", of material " +
+                          quote(scene.materials[object.material].name));
     const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",

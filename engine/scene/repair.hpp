@@ -17,7 +17,7 @@ std::size_t repair_mesh(Mesh& mesh);
 
 /// Returns how many vertices `repair_mesh` may add: the number of corners whose normal has no
 /// direction. The mesh has one normal for each position.
-std::size_t count_corners_without_normal(const Mesh& mesh);
+std::size_t count_missing_normals(const Mesh& mesh);
 
 /// Returns whether an emission is valid: each component finite and at least 0.
 bool is_valid_radiance(const vec3& emission);
@@ -26,7 +26,7 @@ bool is_valid_radiance(const vec3& emission);
 /// (remove_distant_objects). Turns `notes` into the scene's warnings and `unsupported` into its
 /// unsupported features. Throws `bad_data`, naming `file`, if no object is left or if coordinates
 /// exceed 1e150.
-void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& notes,
-                         std::vector<UnsupportedFeature> unsupported = {});
+void finish_scene(Scene& scene, const std::string& file, LoaderNotes& notes,
+                  std::vector<UnsupportedFeature> unsupported = {});
 
 } // namespace catoptric::scene

@@ -13,7 +13,7 @@ namespace catoptric::scene {
 
 namespace {
 
-dmat4 make_placement_transform(dvec3 at, double degrees = 0) {
+dmat4 placement(dvec3 at, double degrees = 0) {
     const double angle = glm::radians(degrees);
     dmat4 world(1);
     world[0] = {std::cos(angle), 0, -std::sin(angle), 0};
@@ -32,8 +32,7 @@ Mesh make_papered_wall(int face, dvec3 lo, dvec3 hi, float times) {
     return mesh;
 }
 
-void add_mesh_copies(Scene& scene, Mesh mesh, std::size_t material,
-                     const std::vector<dmat4>& places) {
+void add_copies(Scene& scene, Mesh mesh, std::size_t material, const std::vector<dmat4>& places) {
     for (const dmat4& place : places)
         scene.objects.push_back(
             {.name = mesh.name + " " + std::to_string(1 + (&place - places.data())),
@@ -44,7 +43,7 @@ void add_mesh_copies(Scene& scene, Mesh mesh, std::size_t material,
 }
 
 /// Returns several boxes as one mesh.
-Mesh make_mesh_of_boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
+Mesh make_boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
     Mesh all{.name = name};
     for (const auto& [lo, hi] : of) {
         const Mesh one = box(name, lo, hi);
@@ -70,42 +69,36 @@ void add_furniture(Scene& scene) {
                                                    .roughness = .04f,
                                                    .dielectric_f0 = vec3(kUsualDielectricF0),
                                                    .dielectric_f90 = vec3(1)});
-    const Mesh chair = make_mesh_of_boxes("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
-                                                    {{-.22, .46, .18}, {.22, .95, .22}},
-                                                    {{-.22, 0, -.22}, {-.18, .42, -.18}},
-                                                    {{.18, 0, -.22}, {.22, .42, -.18}},
-                                                    {{-.22, 0, .18}, {-.18, .42, .22}},
-                                                    {{.18, 0, .18}, {.22, .42, .22}}});
-    add_mesh_copies(scene, chair, oak,
-                    {make_placement_transform({-.45, kSupportGap, .95}),
-                     make_placement_transform({.45, kSupportGap, .95}),
-                     make_placement_transform({-.45, kSupportGap, -.35}, 180),
-                     make_placement_transform({.45, kSupportGap, -.35}, 180),
-                     make_placement_transform({1.05, kSupportGap, .3}, 90),
-                     make_placement_transform({1.9, kSupportGap, 1.7}, 130)});
+    const Mesh chair = make_boxes("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
+                                            {{-.22, .46, .18}, {.22, .95, .22}},
+                                            {{-.22, 0, -.22}, {-.18, .42, -.18}},
+                                            {{.18, 0, -.22}, {.22, .42, -.18}},
+                                            {{-.22, 0, .18}, {-.18, .42, .22}},
+                                            {{.18, 0, .18}, {.22, .42, .22}}});
+    add_copies(scene, chair, oak,
+               {placement({-.45, kSupportGap, .95}), placement({.45, kSupportGap, .95}),
+                placement({-.45, kSupportGap, -.35}, 180), placement({.45, kSupportGap, -.35}, 180),
+                placement({1.05, kSupportGap, .3}, 90), placement({1.9, kSupportGap, 1.7}, 130)});
     Mesh cushion = box("cushion", {-.2, .46 + 2 * kSupportGap, -.2}, {.2, .5, .17});
     for (vec2& uv : cushion.uv[0]) uv *= 4;
-    add_mesh_copies(scene, cushion, linen,
-                    {make_placement_transform({-.45, 0, .95}),
-                     make_placement_transform({.45, 0, .95}),
-                     make_placement_transform({-.45, 0, -.35}, 180),
-                     make_placement_transform({.45, 0, -.35}, 180)});
+    add_copies(scene, cushion, linen,
+               {placement({-.45, 0, .95}), placement({.45, 0, .95}),
+                placement({-.45, 0, -.35}, 180), placement({.45, 0, -.35}, 180)});
     add_mesh(scene, box("table top", {-.8, .71, -.2}, {.8, .75, .8}), oak);
-    add_mesh_copies(
+    add_copies(
         scene,
         lathe("leg", {{.05, 0}, {.05, .06}, {.025, .12}, {.045, .35}, {.025, .55}, {.05, .71}}, 16),
         oak,
-        {make_placement_transform({-.7, 0, -.1}), make_placement_transform({.7, 0, -.1}),
-         make_placement_transform({-.7, 0, .7}), make_placement_transform({.7, 0, .7})});
-    add_mesh_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
-                    {make_placement_transform({.15, .75 + kSupportGap, .3})});
-    add_mesh_copies(
+        {placement({-.7, 0, -.1}), placement({.7, 0, -.1}), placement({-.7, 0, .7}),
+         placement({.7, 0, .7})});
+    add_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
+               {placement({.15, .75 + kSupportGap, .3})});
+    add_copies(
         scene,
         lathe("vase", {{0, 0}, {.07, 0}, {.11, .12}, {.08, .26}, {.03, .36}, {.05, .42}}, 32),
         glaze,
-        {make_placement_transform({-.45, .75 + kSupportGap, .45}),
-         make_placement_transform({2.2, .9 + kSupportGap, -1.2}),
-         make_placement_transform({2.2, .9 + kSupportGap, -1.6})});
+        {placement({-.45, .75 + kSupportGap, .45}), placement({2.2, .9 + kSupportGap, -1.2}),
+         placement({2.2, .9 + kSupportGap, -1.6})});
     add_mesh(scene, box("sideboard", {1.95, kSupportGap, -2}, {2.45, .9, -.8}), oak);
 }
 
@@ -114,14 +107,13 @@ void add_room_lights(Scene& scene) {
         scene, {.name = "bulb", .emission = {2080, 1760, 1280}, .two_sided = true});
     const std::size_t shade = add_material(
         scene, {.name = "shade", .albedo = {.8f, .75f, .62f}, .two_sided = true});
-    const std::vector<dmat4> places{make_placement_transform({0, 1.75, .3}),
-                                    make_placement_transform({-2.1, 1.5, 2})};
+    const std::vector<dmat4> places{placement({0, 1.75, .3}), placement({-2.1, 1.5, 2})};
     Mesh lamp = ball("bulb", 2);
     for (dvec3& position : lamp.positions) position *= .04;
-    add_mesh_copies(scene, lamp, bulb, places);
-    add_mesh_copies(scene, lathe("shade", {{.24, -.12}, {.1, .14}}, 32), shade, places);
-    add_mesh_copies(scene, lathe("stand", {{.14, 0}, {.14, .02}, {.012, .04}, {.012, 1.42}}, 12),
-                    shade, {make_placement_transform({-2.1, 0, 2})});
+    add_copies(scene, lamp, bulb, places);
+    add_copies(scene, lathe("shade", {{.24, -.12}, {.1, .14}}, 32), shade, places);
+    add_copies(scene, lathe("stand", {{.14, 0}, {.14, .02}, {.012, .04}, {.012, 1.42}}, 12), shade,
+               {placement({-2.1, 0, 2})});
     PunctualLight spot{.name = "spot on the wall",
                        .kind = PunctualLight::Kind::spot,
                        .intensity = {16, 16, 18},

@@ -26,8 +26,8 @@ bool may_reflect_by_lobe(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const bool has_rough_coat = has_clear_coat(material) &&
                                 material.clearcoat_roughness > shared::kMaxSharpRoughness;
-    return has_rough_coat || ((is_glass(material) || has_specular_part(material)) &&
-                              !material.unlit && is_rough_somewhere(material));
+    return has_rough_coat || ((is_glass(material) || has_specular(material)) && !material.unlit &&
+                              is_rough_somewhere(material));
 }
 
 bool has_rough_reflector(const Scene& scene) {

@@ -12,8 +12,7 @@ namespace catoptric::scene {
 namespace {
 
 constexpr std::array<float, 6> kMirrorRoughnesses{.05f, .1f, .2f, .3f, .45f, .6f};
-constexpr std::array<const char*, 6> kRoughnessLabelTexts{"0.05", "0.1",  "0.2",
-                                                          "0.3",  "0.45", "0.6"};
+constexpr std::array<const char*, 6> kRoughnessLabels{"0.05", "0.1", "0.2", "0.3", "0.45", "0.6"};
 
 /// Adds a slab that leans back against the air, so that it reflects floor and ceiling.
 void add_slanted_slab(Scene& scene, const std::string& name, std::size_t material, dvec3 foot) {
@@ -33,18 +32,18 @@ Scene make_roughness_room() {
                                                  {205, 200, 190}, 5);
     for (std::size_t i = 0; i < kMirrorRoughnesses.size(); ++i) {
         const auto metal = [&](const char* what, vec3 colour) {
-            return add_material(
-                scene, {.name = std::string(what) + " of roughness " + kRoughnessLabelTexts[i],
-                        .albedo = colour,
-                        .metallic = 1,
-                        .roughness = kMirrorRoughnesses[i]});
+            return add_material(scene,
+                                {.name = std::string(what) + " of roughness " + kRoughnessLabels[i],
+                                 .albedo = colour,
+                                 .metallic = 1,
+                                 .roughness = kMirrorRoughnesses[i]});
         };
         const double x = .64 * (static_cast<double>(i) - 2.5);
         // The third ball has the colour of copper.
         const std::size_t material = metal("metal", i == 2 ? vec3(.95f, .64f, .54f) : vec3(.92f));
-        add_ball(scene, std::string("ball ") + kRoughnessLabelTexts[i], material, {x, .29, -.4},
-                 .28, 5);
-        add_slanted_slab(scene, std::string("slab ") + kRoughnessLabelTexts[i],
+        add_ball(scene, std::string("ball ") + kRoughnessLabels[i], material, {x, .29, -.4}, .28,
+                 5);
+        add_slanted_slab(scene, std::string("slab ") + kRoughnessLabels[i],
                          metal("slab", vec3(.9f)), {x, kSupportGap, .9});
     }
     scene.objects[scene.objects.size() - 6].motion = HarmonicMotion{.amplitude = {0, 0, .25},

@@ -35,8 +35,7 @@ Bounds<double> bounds(const Scene& scene, const Object& object) {
         is_used[triangle.x] = is_used[triangle.y] = is_used[triangle.z] = true;
     Bounds<double> box;
     for (std::size_t i = 0; i < is_used.size(); ++i)
-        if (is_used[i])
-            box.add(transform_point_to_world(object.world_from_object, mesh.positions[i]));
+        if (is_used[i]) box.add(transform_point(object.world_from_object, mesh.positions[i]));
     return box;
 }
 

@@ -164,7 +164,7 @@ CATOPTRIC_API void check_scene(const Scene& scene);
 
 /// Returns the scene `seconds` after its start, with every motion applied and none left. Pure.
 /// Throws `Failure::usage` for a time that is not finite.
-CATOPTRIC_API Scene scene_at_time(const Scene& scene, double seconds);
+CATOPTRIC_API Scene scene_at(const Scene& scene, double seconds);
 /// Returns whether the object is a mirror: numbered, captured, counted.
 CATOPTRIC_API bool is_mirror(const Scene& scene, const Object& object);
 /// Returns the indices into Scene::objects of the mirrors, in file order. Mirror n, counted from 1,

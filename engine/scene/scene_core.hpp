@@ -12,9 +12,9 @@ namespace catoptric::scene {
 /// distance are left out. Each object has the same weight, however many triangles it has. Looks at
 /// about 60,000 corners at most; with more than 20,000 objects, at one triangle of each. Empty for
 /// a scene without triangles.
-Bounds<double> compute_core_bounds(const Scene& scene);
+Bounds<double> core_bounds(const Scene& scene);
 
-/// Largest distance from the core of the scene (compute_core_bounds) at which objects can be
+/// Largest distance from the core of the scene (core_bounds) at which objects can be
 /// rendered, in sizes of the core. The square of a distance must stay a finite float.
 inline constexpr double kMaxSceneRadius = 1e18;
 

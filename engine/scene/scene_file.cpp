@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 enum class ValueForm : std::uint8_t { json, text, list };
 
 /// Key of the file: its name, its reader and its writer. The table of keys defines the format.
-struct SceneFileJsonKey {
+struct FileKey {
     const char* name;
     ValueForm form;
     void (*read)(const gltf::JsonObject& file, const gltf::Json& value, SceneOverrides& overrides);
@@ -33,43 +33,41 @@ struct SceneFileJsonKey {
 using gltf::Json;
 using gltf::JsonObject;
 
-std::string read_text_member(const JsonObject& file, const Json& value, const char* key) {
-    file.require_condition(value.is_string(), key, ": wanted a text, found ",
-                           gltf::describe_json_value(value));
+std::string read_text(const JsonObject& file, const Json& value, const char* key) {
+    file.require(value.is_string(), key, ": wanted a text, found ", gltf::describe(value));
     return value.get<std::string>();
 }
 
 /// Reads a member that is "none" or `word`. Returns whether it is `word`.
 bool read_none_or_word(const JsonObject& file, const Json& value, const char* key,
                        const char* word) {
-    const std::string text = read_text_member(file, value, key);
-    file.require_condition(text == "none" || text == word, key, ": wanted \"none\" or \"", word,
-                           "\", found ", quote(text));
+    const std::string text = read_text(file, value, key);
+    file.require(text == "none" || text == word, key, ": wanted \"none\" or \"", word, "\", found ",
+                 quote(text));
     return text == word;
 }
 
-std::vector<std::string> read_text_list_member(const JsonObject& file, const Json& value,
-                                               const char* key) {
-    file.require_condition(value.is_array(), key, ": wanted a list of texts, found ",
-                           gltf::describe_json_value(value));
+std::vector<std::string> read_text_list(const JsonObject& file, const Json& value,
+                                        const char* key) {
+    file.require(value.is_array(), key, ": wanted a list of texts, found ", gltf::describe(value));
     std::vector<std::string> texts;
-    for (const Json& one : value) texts.push_back(read_text_member(file, one, key));
+    for (const Json& one : value) texts.push_back(read_text(file, one, key));
     return texts;
 }
 
 double read_bounded_number(const JsonObject& file, const Json& value, const char* key, double low,
                            double high) {
     const double number = value.is_number() ? value.get<double>() : NAN;
-    file.require_condition(number >= low && number <= high, key, ": wanted a number from ", low,
-                           " to ", high, ", found ", gltf::describe_json_value(value));
+    file.require(number >= low && number <= high, key, ": wanted a number from ", low, " to ", high,
+                 ", found ", gltf::describe(value));
     return number;
 }
 
-int read_bounded_whole_number(const JsonObject& file, const Json& value, const char* key, int low,
-                              int high) {
+int read_bounded_whole(const JsonObject& file, const Json& value, const char* key, int low,
+                       int high) {
     const double number = read_bounded_number(file, value, key, low, high);
-    file.require_condition(number == std::floor(number), key, ": wanted a whole number, found ",
-                           gltf::describe_json_value(value));
+    file.require(number == std::floor(number), key, ": wanted a whole number, found ",
+                 gltf::describe(value));
     return static_cast<int>(number);
 }
 
@@ -89,34 +87,33 @@ Json optional_to_json(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 
-Json none_or_word_to_json(const std::optional<bool>& is_word, const char* word) {
+Json word_to_json(const std::optional<bool>& is_word, const char* word) {
     return is_word ? Json(*is_word ? word : "none") : Json();
 }
 
-Json mirror_override_to_json(const MirrorOverride& wish) {
+Json mirror_to_json(const MirrorOverride& wish) {
     const vec3& r = wish.reflectance;
-    const auto text = [](float share) { return Json(float_to_shortest_double(share)).dump(); };
+    const auto text = [](float share) { return Json(shortest_double(share)).dump(); };
     return wish.pattern + "=" +
            (r.x == r.y && r.y == r.z ? text(r.x) : text(r.x) + "," + text(r.y) + "," + text(r.z)) +
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
+const std::array<FileKey, 16> kFileKeys{
     {{"mirrors", ValueForm::list,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          for (const std::string& text : read_text_list_member(file, value, "mirrors"))
-              overrides.mirrors.push_back(
-                  rethrow_as_bad_data(file, [&] { return read_mirror_override("mirrors", text); }));
+          for (const std::string& text : read_text_list(file, value, "mirrors"))
+              overrides.mirrors.push_back(rethrow_as_bad_data(
+                  file, [&] { return parse_mirror_override("mirrors", text); }));
       },
       [](const SceneOverrides& overrides) {
           Json list = Json::array();
-          for (const MirrorOverride& wish : overrides.mirrors)
-              list.push_back(mirror_override_to_json(wish));
+          for (const MirrorOverride& wish : overrides.mirrors) list.push_back(mirror_to_json(wish));
           return list.empty() ? Json() : list;
       }},
      {"lights", ValueForm::list,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.lights = read_text_list_member(file, value, "lights");
+          overrides.lights = read_text_list(file, value, "lights");
       },
       [](const SceneOverrides& overrides) {
           return overrides.lights.empty() ? Json() : Json(overrides.lights);
@@ -142,32 +139,32 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
                                                             "turquin");
       },
       [](const SceneOverrides& overrides) {
-          return none_or_word_to_json(overrides.multiple_scattering, "turquin");
+          return word_to_json(overrides.multiple_scattering, "turquin");
       }},
      {"glass_shadow", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.tints_glass_shadows = read_none_or_word(file, value, "glass_shadow", "tint");
       },
       [](const SceneOverrides& overrides) {
-          return none_or_word_to_json(overrides.tints_glass_shadows, "tint");
+          return word_to_json(overrides.tints_glass_shadows, "tint");
       }},
      {"light_samples", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.light_samples = read_bounded_whole_number(file, value, "light_samples", 1,
-                                                              kMaxLightSamples);
+          overrides.light_samples = read_bounded_whole(file, value, "light_samples", 1,
+                                                       kMaxLightSamples);
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.light_samples); }},
      {"environment_shadows", ValueForm::json,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment_shadows = read_bounded_whole_number(
-              file, value, "environment_shadows", 0, kMaxEnvironmentShadows);
+          overrides.environment_shadows = read_bounded_whole(file, value, "environment_shadows", 0,
+                                                             kMaxEnvironmentShadows);
       },
       [](const SceneOverrides& overrides) {
           return optional_to_json(overrides.environment_shadows);
       }},
      {"environment", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment = read_text_member(file, value, "environment");
+          overrides.environment = read_text(file, value, "environment");
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.environment); }},
      {"environment_scale", ValueForm::json,
@@ -205,13 +202,13 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       }},
      {"camera", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.camera = read_text_member(file, value, "camera");
+          overrides.camera = read_text(file, value, "camera");
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.camera); }},
      {"up", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          file.require_condition(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
-                                 gltf::describe_json_value(value));
+          file.require(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
+                       gltf::describe(value));
           overrides.up = value == "z" ? UpAxis::z : UpAxis::y;
       },
       [](const SceneOverrides& overrides) {
@@ -219,31 +216,29 @@ const std::array<SceneFileJsonKey, 16> kSceneFileKeys{
       }},
      {"animation", ValueForm::text,
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.animation = read_text_member(file, value, "animation");
+          overrides.animation = read_text(file, value, "animation");
       },
       [](const SceneOverrides& overrides) { return optional_to_json(overrides.animation); }}}};
 
 SceneOverrides read_overrides(const std::string& file, const Json& document) {
     const JsonObject item(document, file);
-    item.require_condition(document.is_object(), "wanted an object, found ",
-                           gltf::describe_json_value(document));
+    item.require(document.is_object(), "wanted an object, found ", gltf::describe(document));
     std::vector<std::string> names;
-    for (const SceneFileJsonKey& key : kSceneFileKeys) names.emplace_back(key.name);
+    for (const FileKey& key : kFileKeys) names.emplace_back(key.name);
     SceneOverrides overrides;
     for (const auto& [name, value] : document.items()) {
-        const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileJsonKey::name);
-        if (key == kSceneFileKeys.end()) {
+        const auto key = std::ranges::find(kFileKeys, name, &FileKey::name);
+        if (key == kFileKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-            item.require_condition(false, quote(name), ": wanted one of ", list,
-                                   suggest_name(name, names));
+            item.require(false, quote(name), ": wanted one of ", list, suggest_name(name, names));
         }
         key->read(item, value, overrides);
     }
     return overrides;
 }
 
-bool is_environment_file_name(const std::string& environment) {
+bool is_environment_file(const std::string& environment) {
     return environment != "studio" && environment != "none";
 }
 
@@ -254,21 +249,20 @@ fs::path scene_file_path(const fs::path& scene) {
     return path += ".catoptric.json";
 }
 
-std::optional<SceneFile> read_scene_file(const fs::path& scene, const SceneFileOptions& options) {
+std::optional<SceneFile> read_scene_file(const fs::path& scene, const FileOptions& options) {
     SceneFile found{.path = scene_file_path(scene)};
     const std::string place = found.path.string();
-    SceneLoadBudgetUsage account(options.budget);
-    SceneFileOpener files(scene, options.root, account);
-    if (found.path.filename().string().size() > SceneFileOpener::kMaxFileNameLength)
-        return std::nullopt;
-    const fs::path real = files.find_scene_file_by_name(found.path.filename().string(), place);
+    LoadAccount account(options.budget);
+    FileOpener files(scene, options.root, account);
+    if (found.path.filename().string().size() > FileOpener::kMaxNameLength) return std::nullopt;
+    const fs::path real = files.find(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
-    found.overrides = read_overrides(
-        place, gltf::parse_json(place, files.read_file_content(real, place), account));
+    found.overrides = read_overrides(place,
+                                     gltf::parse_json(place, files.read(real, place), account));
     if (std::optional<std::string>& picture = found.overrides.environment;
-        picture && is_environment_file_name(*picture))
-        picture = files.find_required_scene_file(*picture, place + ": environment").string();
-    found.files = files.list_found_files();
+        picture && is_environment_file(*picture))
+        picture = files.find_required(*picture, place + ": environment").string();
+    found.files = files.found();
     return found;
 }
 
@@ -277,8 +271,8 @@ SceneOverrides read_override(const std::string& text) {
     check(end != std::string::npos && end > 0, Failure::usage,
           "--set: wanted KEY=VALUE, such as ambient=0, found ", quote(text));
     const std::string name = text.substr(0, end), value = text.substr(end + 1);
-    const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileJsonKey::name);
-    const ValueForm form = key == kSceneFileKeys.end() ? ValueForm::text : key->form;
+    const auto key = std::ranges::find(kFileKeys, name, &FileKey::name);
+    const ValueForm form = key == kFileKeys.end() ? ValueForm::text : key->form;
     Json parsed = Json::parse(value, nullptr, false);
     if (form == ValueForm::text || parsed.is_discarded()) parsed = value;
     if (form == ValueForm::list && !parsed.is_array()) parsed = Json::array({value});
@@ -289,10 +283,10 @@ SceneOverrides read_override(const std::string& text) {
     }
 }
 
-std::string write_scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {
+std::string scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {
     SceneOverrides relative = overrides;
     if (std::optional<std::string>& picture = relative.environment;
-        picture && is_environment_file_name(*picture)) {
+        picture && is_environment_file(*picture)) {
         const fs::path folder = real_path(scene).parent_path();
         const fs::path name = real_path(*picture).lexically_relative(folder);
         check(!name.empty() && *name.begin() != "..", Failure::usage,
@@ -301,7 +295,7 @@ std::string write_scene_file_text(const SceneOverrides& overrides, const fs::pat
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();
-    for (const SceneFileJsonKey& key : kSceneFileKeys)
+    for (const FileKey& key : kFileKeys)
         if (const Json value = key.written(relative); !value.is_null()) document[key.name] = value;
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

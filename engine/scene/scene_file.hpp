@@ -29,7 +29,7 @@ struct SceneFile {
 /// Reads the scene file of `scene`. Returns nothing if the file does not exist. Throws `bad_data`,
 /// naming file and key, for a value that is not allowed.
 std::optional<SceneFile> read_scene_file(const std::filesystem::path& scene,
-                                         const SceneFileOptions& options);
+                                         const FileOptions& options);
 
 /// Reads "KEY=VALUE", with a key of a scene file and its value. A text needs no quotes, and one
 /// text is a list of one. Throws `usage`.
@@ -37,7 +37,6 @@ SceneOverrides read_override(const std::string& text);
 
 /// Returns the text that `read_scene_file` reads as these overrides. Throws `usage` for a picture
 /// that does not lie below the scene's folder.
-std::string write_scene_file_text(const SceneOverrides& overrides,
-                                  const std::filesystem::path& scene);
+std::string scene_file_text(const SceneOverrides& overrides, const std::filesystem::path& scene);
 
 } // namespace catoptric::scene

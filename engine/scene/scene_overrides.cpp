@@ -18,17 +18,17 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr std::string_view kRoughnessOptionPrefix = ",roughness=";
+constexpr std::string_view kRoughnessPrefix = ",roughness=";
 
 /// Replaces `value` if `stronger` is set.
 template <typename Value>
-void replace_value_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
+void replace_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
     if (stronger) value = stronger;
 }
 
 /// Returns the names by which patterns find an object: its own and its material's. If a node has
 /// several materials, its objects are named "NODE/MATERIAL", and the node's name counts, too.
-std::vector<std::string> list_names_that_patterns_match(const Scene& scene, const Object& object) {
+std::vector<std::string> matched_names(const Scene& scene, const Object& object) {
     const std::string& material = scene.materials[object.material].name;
     std::vector<std::string> names{object.name, material};
     if (const std::string end = "/" + material; object.name.ends_with(end))
@@ -37,15 +37,13 @@ std::vector<std::string> list_names_that_patterns_match(const Scene& scene, cons
 }
 
 /// Returns the indices of the objects that a pattern matches. Throws if there are none.
-std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const SettingOrigin& by,
-                                                 const std::string& pattern) {
+std::vector<std::size_t> find_objects(const Scene& scene, const SettingOrigin& by,
+                                      const std::string& pattern) {
     std::vector<std::size_t> found;
     std::vector<std::string> known;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const std::vector<std::string> names = list_names_that_patterns_match(scene,
-                                                                              scene.objects[i]);
-        if (std::ranges::any_of(
-                names, [&](const auto& name) { return name_matches_pattern(pattern, name); }))
+        const std::vector<std::string> names = matched_names(scene, scene.objects[i]);
+        if (std::ranges::any_of(names, [&](const auto& name) { return matches(pattern, name); }))
             found.push_back(i);
         known.insert(known.end(), names.begin(), names.end());
     }
@@ -68,8 +66,7 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
 /// Gives these objects a changed copy of their material. Objects that share a material share its
 /// copy. Materials keep their indices.
 template <typename Change>
-void change_object_materials(Scene& scene, const std::vector<std::size_t>& objects,
-                             Change&& change) {
+void change_materials(Scene& scene, const std::vector<std::size_t>& objects, Change&& change) {
     std::map<std::size_t, std::size_t> copies; // new material by old material
     for (const std::size_t i : objects) {
         std::size_t& material = scene.objects[i].material;
@@ -83,16 +80,16 @@ void change_object_materials(Scene& scene, const std::vector<std::size_t>& objec
     }
 }
 
-void apply_mirror_override(Scene& scene, const MirrorOverride& wish) {
-    change_object_materials(
-        scene, find_objects_by_pattern(scene, {"--mirror"}, wish.pattern),
+void apply_mirror(Scene& scene, const MirrorOverride& wish) {
+    change_materials(
+        scene, find_objects(scene, {"--mirror"}, wish.pattern),
         [&](Material& material) { material = make_mirror_material(material.name, wish); });
 }
 
 /// Returns the objects that the pattern matches and that emit light. Throws if there are none.
-std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const SettingOrigin& by,
-                                                  const std::string& pattern) {
-    std::vector<std::size_t> objects = find_objects_by_pattern(scene, by, pattern);
+std::vector<std::size_t> find_emitters(const Scene& scene, const SettingOrigin& by,
+                                       const std::string& pattern) {
+    std::vector<std::size_t> objects = find_objects(scene, by, pattern);
     std::erase_if(objects, [&](std::size_t i) {
         return !is_visibly_emissive(scene.materials[scene.objects[i].material]);
     });
@@ -101,13 +98,11 @@ std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const Sett
     return objects;
 }
 
-void make_objects_light_scene(Scene& scene, const std::string& pattern) {
-    change_object_materials(
-        scene, find_emitters_by_pattern(scene, {"--light"}, pattern), [](Material& material) {
-            material.light = material.emission;
-            if (material.emission_texture)
-                *material.light *= mean_texel_colour(*material.emission_texture);
-        });
+void make_lights(Scene& scene, const std::string& pattern) {
+    change_materials(scene, find_emitters(scene, {"--light"}, pattern), [](Material& material) {
+        material.light = material.emission;
+        if (material.emission_texture) *material.light *= mean_texel(*material.emission_texture);
+    });
 }
 
 } // namespace
@@ -121,7 +116,7 @@ Material make_mirror_material(std::string name, const MirrorOverride& wish) {
             .roughness = wish.roughness};
 }
 
-SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOverrides& weaker) {
+SceneOverrides combine(const SceneOverrides& stronger, const SceneOverrides& weaker) {
     SceneOverrides both = weaker;
     for (const MirrorOverride& wish : stronger.mirrors)
         std::erase_if(both.mirrors,
@@ -129,33 +124,33 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     for (const std::string& pattern : stronger.lights) std::erase(both.lights, pattern);
     both.mirrors.insert(both.mirrors.end(), stronger.mirrors.begin(), stronger.mirrors.end());
     both.lights.insert(both.lights.end(), stronger.lights.begin(), stronger.lights.end());
-    replace_value_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
-    replace_value_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
-    replace_value_if_set(both.multiple_scattering, stronger.multiple_scattering);
-    replace_value_if_set(both.tints_glass_shadows, stronger.tints_glass_shadows);
-    replace_value_if_set(both.light_samples, stronger.light_samples);
-    replace_value_if_set(both.environment_shadows, stronger.environment_shadows);
-    replace_value_if_set(both.environment, stronger.environment);
-    replace_value_if_set(both.environment_scale, stronger.environment_scale);
-    replace_value_if_set(both.environment_rotation, stronger.environment_rotation);
-    replace_value_if_set(both.exposure, stronger.exposure);
-    replace_value_if_set(both.camera, stronger.camera);
-    replace_value_if_set(both.up, stronger.up);
-    replace_value_if_set(both.animation, stronger.animation);
-    replace_value_if_set(both.ambient, stronger.ambient);
+    replace_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
+    replace_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
+    replace_if_set(both.multiple_scattering, stronger.multiple_scattering);
+    replace_if_set(both.tints_glass_shadows, stronger.tints_glass_shadows);
+    replace_if_set(both.light_samples, stronger.light_samples);
+    replace_if_set(both.environment_shadows, stronger.environment_shadows);
+    replace_if_set(both.environment, stronger.environment);
+    replace_if_set(both.environment_scale, stronger.environment_scale);
+    replace_if_set(both.environment_rotation, stronger.environment_rotation);
+    replace_if_set(both.exposure, stronger.exposure);
+    replace_if_set(both.camera, stronger.camera);
+    replace_if_set(both.up, stronger.up);
+    replace_if_set(both.animation, stronger.animation);
+    replace_if_set(both.ambient, stronger.ambient);
     return both;
 }
 
-bool name_matches_pattern(const std::string& pattern, const std::string& name) {
+bool matches(const std::string& pattern, const std::string& name) {
     return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-MirrorOverride read_mirror_override(const std::string& option, const std::string& whole) {
+MirrorOverride parse_mirror_override(const std::string& option, const std::string& whole) {
     MirrorOverride wish;
     std::string text = whole;
-    if (const std::size_t at = text.rfind(kRoughnessOptionPrefix); at != text.npos) {
+    if (const std::size_t at = text.rfind(kRoughnessPrefix); at != text.npos) {
         const std::optional<double> number = parse_number(
-            std::string_view(text).substr(at + kRoughnessOptionPrefix.size()));
+            std::string_view(text).substr(at + kRoughnessPrefix.size()));
         check(number && *number >= 0 && *number <= 1, Failure::usage, option,
               ": wanted a number from 0 to 1 after ',roughness=', found ", quote(whole));
         wish.roughness = static_cast<float>(*number);
@@ -195,7 +190,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
     return wish;
 }
 
-std::string make_mirror_pattern(const std::string& name) {
+std::string mirror_pattern(const std::string& name) {
     constexpr std::size_t kMaxNameBytes = 60; // bytes; a longer name is reduced to its beginning
     std::size_t size = std::min(name.size(), kMaxNameBytes);
     while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
@@ -215,23 +210,22 @@ std::string make_mirror_pattern(const std::string& name) {
     if (pattern.find('=') != pattern.npos)
         pattern += "=1"; // else the pattern's end might read as a reflectance
     // A name may hold what looks like the option of a roughness. A set of one comma equals a comma.
-    for (std::size_t at = 0; (at = pattern.find(kRoughnessOptionPrefix, at)) != pattern.npos;)
+    for (std::size_t at = 0; (at = pattern.find(kRoughnessPrefix, at)) != pattern.npos;)
         pattern.replace(at, 1, "[,]");
     return pattern;
 }
 
-void check_override_patterns(const Scene& scene, const SceneOverrides& overrides,
-                             const std::string& file) {
+void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file) {
     for (const MirrorOverride& wish : overrides.mirrors)
-        find_objects_by_pattern(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
+        find_objects(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
     for (const std::string& pattern : overrides.lights)
-        find_emitters_by_pattern(scene, {file + ": lights", Failure::bad_data}, pattern);
+        find_emitters(scene, {file + ": lights", Failure::bad_data}, pattern);
 }
 
 void apply_overrides(Scene& scene, const SceneOverrides& overrides) {
-    if (overrides.up == UpAxis::z) turn_z_up_to_y_up(scene);
-    for (const MirrorOverride& wish : overrides.mirrors) apply_mirror_override(scene, wish);
-    for (const std::string& pattern : overrides.lights) make_objects_light_scene(scene, pattern);
+    if (overrides.up == UpAxis::z) turn_to_y_up(scene);
+    for (const MirrorOverride& wish : overrides.mirrors) apply_mirror(scene, wish);
+    for (const std::string& pattern : overrides.lights) make_lights(scene, pattern);
     if (overrides.mirror_max_roughness)
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
     scene.has_multiple_scattering = overrides.multiple_scattering.value_or(
@@ -243,9 +237,9 @@ void apply_overrides(Scene& scene, const SceneOverrides& overrides) {
     for (const MirrorOverride& wish : overrides.mirrors)
         check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
               quote(wish.pattern), ": wanted a roughness of at most ",
-              format_shortest_number(scene.mirror_max_roughness),
-              ", above which no surface is a mirror, found ",
-              format_shortest_number(wish.roughness), "; raise --mirror-max-roughness");
+              format_number(scene.mirror_max_roughness),
+              ", above which no surface is a mirror, found ", format_number(wish.roughness),
+              "; raise --mirror-max-roughness");
     find_mirrors(scene, overrides.dielectric_mirrors.value_or(false));
 }
 

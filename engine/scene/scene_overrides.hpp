@@ -15,7 +15,7 @@ namespace catoptric::scene {
 /// Mirror that reflects a constant share of all light. The rest of the object's material is
 /// dropped.
 struct MirrorOverride {
-    std::string pattern; ///< a pattern as `name_matches_pattern` takes it
+    std::string pattern; ///< a pattern as `matches` takes it
     vec3 reflectance{1}; ///< in [0,1]; of a rough mirror, seen head-on
     float roughness = 0; ///< in [0,1]; 0: a perfect mirror at every angle, else a metal's lobe
     bool operator==(const MirrorOverride&) const = default;
@@ -54,7 +54,7 @@ struct SceneOverrides {
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;
-    std::optional<std::string> camera; ///< a camera as `find_camera_by_name` takes it
+    std::optional<std::string> camera; ///< a camera as `find_camera` takes it
     std::optional<UpAxis> up;
     std::optional<std::string> animation; ///< name, or "none"
     std::optional<double> ambient;
@@ -63,24 +63,23 @@ struct SceneOverrides {
 
 /// Returns both sets of overrides combined. `stronger` wins where both give a value. Its mirrors
 /// and lights come after those of `weaker`, each pattern once.
-SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOverrides& weaker);
+SceneOverrides combine(const SceneOverrides& stronger, const SceneOverrides& weaker);
 
 /// Returns whether a whole name equals the pattern or matches it (fnmatch: * ? [...]); case counts.
-bool name_matches_pattern(const std::string& pattern, const std::string& name);
+bool matches(const std::string& pattern, const std::string& name);
 
 /// Reads "PATTERN[=REFLECTANCE][,roughness=NUMBER]", where REFLECTANCE is a number or r,g,b in
 /// [0,1] and NUMBER is in [0,1]. A name may contain '=' as long as no number follows it. `option`
 /// begins the error message. Throws `usage`.
-MirrorOverride read_mirror_override(const std::string& option, const std::string& text);
+MirrorOverride parse_mirror_override(const std::string& option, const std::string& text);
 
 /// Returns the value of --mirror that selects this name. Pattern characters are escaped. Bytes that
 /// a terminal does not show become '?'. A name longer than 60 bytes is reduced to its beginning.
-std::string make_mirror_pattern(const std::string& name);
+std::string mirror_pattern(const std::string& name);
 
 /// Checks the patterns of mirrors and lights that come from a file. Throws `bad_data`, naming file
 /// and key, for a pattern that `apply_overrides` would not accept.
-void check_override_patterns(const Scene& scene, const SceneOverrides& overrides,
-                             const std::string& file);
+void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file);
 
 /// Applies the overrides of mirrors, lights, roughness and dielectrics, turns the scene if +z is
 /// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to
@@ -89,7 +88,7 @@ void check_override_patterns(const Scene& scene, const SceneOverrides& overrides
 void apply_overrides(Scene& scene, const SceneOverrides& overrides);
 
 /// Turns a scene from +z up to +y up: (x, y, z) becomes (x, z, -y), exactly.
-void turn_z_up_to_y_up(Scene& scene);
+void turn_to_y_up(Scene& scene);
 
 /// Keeps the `most` lights that are strongest at the centre of the bounds, at rest. A mesh that
 /// lights from several places may keep some of them. The other lights stay visible but light

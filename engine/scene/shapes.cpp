@@ -14,27 +14,26 @@ namespace catoptric::scene {
 
 namespace {
 
-using ShapeVertexIndex = std::uint32_t;
-using EdgeMidpoints = std::map<std::pair<ShapeVertexIndex, ShapeVertexIndex>, ShapeVertexIndex>;
+using VertexIndex = std::uint32_t;
+using EdgeMidpoints = std::map<std::pair<VertexIndex, VertexIndex>, VertexIndex>;
 
 /// Returns the vertex on the sphere over the middle of the edge. The first call for an edge
 /// creates the vertex.
-ShapeVertexIndex find_or_add_sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, ShapeVertexIndex a,
-                                             ShapeVertexIndex b) {
-    const auto [entry, is_new] = known.try_emplace(
-        std::minmax(a, b), static_cast<ShapeVertexIndex>(mesh.positions.size()));
+VertexIndex sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, VertexIndex a, VertexIndex b) {
+    const auto [entry, is_new] = known.try_emplace(std::minmax(a, b),
+                                                   static_cast<VertexIndex>(mesh.positions.size()));
     if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
     return entry->second;
 }
 
-void subdivide_sphere_triangles(Mesh& mesh) {
+void subdivide(Mesh& mesh) {
     EdgeMidpoints known;
     std::vector<uvec3> finer;
     finer.reserve(4 * mesh.triangles.size());
     for (const uvec3& t : mesh.triangles) {
-        const ShapeVertexIndex xy = find_or_add_sphere_midpoint(mesh, known, t.x, t.y);
-        const ShapeVertexIndex yz = find_or_add_sphere_midpoint(mesh, known, t.y, t.z);
-        const ShapeVertexIndex zx = find_or_add_sphere_midpoint(mesh, known, t.z, t.x);
+        const VertexIndex xy = sphere_midpoint(mesh, known, t.x, t.y);
+        const VertexIndex yz = sphere_midpoint(mesh, known, t.y, t.z);
+        const VertexIndex zx = sphere_midpoint(mesh, known, t.z, t.x);
         finer.insert(finer.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
     }
     mesh.triangles = std::move(finer);
@@ -55,7 +54,7 @@ Mesh box(std::string name, dvec3 lo, dvec3 hi) {
     for (int face = 0; face < 6; ++face) {
         const Mesh side = make_box_wall(face, hi,
                                         lo); // faces outwards because low and high are exchanged
-        const auto first = static_cast<ShapeVertexIndex>(box_mesh.positions.size());
+        const auto first = static_cast<VertexIndex>(box_mesh.positions.size());
         box_mesh.positions.insert(box_mesh.positions.end(), side.positions.begin(),
                                   side.positions.end());
         box_mesh.normals.insert(box_mesh.normals.end(), side.normals.begin(), side.normals.end());
@@ -89,11 +88,11 @@ Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around) {
         }
         far += glm::length(along(i));
     }
-    const auto row = static_cast<ShapeVertexIndex>(around + 1);
-    for (ShapeVertexIndex i = 0; i + 1 < profile.size(); ++i) {
+    const auto row = static_cast<VertexIndex>(around + 1);
+    for (VertexIndex i = 0; i + 1 < profile.size(); ++i) {
         if (along(i) == dvec2(0)) continue;
-        for (ShapeVertexIndex k = 0; k + 1 < row; ++k) {
-            const ShapeVertexIndex a = i * row + k, b = a + 1, c = b + row, d = a + row;
+        for (VertexIndex k = 0; k + 1 < row; ++k) {
+            const VertexIndex a = i * row + k, b = a + 1, c = b + row, d = a + row;
             if (profile[i].x > 0) mesh.triangles.emplace_back(a, b, c);
             if (profile[i + 1].x > 0) mesh.triangles.emplace_back(a, c, d);
         }
@@ -137,13 +136,13 @@ Mesh ball(std::string name, int levels) {
     mesh.positions = {
         {0, 0, -1}, {0, 2 * s / 3, 1.0 / 3}, {-q / 3, -s / 3, 1.0 / 3}, {q / 3, -s / 3, 1.0 / 3}};
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}; // counter-clockwise from outside
-    for (int level = 0; level < levels; ++level) subdivide_sphere_triangles(mesh);
+    for (int level = 0; level < levels; ++level) subdivide(mesh);
     mesh.normals.assign(mesh.positions.begin(), mesh.positions.end());
     return mesh;
 }
 
-PaperedRoomPaints add_papered_room(Scene& scene, dvec3 lo, dvec3 hi, uvec3 dark_floor,
-                                   uvec3 light_floor, int papered) {
+RoomPaints add_papered_room(Scene& scene, dvec3 lo, dvec3 hi, uvec3 dark_floor, uvec3 light_floor,
+                            int papered) {
     const auto paint = [&](const char* name, vec3 albedo) {
         return add_material(scene, {.name = name, .albedo = albedo});
     };

@@ -14,12 +14,12 @@ inline constexpr double kSupportGap = .001;
 Mesh make_box_wall(int face, dvec3 lo, dvec3 hi);
 
 /// Materials of the side walls of a papered room.
-struct PaperedRoomPaints {
+struct RoomPaints {
     std::size_t orange = 0, blue = 0;
 };
 /// Adds the walls of the room [lo, hi]: orange towards +X, blue towards -X, a checkered floor of
 /// two sRGB colours, wallpaper on the wall `papered` (as in make_box_wall), white elsewhere.
-PaperedRoomPaints add_papered_room(Scene& scene, dvec3 lo, dvec3 hi, uvec3 dark_floor,
-                                   uvec3 light_floor, int papered);
+RoomPaints add_papered_room(Scene& scene, dvec3 lo, dvec3 hi, uvec3 dark_floor, uvec3 light_floor,
+                            int papered);
 
 } // namespace catoptric::scene

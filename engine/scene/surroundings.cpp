@@ -10,15 +10,15 @@ namespace catoptric::scene {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr uvec2 kStudioEnvironmentSize{512, 256},
-    kLeastIntegrationSize{128, 64}; ///< directions by which a small map is integrated
+constexpr uvec2 kStudioSize{512, 256},
+    kMinIntegrationSize{128, 64}; ///< directions by which a small map is integrated
 
-double environment_rotation_angle(const Environment& environment) {
+double rotation_angle(const Environment& environment) {
     return glm::radians(environment.rotation_degrees);
 }
 
 /// Returns the unscaled radiance in a direction that is given in the environment's own axes.
-dvec3 radiance_in_environment_axes(const Environment& environment, const dvec3& own) {
+dvec3 unrotated_radiance(const Environment& environment, const dvec3& own) {
     if (environment.studio) return dvec3(f64::studio_radiance(own));
     const f64::EnvironmentMapPosition at = f64::direction_to_environment_map(
         own, environment.size.x, environment.size.y);
@@ -45,22 +45,22 @@ std::array<double, 9> spherical_harmonics(const dvec3& d) {
 
 /// For each harmonic, its squared normalisation factor times the share of its band that a cosine
 /// lobe keeps: pi, 2 pi / 3, pi / 4.
-constexpr std::array<double, 9> kSphericalHarmonicFactors{
-    1. / 4, 1. / 2, 1. / 2, 1. / 2, 15. / 16, 15. / 16, 5. / 64, 15. / 16, 15. / 64};
+constexpr std::array<double, 9> kHarmonicFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  15. / 16,
+                                                 15. / 16, 5. / 64, 15. / 16, 15. / 64};
 
 } // namespace
 
 dvec3 environment_radiance(const Environment& environment, const dvec3& direction) {
-    const double angle = environment_rotation_angle(environment);
-    return environment.scale * radiance_in_environment_axes(
-                                   environment, f64::rotate_to_environment_axes(
-                                                    direction, std::cos(angle), std::sin(angle)));
+    const double angle = rotation_angle(environment);
+    return environment.scale *
+           unrotated_radiance(environment, f64::rotate_to_environment_axes(
+                                               direction, std::cos(angle), std::sin(angle)));
 }
 
-std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environment) {
+std::array<dvec3, 9> irradiance_coefficients(const Environment& environment) {
     // In a small map, harmonics and the interpolated light change within a texel.
-    const uvec2 map = environment.studio ? kStudioEnvironmentSize : environment.size,
-                size = map * ((kLeastIntegrationSize + map - 1u) / map);
+    const uvec2 map = environment.studio ? kStudioSize : environment.size,
+                size = map * ((kMinIntegrationSize + map - 1u) / map);
     const double width = 2 * kPi / size.x, height = kPi / size.y;
     std::array<dvec3, 9> sums{};
     for (std::uint32_t row = 0; row < size.y; ++row) {
@@ -75,14 +75,14 @@ std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environm
             const bool is_texel = !environment.studio && size == map; // saves the interpolation
             const dvec3 light = is_texel
                                     ? dvec3(environment.texels[std::size_t{row} * size.x + column])
-                                    : radiance_in_environment_axes(environment, at(azimuth));
+                                    : unrotated_radiance(environment, at(azimuth));
             const std::array<double, 9> of = spherical_harmonics(
-                at(azimuth + environment_rotation_angle(environment)));
+                at(azimuth + rotation_angle(environment)));
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += solid_angle * of[i] * light;
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] *= environment.scale * kSphericalHarmonicFactors[i];
+        sums[i] *= environment.scale * kHarmonicFactors[i];
     return sums;
 }
 

@@ -14,6 +14,6 @@ dvec3 environment_radiance(const Environment& environment, const dvec3& directio
 /// Returns the coefficients for `irradiance` of shaders/lib/math/environment.glsl. They describe
 /// the light from all around by nine spherical harmonics (Ramamoorthi and Hanrahan 2001). Texels
 /// are weighted by their solid angle; `studio` is sampled at 512x256 places. O(texels).
-std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environment);
+std::array<dvec3, 9> irradiance_coefficients(const Environment& environment);
 
 } // namespace catoptric::scene

@@ -19,7 +19,7 @@ vec4 decode_texel(const Texture& texture, std::uint32_t texel) {
 }
 
 /// Returns the texel's index along one side of the image.
-std::uint32_t wrap_texel_index(Texture::Wrap wrap, double coordinate, std::uint32_t size) {
+std::uint32_t wrap_index(Texture::Wrap wrap, double coordinate, std::uint32_t size) {
     const double whole = std::floor(coordinate * size), n = size;
     if (!std::isfinite(whole)) return 0;
     if (wrap == Texture::Wrap::clamp)
@@ -49,14 +49,12 @@ float linear_from_srgb(std::uint32_t byte) {
 vec4 read_texel(const Texture& texture, const vec2& uv) {
     const Image& image = *texture.image;
     const vec3 from(uv, 1);
-    const std::uint32_t x = wrap_texel_index(texture.wrap_u, glm::dot(texture.u_row, from),
-                                             image.size.x),
-                        y = wrap_texel_index(texture.wrap_v, glm::dot(texture.v_row, from),
-                                             image.size.y);
+    const std::uint32_t x = wrap_index(texture.wrap_u, glm::dot(texture.u_row, from), image.size.x),
+                        y = wrap_index(texture.wrap_v, glm::dot(texture.v_row, from), image.size.y);
     return decode_texel(texture, image.texels[std::size_t{y} * image.size.x + x]);
 }
 
-vec3 mean_texel_colour(const Texture& texture) {
+vec3 mean_texel(const Texture& texture) {
     dvec3 sum(0);
     for (const std::uint32_t texel : texture.image->texels)
         sum += dvec3(decode_texel(texture, texel));

@@ -15,6 +15,6 @@ float linear_from_srgb(std::uint32_t byte);
 vec4 read_texel(const Texture& texture, const vec2& uv);
 
 /// Returns the mean of all texels, decoded, without alpha.
-vec3 mean_texel_colour(const Texture& texture);
+vec3 mean_texel(const Texture& texture);
 
 } // namespace catoptric::scene

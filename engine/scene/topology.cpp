@@ -13,54 +13,49 @@ namespace catoptric::scene {
 namespace {
 
 /// Grid of cubes that holds vertices, to find the first vertex at a place.
-class VertexPositionGrid {
+class PositionGrid {
 public:
-    explicit VertexPositionGrid(std::span<const dvec3> positions) : positions_(positions) {
+    explicit PositionGrid(std::span<const dvec3> positions) : positions_(positions) {
         for (const dvec3& p : positions)
             scale_ = std::max({scale_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (scale_ == 0) scale_ = 1;
-        next_.resize(positions.size(), kEmptyGridCell);
+        next_.resize(positions.size(), kEmptyCell);
     }
     /// Returns the first vertex at the same place, or `vertex` if there was none before.
-    std::size_t find_first_vertex_at_same_place(std::size_t vertex) {
+    std::size_t first_at_place(std::size_t vertex) {
         const dvec3 p = positions_[vertex] / scale_;
-        const glm::i64vec3 low = grid_cell_of_point(p - kSamePlaceDistance),
-                           high = grid_cell_of_point(p + kSamePlaceDistance);
+        const glm::i64vec3 low = cell_of(p - kPlaceDistance), high = cell_of(p + kPlaceDistance);
         std::size_t first = vertex;
         for (std::int64_t x = low.x; x <= high.x; ++x)
             for (std::int64_t y = low.y; y <= high.y; ++y)
                 for (std::int64_t z = low.z; z <= high.z; ++z)
-                    first = std::min(first, find_first_vertex_in_grid_cell({x, y, z}, p, vertex));
+                    first = std::min(first, first_in_cell({x, y, z}, p, vertex));
         if (first == vertex) {
-            const auto [entry, is_new] = newest_.try_emplace(grid_cell_key(grid_cell_of_point(p)),
-                                                             vertex);
+            const auto [entry, is_new] = newest_.try_emplace(cell_key(cell_of(p)), vertex);
             if (!is_new) next_[vertex] = std::exchange(entry->second, vertex);
         }
         return first;
     }
 
 private:
-    static constexpr double kSamePlaceDistance = 0x1p-21, kGridCellEdge = 8 * kSamePlaceDistance;
-    static constexpr std::size_t kEmptyGridCell = ~std::size_t(0);
+    static constexpr double kPlaceDistance = 0x1p-21, kCellEdge = 8 * kPlaceDistance;
+    static constexpr std::size_t kEmptyCell = ~std::size_t(0);
 
-    static glm::i64vec3 grid_cell_of_point(const dvec3& p) {
-        return glm::i64vec3(glm::floor(p / kGridCellEdge));
-    }
-    static std::uint64_t grid_cell_key(const glm::i64vec3& cube) {
+    static glm::i64vec3 cell_of(const dvec3& p) { return glm::i64vec3(glm::floor(p / kCellEdge)); }
+    static std::uint64_t cell_key(const glm::i64vec3& cube) {
         std::uint64_t key = 0;
         for (int i = 0; i < 3; ++i)
             key = (key ^ static_cast<std::uint64_t>(cube[i])) * 0x9e3779b97f4a7c15u,
             key ^= key >> 32;
         return key;
     }
-    std::size_t find_first_vertex_in_grid_cell(const glm::i64vec3& cube, const dvec3& p,
-                                               std::size_t vertex) const {
-        const auto newest = newest_.find(grid_cell_key(cube));
+    std::size_t first_in_cell(const glm::i64vec3& cube, const dvec3& p, std::size_t vertex) const {
+        const auto newest = newest_.find(cell_key(cube));
         std::size_t first = vertex;
-        for (std::size_t i = newest == newest_.end() ? kEmptyGridCell : newest->second;
-             i != kEmptyGridCell; i = next_[i]) {
+        for (std::size_t i = newest == newest_.end() ? kEmptyCell : newest->second; i != kEmptyCell;
+             i = next_[i]) {
             const dvec3 way = glm::abs(positions_[i] / scale_ - p);
-            if (std::max({way.x, way.y, way.z}) <= kSamePlaceDistance) first = std::min(first, i);
+            if (std::max({way.x, way.y, way.z}) <= kPlaceDistance) first = std::min(first, i);
         }
         return first;
     }
@@ -73,20 +68,19 @@ private:
 
 } // namespace
 
-std::vector<std::size_t> find_first_vertex_at_each_position(std::span<const dvec3> positions) {
-    VertexPositionGrid places(positions);
+std::vector<std::size_t> weld_vertices(std::span<const dvec3> positions) {
+    PositionGrid places(positions);
     std::vector<std::size_t> first(positions.size());
-    for (std::size_t i = 0; i < first.size(); ++i)
-        first[i] = places.find_first_vertex_at_same_place(i);
+    for (std::size_t i = 0; i < first.size(); ++i) first[i] = places.first_at_place(i);
     return first;
 }
 
-std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> triangles) {
+std::vector<TriangleEdge> triangle_edges(std::span<const TriangleCorners> triangles) {
     std::vector<TriangleEdge> sides;
     sides.reserve(3 * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const TriangleCorners& t = triangles[i];
-        if (!has_three_distinct_places(t)) continue;
+        if (!has_distinct_corners(t)) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
             sides.push_back({low, high, i, t[(k + 2) % 3]});
@@ -98,21 +92,20 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
     return sides;
 }
 
-bool is_closed_triangle_surface(std::span<const dvec3> positions,
-                                std::span<const uvec3> triangles) {
-    const std::vector<std::size_t> first = find_first_vertex_at_each_position(positions);
+bool is_closed_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles) {
+    const std::vector<std::size_t> first = weld_vertices(positions);
     std::vector<TriangleCorners> corners;
     for (const uvec3& t : triangles) corners.push_back({first[t.x], first[t.y], first[t.z]});
     bool is_closed = true;
-    const std::vector<TriangleEdge> edges = list_triangle_edges(corners);
+    const std::vector<TriangleEdge> edges = triangle_edges(corners);
     for_each_edge(edges, [&](std::span<const TriangleEdge> sides) {
         is_closed = is_closed && sides.size() == 2;
     });
     return is_closed && !edges.empty();
 }
 
-double compute_winding_number(std::span<const dvec3> positions, std::span<const uvec3> triangles,
-                              const dvec3& point) {
+double winding_number(std::span<const dvec3> positions, std::span<const uvec3> triangles,
+                      const dvec3& point) {
     double angle = 0;
     for (const uvec3& t : triangles) {
         const dvec3 a = positions[t.x] - point, b = positions[t.y] - point,

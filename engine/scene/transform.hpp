@@ -6,7 +6,7 @@
 
 namespace catoptric::scene {
 
-inline dvec3 transform_point_to_world(const dmat4& world_from_object, const dvec3& point) {
+inline dvec3 transform_point(const dmat4& world_from_object, const dvec3& point) {
     return dvec3(world_from_object * dvec4(point, 1));
 }
 
@@ -17,7 +17,7 @@ bool is_finite(const Vector& v) {
 
 /// Returns the matrix that transforms normals: the inverse transpose times |determinant|. It exists
 /// for a singular matrix, too. Transformed normals are not normalised.
-inline dmat3 compute_normal_matrix(const dmat4& world_from_object) {
+inline dmat3 normal_matrix(const dmat4& world_from_object) {
     const dmat3 m(world_from_object);
     const dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return glm::dot(m[0], cofactors[0]) < 0 ? -cofactors : cofactors;
@@ -31,7 +31,7 @@ inline dvec3 normalized_or_zero(const dvec3& v) {
 
 /// Returns the unit normal in the world. If a singular matrix maps `normal` to zero, returns the
 /// normal of the plane that contains the transformed object. If there is no such plane, returns +z.
-inline dvec3 transform_normal_to_world(const dmat3& normal_to_world, const dvec3& normal) {
+inline dvec3 transform_normal(const dmat3& normal_to_world, const dvec3& normal) {
     const dvec3 turned = normalized_or_zero(normal_to_world * normal);
     if (turned != dvec3(0)) return turned;
     for (int i = 0; i < 3; ++i)

@@ -15,8 +15,8 @@ UnsupportedFeature& find_or_add_feature(std::vector<UnsupportedFeature>& unsuppo
 
 } // namespace
 
-void add_unsupported_feature(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
-                             const std::string& first, std::uint64_t count) {
+void add_unsupported(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
+                     const std::string& first, std::uint64_t count) {
     if (count > 0) find_or_add_feature(unsupported, id, first).count += count;
 }
 

@@ -10,8 +10,8 @@
 namespace catoptric::scene {
 
 /// Adds `count` to the feature of this id, or adds a new feature.
-void add_unsupported_feature(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
-                             const std::string& first, std::uint64_t count = 1);
+void add_unsupported(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
+                     const std::string& first, std::uint64_t count = 1);
 void add_unsupported_material(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
                               const std::string& first, std::size_t material);
 

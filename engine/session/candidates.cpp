@@ -45,7 +45,7 @@ std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::
         const bool lights = scene::emitted_radiance(material) != vec3(0);
         if (material.mirror || object.mirror || !object.seen_by_camera || lights) continue;
         const auto [entry, is_new] = smoothest.try_emplace({object.mesh, object.material}, 1.f);
-        if (is_new) entry->second = scene::measure_surface_kinds(scene, object).smoothest;
+        if (is_new) entry->second = scene::surface_shares(scene, object).smoothest;
         candidates.push_back(
             {entry->second, compute_surface_area(scene::bounds(scene, object)), name});
     }
@@ -60,7 +60,7 @@ std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::
             options.push_back("--mirror " +
                               quote_for_shell(candidate.name.empty()
                                                   ? "*" // selects all other objects, too
-                                                  : scene::make_mirror_pattern(candidate.name)));
+                                                  : scene::mirror_pattern(candidate.name)));
     return options;
 }
 

@@ -40,8 +40,8 @@ std::optional<measure::UnsupportedFeatureFacts> find_undrawn_reflections(const R
 
 RequiredWorkReport find_required_work(const Request& request, const require::UnitCosts& costs) {
     RequiredWorkReport required{
-        .now = scene::scene_at_time(request.scene, request.time), .model = {}, .suggestion = {}};
-    const scene::Camera camera = scene::camera_at_time(request.camera, request.time);
+        .now = scene::scene_at(request.scene, request.time), .model = {}, .suggestion = {}};
+    const scene::Camera camera = scene::camera_at(request.camera, request.time);
     const require::RequiredWorkModelInput question{required.now, camera, request.size};
     required.model = require::make_required_model(question);
     required.suggestion = require::suggest_technique_plan(question, costs);

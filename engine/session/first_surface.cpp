@@ -70,7 +70,7 @@ ReflectionTier ReflectionTiers::tier_at(std::size_t pixel, std::uint32_t mirror)
 FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& spec) {
     Session::Impl& self = *session.impl_;
     self.read_capture_times(); // before this frame takes the place of the timed one
-    const scene::Camera camera = scene::camera_at_time(spec.camera, spec.time);
+    const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
     const render::FrameFacts facts{.seed = spec.seed,
                                    .now = {spec.time, camera, spec.size, spec.ambient}};
     self.update_device_scene(facts.now);

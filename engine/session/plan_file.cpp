@@ -37,8 +37,8 @@ const PlanJson& find_plan_rules(const PlanJson& document, const std::string& fil
 }
 
 /// Returns a member that must be text or, if `numbers` is true, a whole number.
-std::string read_text_member(const PlanJson& rule, const char* member, const std::string& place,
-                             bool numbers) {
+std::string read_text(const PlanJson& rule, const char* member, const std::string& place,
+                      bool numbers) {
     const PlanJson value = rule.value(member, PlanJson());
     if (numbers && value.is_number_unsigned()) return std::to_string(value.get<std::uint64_t>());
     check(value.is_string() && !value.get_ref<const std::string&>().empty(), Failure::bad_data,
@@ -63,9 +63,9 @@ reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::strin
                   key == "why",
               Failure::bad_data, place, ": wanted mirror, technique and settings, found '", key,
               "'");
-    std::string pattern = read_text_member(rule, "mirror", place, true);
+    std::string pattern = read_text(rule, "mirror", place, true);
     reflect::TechniqueChoice choice = reflect::parse_technique_choice(
-        read_text_member(rule, "technique", place, false));
+        read_text(rule, "technique", place, false));
     const PlanJson settings = rule.value("settings", PlanJson::object());
     check(settings.is_object(), Failure::bad_data, place, ".settings: wanted an object, found ",
           format_json_value(settings));

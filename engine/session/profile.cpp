@@ -20,7 +20,7 @@ constexpr std::uintmax_t kMaxProfileBytes = 1U << 20U;
 
 /// Returns the value as text for messages, without JSON's quotes.
 std::string format_for_message(const Json& value) {
-    return value.is_string() ? quote(value.get<std::string>()) : report::describe_json_value(value);
+    return value.is_string() ? quote(value.get<std::string>()) : report::describe(value);
 }
 
 /// Returns the index of the variant, or throws `failure` with `place` in front.

@@ -16,7 +16,7 @@ reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scen
     if (!plan.is_auto) return plan;
     const scene::SceneAtTime at_time(scene, spec.time);
     const scene::Scene& now = *at_time;
-    const scene::Camera camera = scene::camera_at_time(spec.camera, spec.time);
+    const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
     const require::PlanSuggestion suggestion = require::suggest_technique_plan(
         {.now = now, .camera = camera, .size = spec.size},
         *find_unit_costs_of_device(device).costs);

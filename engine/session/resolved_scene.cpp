@@ -31,9 +31,9 @@ constexpr std::size_t kMaxEnvironmentTexels = std::size_t{1} << 25; // 8192 x 40
 constexpr std::size_t kManyMirrorsLimit = 64; // scenes with more mirrors get a message
 
 bool is_built_in_scene(const std::string& name) {
-    return std::ranges::any_of(
-        scene::list_built_in_scenes(),
-        [&](const scene::BuiltInScene& scene) { return scene.name == name; });
+    return std::ranges::any_of(scene::built_in_scenes(), [&](const scene::BuiltInScene& scene) {
+        return scene.name == name;
+    });
 }
 
 std::shared_ptr<scene::Environment> read_environment_picture(const std::string& path) {
@@ -116,8 +116,7 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
                                    real_path(measure::locate_picture(*overrides.environment).file));
     } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
         environment = load_environment_by_name("studio");
-        scene::add_unsupported_feature(scene.unsupported, "added-studio",
-                                       "scene " + quote(scene.name));
+        scene::add_unsupported(scene.unsupported, "added-studio", "scene " + quote(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
     if (environment) {
@@ -186,7 +185,7 @@ std::optional<scene::Camera> find_named_camera(const scene::SceneOverrides& over
                                                const scene::Scene& scene,
                                                const scene::SettingOrigin& by) {
     if (!overrides.camera || is_seeded_camera(*overrides.camera, scene)) return std::nullopt;
-    return scene::find_camera_by_name(*overrides.camera, scene, by);
+    return scene::find_camera(*overrides.camera, scene, by);
 }
 
 /// Copies exposure and camera of the scene file into the scene, and therefore into its hash. The
@@ -207,7 +206,7 @@ void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& s
                            const std::optional<scene::SceneFile>& filed) {
     scene::Scene& scene = wanted.scene;
     const std::string file = filed ? filed->path.string() : "";
-    if (filed) scene::check_override_patterns(scene, filed->overrides, file);
+    if (filed) scene::check_patterns(scene, filed->overrides, file);
     scene::apply_overrides(scene, wanted.overrides);
     // Finds the camera before `copy_camera_and_exposure` changes the order of cameras, because an
     // index counts in the scene's own order.
@@ -229,23 +228,21 @@ ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOpt
         filed = scene::read_scene_file(name, options.load);
     if (filed) {
         wanted.scene_file = filed->path;
-        wanted.overrides = scene::combine_overrides(options.overrides, filed->overrides);
+        wanted.overrides = scene::combine(options.overrides, filed->overrides);
         wanted.said.push_back("read beside the scene: " + filed->path.string() +
                               " (--no-scene-file leaves it out)");
         const std::optional<double>& limit = filed->overrides.mirror_max_roughness;
         if (limit && !options.overrides.mirror_max_roughness)
             wanted.said.push_back(
-                filed->path.string() + ": surfaces rougher than " +
-                scene::format_shortest_number(*limit) +
+                filed->path.string() + ": surfaces rougher than " + scene::format_number(*limit) +
                 " are no mirrors (mirror_max_roughness; --mirror-max-roughness sets another limit, " +
-                scene::format_shortest_number(scene::Scene().mirror_max_roughness) +
-                " by default)");
+                scene::format_number(scene::Scene().mirror_max_roughness) + " by default)");
     }
-    scene::SceneFileOptions load = options.load;
+    scene::FileOptions load = options.load;
     if (wanted.overrides.animation) load.animation = *wanted.overrides.animation;
     if (filed && !options.overrides.animation)
         load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
-    wanted.scene = scene::load_scene_file(name, load);
+    wanted.scene = scene::load_file(name, load);
     apply_scene_overrides(wanted, options.overrides, filed);
     if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxSceneLights);
     apply_light_samples(wanted);
@@ -255,7 +252,7 @@ ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOpt
         wanted.said.emplace_back(
             "--environment-shadows has no effect: the scene has no environment "
             "(--environment adds one)");
-    scene::add_unsupported_lighting_features(wanted.scene);
+    scene::add_unsupported_lighting(wanted.scene);
     warn_of_scene_with_many_mirrors(wanted.scene);
     return wanted;
 }
@@ -274,13 +271,12 @@ scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
     if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
-    const scene::Camera outside = scene::make_default_camera(scene, aspect);
+    const scene::Camera outside = scene::default_camera(scene, aspect);
     const auto inside = scene::find_inside_camera(scene, outside);
     const bool is_room = inside && inside->is_in_room;
     const scene::Camera camera = is_room ? inside->camera : outside;
     if (wanted.is_file)
-        scene::add_unsupported_feature(scene.unsupported, "added-camera",
-                                       "scene " + quote(scene.name));
+        scene::add_unsupported(scene.unsupported, "added-camera", "scene " + quote(scene.name));
     wanted.said.push_back(std::string("no camera") + (is_room ? ", a closed room" : "") +
                           ": using --camera " + scene::format_camera(camera) +
                           (is_room ? " (inside)" : ""));

@@ -26,7 +26,7 @@ struct ResolvedScene {
 };
 
 struct SceneResolveOptions {
-    scene::SceneFileOptions load;
+    scene::FileOptions load;
     /// Overrides of the command line; they win over those of SCENE.catoptric.json.
     scene::SceneOverrides overrides;
     bool use_scene_file = true; ///< read SCENE.catoptric.json
@@ -35,7 +35,7 @@ struct SceneResolveOptions {
 /// Loads a scene, reads SCENE.catoptric.json beside it, applies all overrides and completes the
 /// scene. Keeps at most 16 lights of a scene file. A scene without a light gets the environment
 /// `studio` (gap "added-studio"), unless the user says something about it. Throws as scene::load,
-/// scene::read_scene_file, scene::apply_overrides and scene::find_camera_by_name do, and `bad_data`
+/// scene::read_scene_file, scene::apply_overrides and scene::find_camera do, and `bad_data`
 /// for a picture that cannot be an environment.
 ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOptions& options);
 
@@ -46,7 +46,7 @@ double choose_ambient_light(const ResolvedScene& wanted);
 std::optional<double> find_exposure(const ResolvedScene& wanted);
 /// Returns the user's camera, or else the scene's first. If there is none, adds a camera (gap
 /// "added-camera") and reports it in `said`: scene::find_inside_camera for a closed room, else
-/// scene::make_default_camera.
+/// scene::default_camera.
 scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect);
 
 } // namespace catoptric::session

@@ -19,7 +19,7 @@
 namespace catoptric::session {
 
 measure::CameraFacts make_camera_facts(const scene::Camera& moving, double seconds) {
-    const scene::Camera camera = scene::camera_at_time(moving, seconds);
+    const scene::Camera camera = scene::camera_at(moving, seconds);
     return {camera.name,
             camera.eye,
             camera.target,
@@ -44,7 +44,7 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(now, space);
     const shared::View view = render::make_camera_view(
-        scene::camera_at_time(request.camera, request.time), space, size, 0);
+        scene::camera_at(request.camera, request.time), space, size, 0);
     // With more tests than this, building a BVH would be faster.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
                                                              16 * (geometry.indices.size() / 3));
@@ -122,8 +122,7 @@ measure::SceneFacts make_scene_facts(const Request& request, const std::vector<i
                               scene::triangle_count(scene),
                               scene::mirrors(scene).size(),
                               scene::hash_scene(scene),
-                              scene::hash_scene(scene) ==
-                                  scene::hash_scene(scene::make_cornell_mirrors()),
+                              scene::hash_scene(scene) == scene::hash_scene(scene::make_cornell()),
                               make_camera_facts(request.camera, request.time)};
     facts.contents = std::make_shared<measure::SceneContents>(
         measure::SceneContents{list_light_facts(scene), make_environment_facts(scene),

@@ -23,19 +23,19 @@ std::uint64_t count_list_bytes(const std::vector<Item>& list) {
 }
 
 std::string classify_material(const scene::Material& material,
-                              const scene::SurfaceKindShares& surface) {
+                              const scene::SurfaceShares& surface) {
     if (material.mirror) return "mirror";
     if (material.unlit) return "unlit";
     if (scene::is_glass(material)) return "glass";
-    if (surface.mirror >= scene::kMinMirrorAreaShare)
+    if (surface.mirror >= scene::kMinMirrorShare)
         return surface.smoothest > shared::kMaxSharpRoughness ? "rough mirror" : "sharp";
-    if (surface.smooth_dielectric >= scene::kMinMirrorAreaShare) return "smooth dielectric";
+    if (surface.smooth_dielectric >= scene::kMinMirrorShare) return "smooth dielectric";
     if (surface.rough_metal > 0) return "rough metal";
     return surface.rough_dielectric > 0 ? "rough dielectric" : "diffuse";
 }
 
-void add_texture_info(MaterialInfo& info, const char* what,
-                      const std::optional<scene::Texture>& texture) {
+void texture_info(MaterialInfo& info, const char* what,
+                  const std::optional<scene::Texture>& texture) {
     if (!texture) return;
     const uvec2 size = texture->image->size;
     info.textures.push_back(std::string(what) + " " + std::to_string(size.x) + "x" +
@@ -54,11 +54,10 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
         if (user == users.end()) continue;
         const auto& [count, first] = user->second;
         const scene::Material& material = scene.materials[i];
-        MaterialInfo info{
-            .name = material.name,
-            .kind = classify_material(material, scene::measure_surface_kinds(scene, *first)),
-            .objects = count,
-            .albedo = material.albedo};
+        MaterialInfo info{.name = material.name,
+                          .kind = classify_material(material, scene::surface_shares(scene, *first)),
+                          .objects = count,
+                          .albedo = material.albedo};
         std::ranges::transform(
             scene::kMaterialFactors, info.factors.begin(),
             [&](const scene::MaterialFactor& factor) { return material.*factor.member; });
@@ -69,10 +68,10 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
         info.is_masked = scene::has_alpha_mask(material);
         info.is_blended = material.blended;
         info.is_two_sided = !scene::is_one_sided(material);
-        add_texture_info(info, "base colour", material.albedo_texture);
-        add_texture_info(info, "emission", material.emission_texture);
-        add_texture_info(info, "metallic and roughness", material.roughness_texture);
-        add_texture_info(info, "normal", material.normal_texture);
+        texture_info(info, "base colour", material.albedo_texture);
+        texture_info(info, "emission", material.emission_texture);
+        texture_info(info, "metallic and roughness", material.roughness_texture);
+        texture_info(info, "normal", material.normal_texture);
         infos.push_back(std::move(info));
     }
     return infos;
@@ -80,13 +79,13 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
 
 std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vector<int>& seen) {
     std::vector<MirrorInfo> infos;
-    const std::vector<dvec3> centres = scene::list_capture_centres(now);
+    const std::vector<dvec3> centres = scene::capture_centres(now);
     for (const std::size_t index : scene::mirrors(now)) {
         const scene::Object& object = now.objects[index];
         const scene::Material& material = now.materials[object.material];
         MirrorInfo info{.number = infos.size() + 1,
                         .name = object.name,
-                        .shape = scene::classify_mirror_shape(now, object),
+                        .shape = scene::classify_shape(now, object),
                         .capture_centre = centres[infos.size()],
                         .is_constant = material.mirror};
         info.screen_share = static_cast<double>(std::ranges::count(seen, static_cast<int>(index))) /
@@ -94,7 +93,7 @@ std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vec
         if (material.mirror) {
             info.reflectance = material.reflectance;
         } else {
-            const scene::SurfaceKindShares surface = scene::measure_surface_kinds(now, object);
+            const scene::SurfaceShares surface = scene::surface_shares(now, object);
             info.reflectance = surface.mirror > 0 ? surface.mirror_f0
                                                   : scene::compute_f0(material, material.albedo,
                                                                       material.metallic);

@@ -114,7 +114,7 @@ std::size_t count_rays_hitting_targets(const render::FrameGeometry& geometry,
 /// A scene at an instant, prepared for rays.
 struct CameraPlacementScene {
     explicit CameraPlacementScene(const scene::Scene& scene, double seconds)
-        : now(scene::scene_at_time(scene, seconds)), space(render::make_scene_units(scene)),
+        : now(scene::scene_at(scene, seconds)), space(render::make_scene_units(scene)),
           geometry(render::make_frame_geometry(now, space)),
           hierarchy(build_bvh_without_object(geometry, geometry.ranges.size())),
           aims(list_camera_targets(now)) {}

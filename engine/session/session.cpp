@@ -24,7 +24,7 @@ double compute_milliseconds_since(SteadyClock::time_point start) {
 }
 
 render::ShownInstant make_shown_instant(const FrameSpec& spec) {
-    return {spec.time, scene::camera_at_time(spec.camera, spec.time), spec.size, spec.ambient};
+    return {spec.time, scene::camera_at(spec.camera, spec.time), spec.size, spec.ambient};
 }
 
 bool have_equal_plans(const std::vector<reflect::TechniquePlan>& a,
@@ -104,10 +104,10 @@ double Session::Impl::write_device_scene(const render::ShownInstant& wanted) {
     models.clear();
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
-        scene::move_scene_to_time(*moved, scene, wanted.time);
+        scene::move_to_time(*moved, scene, wanted.time);
         transforms = nullptr;
     } else {
-        scene::check_scene_time(wanted.time);
+        scene::check_time(wanted.time);
     }
     if (!transforms) transforms = list_transforms(scene_at_current_instant());
     resident->update(scene_at_current_instant(), wanted.camera, wanted.size, wanted.ambient,

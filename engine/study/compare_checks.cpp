@@ -26,7 +26,7 @@ std::vector<std::string> list_default_techniques(const Request& base) {
     std::vector<scene::FlatFaces> flats;
     for (const std::size_t object : scene::mirrors(now))
         flats.push_back(scene::find_flat_faces(now, now.objects[object]));
-    const double tolerance = scene::compute_flat_tolerance(base.camera, base.size);
+    const double tolerance = scene::flat_tolerance(base.camera, base.size);
     std::vector<std::string> rows;
     for (const reflect::Technique* technique : reflect::list_techniques())
         if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {

@@ -72,8 +72,7 @@ LagMeasurementInstants choose_lag_instants(const LagRequest& request) {
     LagMeasurementInstants path{.start = request.base.time,
                                 .fastest = std::ranges::max(request.speeds)};
     const double frame = path.fastest / kFramesPerSecond;
-    const double frames = std::min(scene::compute_scene_period(request.base.scene),
-                                   kMaxPathSeconds) /
+    const double frames = std::min(scene::scene_period(request.base.scene), kMaxPathSeconds) /
                           frame;
     path.stride = std::max(1, static_cast<int>(std::ceil(frames / request.most_instants)));
     path.count = std::max(1, static_cast<int>(std::lround(frames / path.stride)));

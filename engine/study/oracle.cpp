@@ -50,7 +50,7 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
     for (const scene::Object& object : now.objects)
         emits_.push_back(scene::is_visibly_emissive(now.materials[object.material]));
     everything_ = build_bvh_without_object(geometry_, geometry_.ranges.size());
-    for (const dvec3& centre : scene::list_capture_centres(now))
+    for (const dvec3& centre : scene::capture_centres(now))
         centres_.push_back(space.world_to_scene_point(centre));
     for (const std::size_t object : mirror_objects_) {
         without_.push_back(build_bvh_without_object(geometry_, object));
@@ -61,7 +61,7 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
 void TrueHitFinder::trace_true_hits_of_request(const Request& request) {
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const shared::View view = render::make_camera_view(
-        scene::camera_at_time(request.camera, request.time), space, request.size, 0,
+        scene::camera_at(request.camera, request.time), space, request.size, 0,
         render::compute_geometry_bounds(geometry_));
     const auto mirror_of = [&](std::uint32_t object) {
         return static_cast<std::uint32_t>(std::ranges::find(mirror_objects_, object) -

@@ -83,7 +83,7 @@ StoredReference read_reference_file(const ReferenceKey& key, const std::filesyst
     for (const auto& [name, value] : key) {
         const Json found = json["key"].contains(name) ? json["key"][name] : Json();
         check(found == Json(value), Failure::bad_data, file, ": wanted a reference for the ", name,
-              " ", value, ", found one for ", report::describe_json_value(found));
+              " ", value, ", found one for ", report::describe(found));
     }
     StoredReference reference;
     reference.seeds = read_number_list<int>(json, "seeds", file);

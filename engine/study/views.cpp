@@ -192,7 +192,7 @@ std::vector<measure::View> draw_random_views(const Request& request, int count,
           "cameras per instant: wanted at least 1, found ", cameras_per_instant);
     std::vector<measure::View> views(count > 1 ? static_cast<std::size_t>(count) : 0);
     if (views.empty()) return views;
-    const double period = scene::compute_scene_period(request.scene);
+    const double period = scene::scene_period(request.scene);
     std::mt19937_64 random(request.seed);
     std::vector<std::uint64_t> seeds;
     for (measure::View& view : views) {

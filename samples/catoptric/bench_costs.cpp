@@ -25,7 +25,7 @@ constexpr int kCostFitFrames = 12, kCostWarmupFrames = 14;
 std::vector<session::Request> make_cost_requests(const CostsArguments& arguments) {
     std::vector<std::string> scenes = arguments.scenes;
     if (scenes.empty())
-        for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
+        for (const scene::BuiltInScene& scene : scene::built_in_scenes())
             scenes.emplace_back(scene.name);
     std::vector<session::Request> requests;
     for (const std::string& scene : scenes) {

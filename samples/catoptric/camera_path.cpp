@@ -37,33 +37,31 @@ dvec3 read_json_point(const PathJson& point, const std::string& place) {
     const bool is_point = point.is_array() && point.size() == 3 &&
                           std::ranges::all_of(point, &PathJson::is_number);
     check(is_point, Failure::bad_data, place, ": wanted a list of three numbers, found ",
-          report::describe_json_value(point));
+          report::describe(point));
     return {point[0].get<double>(), point[1].get<double>(), point[2].get<double>()};
 }
 
 /// Returns a number from above 0 to `high`.
-double read_positive_number(const PathJson& number, double high, const std::string& place) {
+double read_positive(const PathJson& number, double high, const std::string& place) {
     check(number.is_number() && number > 0 && number <= high, Failure::bad_data, place,
-          ": wanted a number above 0 and at most ", high, ", found ",
-          report::describe_json_value(number));
+          ": wanted a number above 0 and at most ", high, ", found ", report::describe(number));
     return number.get<double>();
 }
 
 /// Returns a camera as report::make_camera_json writes it.
 scene::Camera read_view_camera(const PathJson& json, const std::string& place) {
     check(json.is_object(), Failure::bad_data, place, ": wanted an object, found ",
-          report::describe_json_value(json));
+          report::describe(json));
     const auto member = [&](const char* name) { return json.value(name, PathJson()); };
     scene::Camera camera;
     camera.eye = read_json_point(member("eye"), place + ".eye");
     camera.target = read_json_point(member("target"), place + ".target");
     camera.up = read_json_point(member("up"), place + ".up");
     if (const PathJson height = member("orthographic_height"); !height.is_null())
-        camera.orthographic_height = read_positive_number(height, 1e30,
-                                                          place + ".orthographic_height");
+        camera.orthographic_height = read_positive(height, 1e30, place + ".orthographic_height");
     else
-        camera.vertical_fov_degrees = read_positive_number(member("vertical_fov_degrees"), 179,
-                                                           place + ".vertical_fov_degrees");
+        camera.vertical_fov_degrees = read_positive(member("vertical_fov_degrees"), 179,
+                                                    place + ".vertical_fov_degrees");
     check_camera_has_direction(camera, place);
     return camera;
 }
@@ -72,19 +70,19 @@ scene::Camera read_view_camera(const PathJson& json, const std::string& place) {
 std::vector<CameraKey> read_views(const PathJson& document, const std::string& file) {
     const PathJson schema = document.value("schema", PathJson());
     check(schema == kViewsSchema, Failure::bad_data, file, ": wanted the schema ", kViewsSchema,
-          " of a file with 'views', found ", report::describe_json_value(schema));
+          " of a file with 'views', found ", report::describe(schema));
     const PathJson& list = document["views"];
     check(list.is_array() && !list.empty(), Failure::bad_data, file,
           ": wanted at least one view in 'views', found ",
-          list.is_array() ? "none" : report::describe_json_value(list));
+          list.is_array() ? "none" : report::describe(list));
     std::vector<CameraKey> views;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::string place = file + ": views[" + std::to_string(i) + "]";
         check(list[i].is_object(), Failure::bad_data, place, ": wanted an object, found ",
-              report::describe_json_value(list[i]));
+              report::describe(list[i]));
         const PathJson time = list[i].value("time", PathJson());
         check(time.is_number() && time >= -1e6 && time <= 1e6, Failure::bad_data, place,
-              ".time: wanted seconds from -1e6 to 1e6, found ", report::describe_json_value(time));
+              ".time: wanted seconds from -1e6 to 1e6, found ", report::describe(time));
         views.push_back({time.get<double>(),
                          read_view_camera(list[i].value("camera", PathJson()), place + ".camera")});
         if (const PathJson name = list[i].value("name", PathJson()); name.is_string())
@@ -96,21 +94,20 @@ std::vector<CameraKey> read_views(const PathJson& document, const std::string& f
 CameraKey read_camera_key(const PathJson& key, const std::string& place,
                           const scene::Scene& scene) {
     check(key.is_object(), Failure::bad_data, place, ": wanted an object, found ",
-          report::describe_json_value(key));
+          report::describe(key));
     for (const auto& [name, value] : key.items())
         check(name == "time" || name == "camera", Failure::bad_data, place,
               ": wanted time and camera, found '", name, "'");
     const PathJson time = key.value("time", PathJson()), camera = key.value("camera", PathJson());
     check(time.is_number() && time >= 0 && time <= 1e6, Failure::bad_data, place,
-          ".time: wanted seconds from 0 to 1e6, found ", report::describe_json_value(time));
+          ".time: wanted seconds from 0 to 1e6, found ", report::describe(time));
     check(camera.is_string(), Failure::bad_data, place,
-          ".camera: wanted the text of a camera as in --camera, found ",
-          report::describe_json_value(camera));
+          ".camera: wanted the text of a camera as in --camera, found ", report::describe(camera));
     check(camera != "seeded", Failure::bad_data, place,
           ".camera: wanted a camera of the scene or numbers, found 'seeded'");
     CameraKey result{time.get<double>(),
-                     scene::find_camera_by_name(camera.get<std::string>(), scene,
-                                                {place + ".camera", Failure::bad_data})};
+                     scene::find_camera(camera.get<std::string>(), scene,
+                                        {place + ".camera", Failure::bad_data})};
     check(result.camera.follows == scene::RigAttachment(), Failure::bad_data, place,
           ".camera: wanted a camera that stands still, found '", result.camera.name,
           "', which a node of the scene carries");
@@ -209,7 +206,7 @@ CameraPath read_key_path(const PathJson& document, const std::string& file,
     check(list.is_array() && list.size() >= 2, Failure::bad_data, file,
           ": wanted an object with at least two 'keys', found ",
           list.is_array() ? std::to_string(list.size())
-                          : report::describe_json_value(document.is_object() ? list : document));
+                          : report::describe(document.is_object() ? list : document));
     for (const auto& [name, value] : document.items())
         check(name == "keys", Failure::bad_data, file, ": wanted only 'keys', found '", name, "'");
     std::vector<CameraKey> keys;

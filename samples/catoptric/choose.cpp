@@ -90,7 +90,7 @@ void read_certificate(const ChooseOptions& options, study::ChooseRequest& reques
         const bool fits = value.is_number() && value.get<double>() >= low &&
                           value.get<double>() <= high;
         check(fits, Failure::bad_data, file, ": certificate.", name, ": wanted a number from ", low,
-              " to ", high, ", found ", report::describe_json_value(value));
+              " to ", high, ", found ", report::describe(value));
         return value.get<double>();
     };
     constexpr double kMaxEdge = 1 << 20; // as of --size
@@ -108,8 +108,7 @@ void read_certificate(const ChooseOptions& options, study::ChooseRequest& reques
         }
     const nlohmann::json reference = certificate.value("reference", nlohmann::json());
     check(reference.is_null() || reference.is_string(), Failure::bad_data, file,
-          ": certificate.reference: wanted a technique, found ",
-          report::describe_json_value(reference));
+          ": certificate.reference: wanted a technique, found ", report::describe(reference));
     if (reference.is_string() && options.common.reference.empty()) {
         try {
             request.reference = parse_reference(reference.get<std::string>());
@@ -252,7 +251,7 @@ void check_output_place(const ChooseOptions& options, const study::ChooseRequest
 }
 
 int run_choose(const ChooseOptions& options) {
-    scene::check_scene_exists(options.common.scene);
+    scene::check_exists(options.common.scene);
     if (!options.certified.empty()) read_certificate_of_plan(options.certified);
     if (!options.limits.costs.empty()) report::read_costs_file(options.limits.costs);
     check(options.certified.empty() || options.techniques.empty(), Failure::usage,

@@ -307,8 +307,7 @@ report::Comparison compare_scene(session::Engine& engine, study::CompareRequest&
 
 int run_compare(const CompareOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
-    for (const std::string& scene : list_scenes_to_compare(options))
-        scene::check_scene_exists(scene);
+    for (const std::string& scene : list_scenes_to_compare(options)) scene::check_exists(scene);
     throw_unless_option_given(!options.folder.empty(), "compare", "-o DIR",
                               "the folder for the report");
     check_folder_can_be_made(options.folder);

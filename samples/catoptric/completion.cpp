@@ -43,7 +43,7 @@ std::vector<std::string> list_argument_words(const std::string& verb) {
     if (verb == "completion") return kShells;
     std::vector<std::string> names;
     if (!is_one_of(kVerbsWithoutFiles, verb) && verb != "diff")
-        for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
+        for (const scene::BuiltInScene& scene : scene::built_in_scenes())
             names.push_back(scene.name);
     return names;
 }

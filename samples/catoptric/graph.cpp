@@ -129,7 +129,7 @@ void add_graph_verb(CommandLine& program) {
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
     verb.set_verb_action([options] {
-        scene::check_scene_exists(options->common.scene);
+        scene::check_exists(options->common.scene);
         const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
         if (is_given || !options->why || options->common.budget_ms > 0)
             options->technique = check_technique_choice(options->drawn, "graph");

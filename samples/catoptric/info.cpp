@@ -47,8 +47,7 @@ ProgramInfo gather_info_facts(const DeviceOptions& device) {
     std::vector<std::string> techniques, scenes;
     for (const session::TechniqueInfo& technique : session::techniques())
         techniques.push_back(technique.name);
-    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
-        scenes.push_back(scene.name);
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes()) scenes.push_back(scene.name);
     facts.features = {{"techniques", techniques},
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
@@ -128,7 +127,7 @@ void write_scene_file(const InfoOptions& options, const session::ResolvedScene& 
         overrides.environment = scene.environment && scene.environment->studio ? "studio" : "none";
     if (wanted.is_camera_seeded)
         overrides.camera = request.camera.name; // the name holds the camera's numbers
-    write_file(path, scene::write_scene_file_text(overrides, options.common.scene));
+    write_file(path, scene::scene_file_text(overrides, options.common.scene));
     print_note_unless_quiet(options.common.output_options, "written: " + path.string());
 }
 

@@ -13,8 +13,8 @@ namespace {
 using report::Json;
 
 Json make_colour_json(const vec3& colour) {
-    return {scene::float_to_shortest_double(colour.x), scene::float_to_shortest_double(colour.y),
-            scene::float_to_shortest_double(colour.z)};
+    return {scene::shortest_double(colour.x), scene::shortest_double(colour.y),
+            scene::shortest_double(colour.z)};
 }
 
 Json make_material_json(const session::MaterialInfo& material) {
@@ -23,7 +23,7 @@ Json make_material_json(const session::MaterialInfo& material) {
               {"objects", material.objects},
               {"albedo", make_colour_json(material.albedo)}};
     for (std::size_t i = 0; i < material.factors.size(); ++i)
-        json[std::string(scene::kMaterialFactors[i].name)] = scene::float_to_shortest_double(
+        json[std::string(scene::kMaterialFactors[i].name)] = scene::shortest_double(
             material.factors[i]);
     json["f0"] = make_colour_json(material.f0);
     json["light"] = material.light == vec3(0) ? Json() : make_colour_json(material.light);
@@ -34,7 +34,7 @@ Json make_material_json(const session::MaterialInfo& material) {
 }
 
 Json make_mirror_shape_json(const scene::MirrorShape& shape) {
-    Json json{{"kind", scene::mirror_shape_kind_name(shape.kind)}, {"closed", shape.is_closed}};
+    Json json{{"kind", scene::shape_name(shape.kind)}, {"closed", shape.is_closed}};
     json["sphere"] = nullptr;
     if (shape.fit)
         json["sphere"] = {{"centre", report::make_point_json(shape.fit->centre)},

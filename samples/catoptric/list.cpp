@@ -105,9 +105,9 @@ std::vector<NamedListEntry> list_device_costs() {
     return rows;
 }
 
-std::vector<NamedListEntry> list_built_in_scenes() {
+std::vector<NamedListEntry> built_in_scenes() {
     std::vector<NamedListEntry> rows;
-    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes())
         rows.push_back({scene.name, scene.summary});
     return rows;
 }
@@ -147,7 +147,7 @@ std::string make_list_output(const std::string& kind, const std::string& name, b
     }
     if (kind == "metrics") return json ? make_metrics_json() : format_metric_list();
     const std::vector<NamedListEntry> rows = kind == "costs" ? list_device_costs()
-                                                             : list_built_in_scenes();
+                                                             : built_in_scenes();
     return json ? make_named_list_json(kind, rows) : format_named_list(rows);
 }
 

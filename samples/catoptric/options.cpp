@@ -117,10 +117,9 @@ void warn_of_no_mirror(const scene::Scene& scene) {
 
 } // namespace
 
-scene::SceneFileOptions make_scene_file_options(const CommonOptions& common) {
+scene::FileOptions make_scene_file_options(const CommonOptions& common) {
     return {.root = common.root,
-            .budget = scene::choose_load_budget(common.scene, common.budget,
-                                                scene::read_free_memory())};
+            .budget = scene::choose_budget(common.scene, common.budget, scene::read_free_memory())};
 }
 
 std::string parse_reference(const std::string& text) {
@@ -225,7 +224,7 @@ void throw_unless_option_given(bool given, const std::string& verb, const std::s
 void check_technique_list(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
-        for (const scene::BuiltInScene& built_in : scene::list_built_in_scenes())
+        for (const scene::BuiltInScene& built_in : scene::built_in_scenes())
             scene |= built_in.name == text;
         check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
               "'; SCENE comes before --techniques");

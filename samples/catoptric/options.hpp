@@ -29,7 +29,7 @@ inline constexpr const char* kNoProfileName = "none";
 struct CommonOptions {
     OutputOptions output_options;
     std::string scene = "cornell-mirrors";
-    scene::SceneLoadBudgetOverride budget; ///< limits for loading the scene
+    scene::BudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
     uvec2 size{512, 512};
     bool is_size_given = false;
@@ -75,7 +75,7 @@ void add_view_options(CommandVerb& verb, CommonOptions& common);
 /// Adds --camera and --exposure.
 void add_camera_options(CommandVerb& verb, CommonOptions& common);
 /// Returns the options for loading the scene.
-scene::SceneFileOptions make_scene_file_options(const CommonOptions& common);
+scene::FileOptions make_scene_file_options(const CommonOptions& common);
 /// Returns the label of a technique that can be the reference. Throws `usage` for plans and unknown
 /// techniques.
 std::string parse_reference(const std::string& text);

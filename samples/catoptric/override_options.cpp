@@ -13,7 +13,7 @@ const std::string kSceneOptionsHeading = "The scene";
 
 void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     const auto mirror = [&](const std::string& text) {
-        overrides.mirrors.push_back(scene::read_mirror_override("--mirror", text));
+        overrides.mirrors.push_back(scene::parse_mirror_override("--mirror", text));
     };
     verb.heading(kCommonOptions);
     verb.repeated(
@@ -159,8 +159,8 @@ void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
                   "set a key of SCENE.catoptric.json, such as ambient=0 or lights=lamp*; wins over "
                   "the option of that name; may be repeated",
                   [&common](const std::string& text) {
-                      common.overrides = scene::combine_overrides(scene::read_override(text),
-                                                                  common.overrides);
+                      common.overrides = scene::combine(scene::read_override(text),
+                                                        common.overrides);
                   });
 }
 

@@ -412,7 +412,7 @@ void add_render_verb(CommandLine& program) {
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
     verb.set_verb_action([options] {
-        scene::check_scene_exists(options->common.scene);
+        scene::check_exists(options->common.scene);
         TechniqueOption drawn = options->drawn;
         if (drawn.technique.empty() && drawn.plan.empty()) drawn.technique = kDefaultTechnique;
         options->technique = check_technique_choice(drawn, "render");

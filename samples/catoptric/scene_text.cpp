@@ -76,7 +76,7 @@ SceneTableCells list_material_cells(const session::SceneInfo& info) {
 }
 
 std::string describe_mirror_shape(const scene::MirrorShape& shape) {
-    std::string text = scene::mirror_shape_kind_name(shape.kind);
+    std::string text = scene::shape_name(shape.kind);
     text += shape.is_closed ? ", closed" : ", open";
     if (shape.fit)
         text += fmt::format(", radius {:.4g} within {:.2g}", shape.fit->radius, shape.tolerance);

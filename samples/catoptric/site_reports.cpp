@@ -40,16 +40,14 @@ private:
 };
 
 SiteJson find_member(const SiteJson& object, const std::string& name, const ReportPlace& place) {
-    place.check(object.is_object(), "wanted an object, found ",
-                report::describe_json_value(object));
+    place.check(object.is_object(), "wanted an object, found ", report::describe(object));
     return object.value(name, SiteJson());
 }
 
 std::string read_text_member_of_report(const SiteJson& object, const std::string& name,
                                        const ReportPlace& place) {
     const SiteJson value = find_member(object, name, place);
-    place.at(name).check(value.is_string(), "wanted text, found ",
-                         report::describe_json_value(value));
+    place.at(name).check(value.is_string(), "wanted text, found ", report::describe(value));
     return value.get<std::string>();
 }
 
@@ -60,7 +58,7 @@ double read_number_member_within(const SiteJson& object, const std::string& name
     const bool fits = value.is_number() && value.get<double>() >= low &&
                       value.get<double>() <= high;
     place.at(name).check(fits || value.is_null(), "wanted a number from ", low, " to ", high,
-                         ", found ", report::describe_json_value(value));
+                         ", found ", report::describe(value));
     return fits ? value.get<double>() : NAN;
 }
 
@@ -79,7 +77,7 @@ std::string read_judged_time(const SiteJson& json, const ReportPlace& place) {
     if (name.is_null()) return "gpu_ms";
     place.at("judged_time")
         .check(name == "gpu_ms" || name == "frame_ms" || name == "cpu_ms",
-               "wanted gpu_ms, frame_ms or cpu_ms, found ", report::describe_json_value(name));
+               "wanted gpu_ms, frame_ms or cpu_ms, found ", report::describe(name));
     return name.get<std::string>();
 }
 
@@ -113,8 +111,7 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
     const SiteJson size = find_member(json, "size", place);
     place.at("size").check(size.is_array() && size.size() == 2 && size[0].is_number_unsigned() &&
                                size[1].is_number_unsigned(),
-                           "wanted two numbers of pixels, found ",
-                           report::describe_json_value(size));
+                           "wanted two numbers of pixels, found ", report::describe(size));
     const SiteJson scene = find_member(json, "scene", place);
     const SiteJson camera = find_member(scene, "camera", place.at("scene"));
     const auto point = [&](const char* name) {
@@ -122,7 +119,7 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
         place.at(std::string("scene.camera.") + name)
             .check(value.is_array() && value.size() == 3 && value[0].is_number() &&
                        value[1].is_number() && value[2].is_number(),
-                   "wanted three numbers, found ", report::describe_json_value(value));
+                   "wanted three numbers, found ", report::describe(value));
         return fmt::format("{} {} {}", value[0].get<double>(), value[1].get<double>(),
                            value[2].get<double>());
     };
@@ -171,17 +168,16 @@ SiteComparison read_common_members(const SiteJson& json, const ReportPlace& plac
                            "wanted a date such as 2026-11-24T03:05:10Z, found ", quote(found.date));
     const SiteJson rows = find_member(json, "rows", place);
     place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
-                           report::describe_json_value(rows));
+                           report::describe(rows));
     const std::string time = read_judged_time(json, place);
     for (std::size_t i = 0; i < rows.size(); ++i)
         found.rows.push_back(read_site_row(rows[i], time, place.at(fmt::format("rows[{}]", i))));
     const SiteJson front = find_member(json, "pareto", place);
-    place.at("pareto").check(front.is_array(), "wanted a list, found ",
-                             report::describe_json_value(front));
+    place.at("pareto").check(front.is_array(), "wanted a list, found ", report::describe(front));
     for (const SiteJson& index : front) {
-        place.at("pareto").check(
-            index.is_number_unsigned() && index.get<std::size_t>() < found.rows.size(),
-            "wanted numbers of rows, found ", report::describe_json_value(index));
+        place.at("pareto").check(index.is_number_unsigned() &&
+                                     index.get<std::size_t>() < found.rows.size(),
+                                 "wanted numbers of rows, found ", report::describe(index));
         found.rows[index.get<std::size_t>()].on_front = true;
     }
     return found;
@@ -190,7 +186,7 @@ SiteComparison read_common_members(const SiteJson& json, const ReportPlace& plac
 SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& place) {
     place.check(find_member(json, "schema", place) == "catoptric/compare/1",
                 "wanted the schema catoptric/compare/1, found ",
-                report::describe_json_value(find_member(json, "schema", place)));
+                report::describe(find_member(json, "schema", place)));
     place.check(find_member(json, "complete", place) == true,
                 "wanted a complete report; this run was stopped");
     SiteComparison found = read_common_members(json, place);
@@ -213,8 +209,7 @@ read_comparison_list(const SiteJson& json, const std::string& name, const Report
                      SiteComparison (*read)(const SiteJson&, const ReportPlace&)) {
     const SiteJson elements = find_member(json, name, place);
     place.at(name).check(elements.is_array() && !elements.empty(),
-                         "wanted a list with an element, found ",
-                         report::describe_json_value(elements));
+                         "wanted a list with an element, found ", report::describe(elements));
     std::vector<SiteComparison> list;
     for (std::size_t i = 0; i < elements.size(); ++i)
         list.push_back(read(elements[i], place.at(fmt::format("{}[{}]", name, i))));

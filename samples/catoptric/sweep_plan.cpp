@@ -55,7 +55,7 @@ constexpr std::string_view kRefusedOptions[] = {"output",        "techniques",
                                                 "progress",      "reference-seconds",
                                                 "help",          "version"};
 
-std::string describe(const SweepJson& value) { return report::describe_json_value(value); }
+std::string describe(const SweepJson& value) { return report::describe(value); }
 
 /// A place in a sweep's file, for messages.
 struct SweepPlace {
@@ -132,8 +132,8 @@ bool is_path_option(const std::string& name, const std::string& value) {
 }
 
 bool is_built_in_scene(const std::string& name) {
-    return std::ranges::find(scene::list_built_in_scenes(), name, &scene::BuiltInScene::name) !=
-           scene::list_built_in_scenes().end();
+    return std::ranges::find(scene::built_in_scenes(), name, &scene::BuiltInScene::name) !=
+           scene::built_in_scenes().end();
 }
 
 /// The contents of a sweep's file, after all members were checked.

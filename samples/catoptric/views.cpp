@@ -65,7 +65,7 @@ Json make_views_document(const session::Request& request, const std::vector<meas
     return document;
 }
 
-Json make_number_list(std::initializer_list<double> numbers) { return Json(numbers); }
+Json number_list(std::initializer_list<double> numbers) { return Json(numbers); }
 
 /// Returns the camera of glTF 2.0 (section 5.12).
 Json make_gltf_camera(const measure::CameraFacts& camera, const std::string& name, uvec2 size) {
@@ -95,8 +95,8 @@ Json make_gltf_camera_node(const measure::View& view, std::size_t index) {
     const glm::dquat turn = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back));
     return {{"name", study::view_picture_name(index)},
             {"camera", index},
-            {"translation", make_number_list({camera.eye.x, camera.eye.y, camera.eye.z})},
-            {"rotation", make_number_list({turn.x, turn.y, turn.z, turn.w})},
+            {"translation", number_list({camera.eye.x, camera.eye.y, camera.eye.z})},
+            {"rotation", number_list({turn.x, turn.y, turn.z, turn.w})},
             {"extras", {{"time", view.time}}}};
 }
 
@@ -129,7 +129,7 @@ std::string make_views_text(const std::vector<measure::View>& views) {
 }
 
 int run_views(const ViewsOptions& options) {
-    scene::check_scene_exists(options.common.scene);
+    scene::check_exists(options.common.scene);
     throw_unless_option_given(!options.folder.empty(), "views", "-o DIR",
                               "the folder for the views");
     const session::Request request = make_render_request_of_options(options.common);

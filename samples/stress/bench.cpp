@@ -48,8 +48,7 @@ session::Request StressTestBench::make_stress_request(const scene::Scene& scene,
     session::Request request;
     request.scene = scene;
     request.techniques = {technique};
-    request.camera = scene.cameras.empty() ? scene::make_default_camera(scene)
-                                           : scene.cameras.front();
+    request.camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front();
     request.size = size_;
     request.frames = 1;
     request.warmup = frames - 1;

@@ -167,7 +167,7 @@ void judge_moving_ball(StressTestBench& bench) {
     constexpr int kWarmupFrames = 8, kPathFrames = 120;
     constexpr double kMotionPathSeconds = 4;
     session::Request request = bench.make_stress_request(
-        scene::make_cornell_mirrors(), bench.fit_captures("parallax:face=128"), 1);
+        scene::make_cornell(), bench.fit_captures("parallax:face=128"), 1);
     request.size = bench.picture_size_of_at_least(128);
     session::Session session(bench.bench_engine(), request.scene);
     std::vector<double> steps;
@@ -187,8 +187,8 @@ void judge_moving_ball(StressTestBench& bench) {
 
 void judge_parallax_correction(StressTestBench& bench) {
     const auto contract = [&](const std::string& technique, int frames) {
-        session::Request request = bench.make_stress_request(scene::make_cornell_mirrors(),
-                                                             technique, frames);
+        session::Request request = bench.make_stress_request(scene::make_cornell(), technique,
+                                                             frames);
         request.size = {512, 512}; // ball 4 is only about 30 pixels wide at half this size
         return bench.render_technique(request);
     };

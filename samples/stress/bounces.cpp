@@ -70,7 +70,7 @@ void add_case_of_falling_differences(StressTestBench& bench, const std::string& 
 }
 
 void judge_cornell_bounces(StressTestBench& bench) {
-    session::Request request = bench.make_stress_request(scene::make_cornell_mirrors(), "naive", 1);
+    session::Request request = bench.make_stress_request(scene::make_cornell(), "naive", 1);
     request.size = uvec2(bench.has_small_pictures() ? kMinBouncePictureEdge : 512);
     add_case_of_falling_differences(
         bench, "the report's room",

@@ -26,7 +26,7 @@ namespace {
 
 /// Returns the room of the built-in scene with only one of its mirrors (from 0), or with no mirror.
 scene::Scene make_room_with_one_mirror(std::size_t mirror) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (std::size_t i = mirrors.size(); i-- > 0;)
         if (i != mirror)
@@ -51,7 +51,7 @@ void judge_captured_distances(StressTestBench& bench) {
     constexpr std::uint32_t kCaptureFaceEdge = 128;
     constexpr double kMaxStoredDistance =
         200; // largest distance of the seed report's 8-bit storage
-    const std::size_t mirrors = scene::mirrors(scene::make_cornell_mirrors()).size();
+    const std::size_t mirrors = scene::mirrors(scene::make_cornell()).size();
     const scene::Scene walls = make_room_with_one_mirror(mirrors);
     const DoublePrecisionTracer tracer(walls, 0);
     for (const TexelFormat format : {TexelFormat::r32f, TexelFormat::r16f})

@@ -97,7 +97,7 @@ void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
         for (int k = 0; k < kSettlingFrames; ++k) {
             request.time = double(k) / kSettlingFrames;
             const session::Frame frame = bench.render_frame(session, request);
-            const scene::Scene now = scene::scene_at_time(scene, request.time);
+            const scene::Scene now = scene::scene_at(scene, request.time);
             const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
                                          object.sphere->radius;
             if (std::abs(depth) < .01) continue; // the eye is between the mesh and its sphere

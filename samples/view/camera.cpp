@@ -64,7 +64,7 @@ scene::Camera move_camera(const scene::Camera& camera, const CameraMoves& moves,
     if (flies) shift += forward * (moves.wheel * reach / 20);
     next.eye += shift, next.target += shift;
     try {
-        scene::Camera typed = scene::find_camera_by_name(scene::format_camera(next), {});
+        scene::Camera typed = scene::find_camera(scene::format_camera(next), {});
         typed.name = next.name;
         return typed;
     } catch (const Error&) { // the camera would leave its allowed range

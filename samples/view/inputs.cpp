@@ -88,7 +88,7 @@ std::optional<uvec2> MouseDragState::apply_drag(const UserInput& inputs, ViewSta
     moves.flown = inputs.flies * inputs.seconds;
     if (holds_ != MouseDraggedObject::turning || strayed_) last_ = inputs.mouse;
     if (moves.any())
-        state.camera = move_camera(scene::camera_at_time(state.camera, state.motion.time), moves,
+        state.camera = move_camera(scene::camera_at(state.camera, state.motion.time), moves,
                                    state.flies, size.y, reach);
     return clicked;
 }

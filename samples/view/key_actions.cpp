@@ -18,7 +18,7 @@ namespace {
 std::string make_camera_option_text(const scene::Scene& scene, const scene::Camera& camera) {
     std::string text = scene::format_camera(camera);
     try {
-        scene::Camera typed = scene::find_camera_by_name(text, {});
+        scene::Camera typed = scene::find_camera(text, {});
         typed.name = camera.name;
         if (typed == camera) return text;
     } catch (const Error&) { // the numbers are outside the range of --camera

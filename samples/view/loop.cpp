@@ -90,7 +90,7 @@ void ViewLoop::open(SceneChangeOrigin scene) {
     state_.motion.time = request_.time;
     state_.motion.plays = request_.animate;
     reach_ = compute_scene_diagonal(request_.scene);
-    period_ = scene::compute_scene_period(request_.scene);
+    period_ = scene::scene_period(request_.scene);
     good_ = state_;
 }
 

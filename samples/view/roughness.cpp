@@ -55,7 +55,7 @@ std::vector<std::string> make_roughness_option_words(const scene::Scene& scene,
     for (const auto& [mirror, value] : roughness) {
         const scene::Object& object = find_mirror_object(scene, mirror);
         const vec3 reflectance = make_mirror_override(scene.materials[object.material]).reflectance;
-        std::string pattern = scene::make_mirror_pattern(object.name);
+        std::string pattern = scene::mirror_pattern(object.name);
         if (object.name.find('=') != std::string::npos && pattern.ends_with("=1"))
             pattern.resize(pattern.size() - 2);
         words.insert(words.end(),

@@ -22,14 +22,14 @@ struct Reflection {
 // Returns whether rays leave the surface that was evaluated last in directions drawn from its lobe.
 bool draws_from_lobe() { return traces_lobes != 0u && has_rough_lobe(); }
 
-// Returns the parts of the surface that was evaluated last. `has_specular_part`: it reflects in its lobe or like a mirror.
+// Returns the parts of the surface that was evaluated last. `has_specular`: it reflects in its lobe or like a mirror.
 // `cosine`: between the shading normal and the direction to the viewer.
-Reflection split_reflection(Surface surface, bool has_specular_part, float cosine) {
+Reflection split_reflection(Surface surface, bool has_specular, float cosine) {
     Reflection parts = Reflection(vec3(0), surface.reflectance, 1.0, surface.detail);
     if (traces_paths == 0u) return parts;
     // Without MaterialParameters, a mirror has no diffuse part.
-    if (!has_specular_part || details != 0u) parts.diffuse = surface.albedo;
-    float specular = has_specular_part ? largest_vector_component(has_rough_lobe() ? specular_lobe_albedo(cosine) : surface.reflectance) : 0.0;
+    if (!has_specular || details != 0u) parts.diffuse = surface.albedo;
+    float specular = has_specular ? largest_vector_component(has_rough_lobe() ? specular_lobe_albedo(cosine) : surface.reflectance) : 0.0;
     float whole = specular + largest_vector_component(parts.diffuse);
     if (whole > 0.0) parts.specular_share = specular / whole;
     return parts;
@@ -89,11 +89,11 @@ bool sample_reflection_direction(SurfacePoint p, Reflection parts, vec3 directio
     float part = 0.0, survival = 0.0, u = 0.0, v = 0.0;
     if (traces_lobes != 0u) sample_pattern_point(path_pixel, path_sample, bounce, path_seed, u, v);
     if (traces_paths != 0u) sample_pattern_point(path_pixel, path_sample, kPartDimensions + bounce, path_seed, part, survival);
-    bool has_specular_part = traces_paths == 0u || part < parts.specular_share;
+    bool has_specular = traces_paths == 0u || part < parts.specular_share;
     vec3 lobe_weight = vec3(1);
-    bool is_drawn = !has_specular_part || draws_from_lobe() && sample_specular_lobe(direction, p.facet, u, v, lobe_weight, leaving);
+    bool is_drawn = !has_specular || draws_from_lobe() && sample_specular_lobe(direction, p.facet, u, v, lobe_weight, leaving);
     if (is_drawn) {
-        if (!has_specular_part) leaving = sample_diffuse_direction(p, parts, u, v);
+        if (!has_specular) leaving = sample_diffuse_direction(p, parts, u, v);
         vec3 reflected = evaluate_reflection(p, parts, direction, leaving, density);
         // The weight of a drawn lobe direction is exact for lobes of any width, but the quotient of lobe and density is
         // not.

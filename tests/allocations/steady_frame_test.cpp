@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrameAllocationTest,
 TEST_P(SteadyFrameAllocationTest, EachFrameMakesTheSameNumberOfAllocations) {
     gpu::GpuDevice device({}); // without the validation layer, whose allocations would count
     gpu::PipelineStore pipelines(device);
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {32, 32}, 0);
     graph::GraphRunner runner(device, pipelines, 2);

@@ -189,7 +189,7 @@ int main(int argc, char** argv) try {
     const int place = rules ? 2 : 1;
     const int rounds = argc > place ? std::max(1, std::atoi(argv[place])) : 7;
     session::Request base;
-    base.scene = scene::make_cornell_mirrors();
+    base.scene = scene::make_cornell();
     base.camera = base.scene.cameras.front();
     base.frames = 5;
     base.warmup = 3;

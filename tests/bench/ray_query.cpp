@@ -101,7 +101,7 @@ int main(int argc, char** argv) try {
         return kNoDeviceExitCode;
     }
     const test::DriverRayQuery query(*device);
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const render::SceneUnitTransform space = render::make_scene_units(scene);
     const std::vector<bvh::Triangle> triangles = test::list_built_in_triangles();
     test::RandomNumbers numbers(7);

@@ -24,7 +24,7 @@ struct PairOutcomeCount {
 void repeat_comparison_of_rows(int times, const std::vector<std::string>& rows) {
     session::Engine engine({});
     study::CompareRequest request;
-    request.base.scene = scene::make_cornell_mirrors();
+    request.base.scene = scene::make_cornell();
     request.base.camera = request.base.scene.cameras.front();
     request.base.size = {128, 128};
     request.base.techniques = rows;

@@ -80,13 +80,11 @@ void expect_same_picture_as_peer(const scene::Scene& scene, int depth, bool exac
 }
 
 TEST(Whitted, PictureOfMeshesMatchesEmbree) {
-    for (const int depth : {1, 4})
-        expect_same_picture_as_peer(scene::make_cornell_mirrors(), depth, false);
+    for (const int depth : {1, 4}) expect_same_picture_as_peer(scene::make_cornell(), depth, false);
 }
 
 TEST(Whitted, PictureOfExactSpheresMatchesEmbree) {
-    for (const int depth : {1, 4})
-        expect_same_picture_as_peer(scene::make_cornell_mirrors(), depth, true);
+    for (const int depth : {1, 4}) expect_same_picture_as_peer(scene::make_cornell(), depth, true);
 }
 
 // The scene `room` has textures, smooth dielectrics, two-sided surfaces, lamps without a cosine

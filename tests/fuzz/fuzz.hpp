@@ -60,19 +60,19 @@ void expect_only_bad_data(Body&& body) {
 /// lights.
 inline void load_and_use_scene_file(const std::string& name) {
     expect_only_bad_data([&] {
-        const catoptric::scene::SceneLoadBudget small{.file_bytes = 1 << 20,
-                                                      .json_memory = 16 << 20,
-                                                      .vertices = 20'000,
-                                                      .triangles = 10'000,
-                                                      .objects = 1'000,
-                                                      .keys = 10'000,
-                                                      .texels = 1 << 18,
-                                                      .made_bytes = 1 << 20,
-                                                      .cuts = 100'000};
-        const auto scene = catoptric::scene::load_scene_file(
-            (find_process_folder() / name).string(), {.budget = small});
+        const catoptric::scene::LoadBudget small{.file_bytes = 1 << 20,
+                                                 .json_memory = 16 << 20,
+                                                 .vertices = 20'000,
+                                                 .triangles = 10'000,
+                                                 .objects = 1'000,
+                                                 .keys = 10'000,
+                                                 .texels = 1 << 18,
+                                                 .made_bytes = 1 << 20,
+                                                 .cuts = 100'000};
+        const auto scene = catoptric::scene::load_file((find_process_folder() / name).string(),
+                                                       {.budget = small});
         catoptric::scene::hash_scene(scene);
-        list_lights(catoptric::scene::scene_at_time(scene, .5));
+        list_lights(catoptric::scene::scene_at(scene, .5));
     });
 }
 

@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string bytes = decode_picture_input(fuzz::fuzz_input_to_text(data, size));
     for (const char* name : {"x", "x.tga"})
         fuzz::expect_only_bad_data([&] {
-            SceneLoadBudgetUsage account({.texels = 1 << 18});
+            LoadAccount account({.texels = 1 << 18});
             decode_image(bytes, name, "x", account);
         });
     return 0;

@@ -94,7 +94,7 @@ private:
 
 TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
     session::Engine engine = embed::make_engine(list_handles_of_test_device());
-    session::Session session(engine, scene::make_cornell_mirrors(), 2);
+    session::Session session(engine, scene::make_cornell(), 2);
     const session::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
                                   .camera = session.scene().cameras.front(),
                                   .size = {32, 16}};
@@ -122,7 +122,7 @@ TEST(Embed, MissingDeviceHandlesAreRefused) {
 }
 
 TEST(Embed, UnusableTargetIsRefused) {
-    session::Session session(test::get_test_engine(), scene::make_flat_mirror_room());
+    session::Session session(test::get_test_engine(), scene::make_flat_room());
     session::FrameSpec spec{
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
     // The image is a placeholder, because the calls are refused before they use it.

@@ -28,7 +28,7 @@ std::vector<DeviceRay> make_random_rays_in_box(std::size_t count, vec3 lo, vec3 
 }
 
 TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
-    const scene::Scene room = scene::make_cornell_mirrors();
+    const scene::Scene room = scene::make_cornell();
     const render::FrameGeometry geometry = render::make_frame_geometry(
         room, render::make_scene_units(room));
     DeviceRayTracer kernel(session::build_bvh_without_object(geometry, geometry.ranges.size()));

@@ -17,7 +17,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
+    session::Request request = test::make_test_request(scene::make_cornell(), {GetParam()},
                                                        {96, 96});
     request.frames = 3;
     const session::TechniqueResult at_once = std::move(
@@ -75,7 +75,7 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
 
 TEST(Culling, CulledCapturesKeepTheirBytes) {
     for (const scene::Scene& scene :
-         {scene::make_cornell_mirrors(), test::make_lit_room(3, 2), test::make_furnace_scene(2)}) {
+         {scene::make_cornell(), test::make_lit_room(3, 2), test::make_furnace_scene(2)}) {
         const test::CapturedCubes captured = test::capture_mirrors(scene, 128, TexelFormat::r32f);
         EXPECT_EQ(captured.colour_bytes, draw_every_object_into_captures(scene, 128)) << scene.name;
     }

@@ -84,8 +84,8 @@ TEST(FramePieces, HoldAtMost32768RaysOnAProcessor) {
 
 TEST(FramePieces, HoldUpTo262144RaysOnAProcessor) {
     if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                       {"raytrace:depth=1"}, {1024, 1024});
+    session::Request request = test::make_test_request(scene::make_cornell(), {"raytrace:depth=1"},
+                                                       {1024, 1024});
     session::Session session(test::get_test_engine(), request.scene);
     std::vector<std::uint64_t> largest;
     for (int frame = 0; frame < 8; ++frame) {

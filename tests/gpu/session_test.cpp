@@ -173,8 +173,8 @@ TEST(Session, ResumedSequenceContinues) {
 }
 
 TEST(Session, WatcherIsToldOfEveryFrameAndCanStop) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                       {"reuse:face=16"}, kSessionPictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell(), {"reuse:face=16"},
+                                                       kSessionPictureSize);
     request.warmup = 2, request.frames = 3;
     session::Session session(test::get_test_engine(), request.scene);
     std::vector<std::pair<int, int>> told;
@@ -296,7 +296,7 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
 }
 
 TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::Session session(test::get_test_engine(), scene);
     std::uint64_t uploads = 0;
     for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
@@ -313,7 +313,7 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
 }
 
 TEST(Session, OnlyTracingTechniquesRefitTrees) {
-    const scene::Scene scene = scene::make_cornell_mirrors(); // a scene with a moving ball
+    const scene::Scene scene = scene::make_cornell(); // a scene with a moving ball
     for (const std::string technique : {"parallax:face=16", "raytrace"}) {
         session::Session session(test::get_test_engine(), scene);
         for (int k = 0; k < 5; ++k) {
@@ -331,7 +331,7 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
 /// Tests that the host's work time excludes the time from submit to the end of the frame. The sum
 /// of both may not exceed the whole frame's duration.
 TEST(Session, WaitingTimeIsNotHostWork) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::Session session(test::get_test_engine(), scene);
     session::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
     spec.size = {256, 256};
@@ -352,7 +352,7 @@ TEST(Session, WaitingTimeIsNotHostWork) {
 /// If a caller asks for times after the frame has ended, the call does not wait. A new frame waits
 /// for an older frame if all slots are in use.
 TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::FrameSpec spec = make_frame_spec(scene, "raytrace");
     spec.size = {256, 256};
     session::Session two(test::get_test_engine(), scene, 2), one(test::get_test_engine(), scene);

@@ -24,7 +24,7 @@ measure::Picture render_on_engine(session::Engine& engine, const scene::Scene& s
 }
 
 TEST(Threads, TwoEnginesInTwoThreadsRenderTheSame) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::Engine one({}), other({});
     const measure::Picture truth = render_on_engine(one, scene);
     for (int round = 0; round < 3; ++round) {

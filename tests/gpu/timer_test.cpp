@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Frames, SessionClosingTest, testing::Values("raytrace",
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(SessionClosingTest, IsolatedPassesAddUpToTheFrame) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
+    session::Request request = test::make_test_request(scene::make_cornell(), {GetParam()},
                                                        {512, 512});
     request.warmup = 2, request.frames = 7;
     const session::RunResult result = session::run(test::get_test_engine(), request);

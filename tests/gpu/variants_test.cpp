@@ -53,9 +53,8 @@ std::vector<vec3> render_with_variants(const char* technique,
     session::Engine engine(
         {.device = test::read_wanted_device_name(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
-    session::Session session(engine,
-                             test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors()));
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {technique},
+    session::Session session(engine, test::replace_balls_by_coarse_balls(scene::make_cornell()));
+    session::Request request = test::make_test_request(scene::make_cornell(), {technique},
                                                        {61, 53});
     // Render a brighter picture first. If a variant leaves out a pixel, the old value stays in
     // memory and the comparison fails.

@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(RasterTracerAgreementTest, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
-    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(2, 2)}) {
+    for (const scene::Scene& scene : {scene::make_cornell(), test::make_lit_room(2, 2)}) {
         const session::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
         const double error = test::rmse_of_pictures(
             test::render_technique(scene, raster, {512, 512}).hdr, truth.hdr,
@@ -121,8 +121,7 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
     double worst = 0, sum = 0;
     for (int i = 0; i < kRandomCameraCount; ++i) {
         session::Request request = test::make_test_request(
-            scene::make_cornell_mirrors(), {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
-            {256, 256});
+            scene::make_cornell(), {"naive:bounces=0", "raytrace:depth=0,shadow=map"}, {256, 256});
         request.camera = i == 0   ? scene::Camera{.eye = {540, 12, -60},
                                                   .target = {300, 60, 400},
                                                   .vertical_fov_degrees = 55}
@@ -146,11 +145,10 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
 // not be larger than needed. A coarse map shows an excess, because the offset grows with the size
 // of a texel.
 TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
-    const session::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
+    const session::TechniqueResult truth = test::render_technique(scene::make_cornell(),
                                                                   "raytrace:depth=16", {256, 256});
     const double error = test::rmse_of_pictures(
-        test::render_technique(scene::make_cornell_mirrors(), "naive:bounces=0,shadow_map=64",
-                               {256, 256})
+        test::render_technique(scene::make_cornell(), "naive:bounces=0,shadow_map=64", {256, 256})
             .hdr,
         truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";

@@ -17,7 +17,7 @@ constexpr uvec2 kAutoPictureSize{64, 64};
 
 /// Returns the plan that suits the picture on the device of the tests.
 std::string suggest_plan(const scene::Scene& rest) {
-    const scene::Scene now = scene::scene_at_time(rest, 0);
+    const scene::Scene now = scene::scene_at(rest, 0);
     return require::suggest_technique_plan(
                {.now = now, .camera = now.cameras.front(), .size = kAutoPictureSize},
                *session::find_unit_costs_of_device(test::get_test_engine().device()).costs)
@@ -26,7 +26,7 @@ std::string suggest_plan(const scene::Scene& rest) {
 
 /// If one technique suits all mirrors, the picture must equal that of a request for this technique.
 TEST(Auto, PictureIsThatOfTheSuggestedPlanAndEachMirrorHasAReason) {
-    for (const scene::Scene& scene : {test::make_mirror_hall(), scene::make_cornell_mirrors()}) {
+    for (const scene::Scene& scene : {test::make_mirror_hall(), scene::make_cornell()}) {
         const session::TechniqueResult part = test::render_technique(scene, "auto",
                                                                      kAutoPictureSize, 3),
                                        plan = test::render_technique(scene, suggest_plan(scene),
@@ -57,7 +57,7 @@ double predict_ms_of_counted_work(session::Session& session, const session::Fram
 /// in drawn views of five scenes.
 TEST(Auto, ExpectedTimesOfTracedPlansAreThoseOfTheirWork) {
     for (const char* name : {"cornell-mirrors", "courtyard", "flat", "gallery", "room"}) {
-        const scene::Scene rest = scene::load(name), now = scene::scene_at_time(rest, 0);
+        const scene::Scene rest = scene::load(name), now = scene::scene_at(rest, 0);
         session::Session session(test::get_test_engine(), rest);
         for (const std::uint64_t seed : {1, 2, 3}) {
             session::FrameSpec spec{.camera = session::make_seeded_camera(rest, 0, seed),

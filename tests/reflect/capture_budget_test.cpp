@@ -192,7 +192,7 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
 
 // Something moves in every frame, so every capture always waits to be drawn.
 TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
-    const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors());
+    const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell());
     session::Session session(test::get_test_engine(), scene);
     session::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
     std::vector<int> since(4, 0);
@@ -208,7 +208,7 @@ TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
 }
 
 TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
-    const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors());
+    const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell());
     session::Session one(test::get_test_engine(), scene), other(test::get_test_engine(), scene);
     for (int k = 0; k < 6; ++k) {
         session::FrameSpec spec = make_spec_with_capture_budget(scene, 4),

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryErrorCauseTest, testing::ValuesIn(list_capt
 
 TEST_P(EveryErrorCauseTest, CausesAddUpToTheWholeErrorOfEachTechnique) {
     const ErrorCauseSplit found = split_error_by_causes(
-        test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors()),
+        test::replace_balls_by_coarse_balls(scene::make_cornell()),
         test::technique_with_knobs(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
         kSmallCausesPictureSize);
     std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
@@ -135,10 +135,10 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
           "parallax:face=32,distance=unorm8,shadow=none",
           "hybrid:face=32,shadow_map=64,captures=own,continue=0",
           "march:face=32,shadow_map=64,mirrors=left_out,lookup=object"})
-        expect_whole(split_error_by_causes(
-                         test::replace_balls_by_coarse_balls(scene::make_closed_cornell_mirrors()),
-                         technique, kSmallCausesPictureSize),
-                     technique);
+        expect_whole(
+            split_error_by_causes(test::replace_balls_by_coarse_balls(scene::make_closed_cornell()),
+                                  technique, kSmallCausesPictureSize),
+            technique);
     expect_whole(split_error_by_causes(test::make_lit_room(2, 3), "parallax:face=32,shadow_map=64",
                                        kSmallCausesPictureSize),
                  "three lights");
@@ -193,8 +193,8 @@ TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
 }
 
 TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                       {"parallax:face=32"}, kCausesPictureSize);
+    session::Request request = test::make_test_request(scene::make_cornell(), {"parallax:face=32"},
+                                                       kCausesPictureSize);
     const session::TechniqueResult truth = test::render_technique(request.scene, study::kReference,
                                                                   kCausesPictureSize);
     const session::TechniqueResult row = test::render_technique(request.scene, "parallax:face=32",
@@ -212,15 +212,15 @@ TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
 
 // Distances stored in eight bits must count as storage format, both by their share and alone.
 TEST(Causes, EightBitDistancesCountAsStorageFormat) {
-    const ErrorCauseSplit coarse = split_error_by_causes(scene::make_cornell_mirrors(),
+    const ErrorCauseSplit coarse = split_error_by_causes(scene::make_cornell(),
                                                          "parallax:face=128,distance=unorm8");
     EXPECT_GT(coarse.error_share_of_cause("storage format"), .7);
     EXPECT_GT(coarse.error_of_cause_alone("storage format"), .7);
     expect_cause_shares_add_up(coarse);
-    EXPECT_EQ(split_error_by_causes(scene::make_cornell_mirrors(), "parallax:face=64",
-                                    kSmallCausesPictureSize)
-                  .error_share_of_cause("storage format"),
-              0.0);
+    EXPECT_EQ(
+        split_error_by_causes(scene::make_cornell(), "parallax:face=64", kSmallCausesPictureSize)
+            .error_share_of_cause("storage format"),
+        0.0);
 }
 
 // Compares two rows that differ in one cause. The difference of their errors must equal the part of
@@ -307,8 +307,7 @@ TEST(Causes, CauseThatCannotOccurHasNoShare) {
 }
 
 TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
-    const ErrorCauseSplit found = split_error_by_causes(scene::make_cornell_mirrors(),
-                                                        "parallax:face=64");
+    const ErrorCauseSplit found = split_error_by_causes(scene::make_cornell(), "parallax:face=64");
     const auto read_json_number_member = [&](const std::string& name) {
         return &found.find_cause(name) - found.causes.list.data() + 1;
     };
@@ -330,7 +329,7 @@ TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
 }
 
 TEST(Causes, UncorrectedLookupCountsAsDirection) {
-    EXPECT_GT(split_error_by_causes(scene::make_cornell_mirrors(), "reuse:face=64")
+    EXPECT_GT(split_error_by_causes(scene::make_cornell(), "reuse:face=64")
                   .error_share_of_cause("direction"),
               .6);
 }
@@ -358,7 +357,7 @@ TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
 }
 
 TEST(Causes, OnlyMovingScenesHaveLag) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), {},
+    session::Request request = test::make_test_request(scene::make_cornell(), {},
                                                        kCausesPictureSize);
     request.warmup = 7;
     const ErrorCauseSplit still = split_error_by_causes(request, "reuse:face=64");

@@ -93,7 +93,7 @@ TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
 
 TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
     for (const std::string search : {"pyramid:face=128", "march:face=128", "secant:face=128"}) {
-        const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
+        const auto judged = test::measure_search_errors(scene::make_cornell(),
                                                         test::list_search_test_views().front(),
                                                         {search, search + ",captures=all"});
         const measure::LookupErrorSummary &own = judged[0].lookup, &all = judged[1].lookup;
@@ -149,26 +149,23 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
 // If rays are followed through all other mirrors, captures may leave out mirrors.
 TEST(Mirrors, CapturesMayLeaveOutMirrorsWhereRaysAreFollowed) {
     for (const std::string search : {"secant", "pyramid", "layered"}) {
-        const ColourError with = measure_continued_search_error(scene::make_cornell_mirrors(),
+        const ColourError with = measure_continued_search_error(scene::make_cornell(),
                                                                 search + ":continue=4"),
                           without = measure_continued_search_error(
-                              scene::make_cornell_mirrors(),
-                              search + ":continue=4,mirrors=left_out");
+                              scene::make_cornell(), search + ":continue=4,mirrors=left_out");
         EXPECT_LE(without.all, 1.05 * with.all) << search;
     }
     // Captures without mirrors do not depend on the frame before, so the first picture equals the
     // last.
     const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        test::render_technique(scene::make_cornell_mirrors(), settled, kContinuePictureSize, 1).hdr,
-        test::render_technique(scene::make_cornell_mirrors(), settled, kContinuePictureSize, 5)
-            .hdr));
+        test::render_technique(scene::make_cornell(), settled, kContinuePictureSize, 1).hdr,
+        test::render_technique(scene::make_cornell(), settled, kContinuePictureSize, 5).hdr));
 }
 
 TEST(Show, SearchStateAndResidualArePainted) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                       {"pyramid:face=64,captures=own,show=state"},
-                                                       kContinuePictureSize);
+    session::Request request = test::make_test_request(
+        scene::make_cornell(), {"pyramid:face=64,captures=own,show=state"}, kContinuePictureSize);
     request.with_lookup = true;
     const session::TechniqueResult part = std::move(
         session::run(test::get_test_engine(), request).parts.front());

@@ -158,7 +158,7 @@ TEST(Studio, RadianceEqualsItsDescription) {
 
 /// Returns the irradiance of a surface with normal `n`.
 dvec3 irradiance_by_quadrature(const scene::Environment& environment, const dvec3& n) {
-    std::array<dvec3, 9> of = scene::compute_irradiance_coefficients(environment);
+    std::array<dvec3, 9> of = scene::irradiance_coefficients(environment);
     return f64::irradiance_from_harmonics(of.data(), n);
 }
 

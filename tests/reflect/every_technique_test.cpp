@@ -173,9 +173,8 @@ TEST_P(EveryTechniqueTest, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
 }
 
 TEST_P(EveryTechniqueTest, TwoRunsRenderTheSameBytes) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
-                                                       {technique_with_small_captures()},
-                                                       kEveryTechniquePictureSize);
+    session::Request request = test::make_test_request(
+        scene::make_cornell(), {technique_with_small_captures()}, kEveryTechniquePictureSize);
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;

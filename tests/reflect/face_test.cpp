@@ -14,7 +14,7 @@ namespace {
 using namespace catoptric;
 
 TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const session::TechniqueResult chosen = test::render_technique(scene, "secant:face=auto",
                                                                    test::kSearchTestPictureSize, 2);
     ASSERT_TRUE(chosen.auto_face.has_value());
@@ -96,7 +96,7 @@ TEST(AutoFace, RoughFlatMirrorsNeedTheTexelsOfTheirLobe) {
 }
 
 TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     const auto needs = [&] {
         return test::render_technique(scene, "reuse:face=auto", {512, 512}).auto_face->needs;
     };
@@ -107,8 +107,8 @@ TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
 }
 
 TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
-    session::Request asked = test::make_test_request(scene::make_cornell_mirrors(),
-                                                     {"secant:face=auto"}, {64, 64});
+    session::Request asked = test::make_test_request(scene::make_cornell(), {"secant:face=auto"},
+                                                     {64, 64});
     asked.animate = true;
     asked.frames = 3;
     const session::TechniqueResult moving = std::move(
@@ -119,8 +119,8 @@ TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
 }
 
 std::uint32_t find_automatic_face_edge(const test::SearchTestView& look) {
-    session::Request asked = test::make_test_request(
-        scene::make_cornell_mirrors(), {"secant:face=auto"}, test::kSearchTestPictureSize);
+    session::Request asked = test::make_test_request(scene::make_cornell(), {"secant:face=auto"},
+                                                     test::kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
     return session::run(test::get_test_engine(), asked).parts.front().auto_face->edge;
@@ -140,7 +140,7 @@ TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = find_automatic_face_edge(look);
         const auto judged = test::measure_search_errors(
-            scene::make_cornell_mirrors(), look, list_rows_with_faces({edge / 2, edge, 2 * edge}));
+            scene::make_cornell(), look, list_rows_with_faces({edge / 2, edge, 2 * edge}));
         const double pixel = look.camera.vertical_fov_degrees / test::kSearchTestPictureSize.y;
         const double half = judged[0].lookup.mean_degrees, at = judged[1].lookup.mean_degrees,
                      twice = judged[2].lookup.mean_degrees;
@@ -157,7 +157,7 @@ TEST(AutoFace, LargerEdgeDoesNotImprovePixelColours) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = find_automatic_face_edge(look);
         const auto judged = test::measure_search_errors(
-            scene::make_cornell_mirrors(), look, list_rows_with_faces({edge / 2, edge, 4 * edge}),
+            scene::make_cornell(), look, list_rows_with_faces({edge / 2, edge, 4 * edge}),
             "raytrace:depth=16,samples=16");
         EXPECT_GE(judged[0].first_order, 1.2 * judged[1].first_order);
         EXPECT_GE(judged[2].first_order, judged[1].first_order);

@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Files, ShippedSceneFileTest, testing::Values("glb", "ob
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(ShippedSceneFileTest, FileRendersAsTheBuiltInScene) {
-    const scene::Scene built_in = scene::make_cornell_mirrors();
+    const scene::Scene built_in = scene::make_cornell();
     const scene::Scene loaded = scene::load(path_of_shipped_file(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {

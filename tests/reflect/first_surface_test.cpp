@@ -289,7 +289,7 @@ TEST(FirstSurface, MaterialsDecideWhatIsMetFirst) {
 
 /// A frame between two frames of a moving scene changes no byte of the second.
 TEST(FirstSurface, TracingLeavesTheHistoryAsItIs) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
     spec.model = session::RenderedWork::required;
     session::Session plain(test::get_test_engine(), scene), traced(test::get_test_engine(), scene);
@@ -305,7 +305,7 @@ TEST(FirstSurface, TracingLeavesTheHistoryAsItIs) {
 /// a moving scene change neither the frames nor the order in which captures are drawn again, and a
 /// pixel that shows an older capture still has the tier of a capture.
 TEST(FirstSurface, LayersLeaveTheOrderOfLimitedCapturesAsItIs) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
     spec.model = session::RenderedWork::required, spec.most_captures = 1;
     session::FrameSpec layered = spec;
@@ -365,7 +365,7 @@ std::size_t count_mirror_pixels(const TierPictures& pictures) {
 
 TEST(ReflectionTiers, RaysTraceEveryMirrorPixel) {
     for (const char* technique : {"raytrace", "raytrace:first=raster", "*=raytrace"}) {
-        const TierPictures found = render_tiers(scene::make_cornell_mirrors(), technique);
+        const TierPictures found = render_tiers(scene::make_cornell(), technique);
         EXPECT_GT(count_mirror_pixels(found), 300u);
         EXPECT_EQ(count_tier(found, ReflectionTier::traced), count_mirror_pixels(found))
             << technique;
@@ -374,9 +374,9 @@ TEST(ReflectionTiers, RaysTraceEveryMirrorPixel) {
 
 /// The rasteriser rounds outlines to parts of a pixel, so a few pixels of the outlines may differ.
 TEST(ReflectionTiers, SearchesEndOnASurfaceOutsideTheSceneOrUnknown) {
-    const TierPictures direct = render_tiers(scene::make_cornell_mirrors(), "reuse:face=64");
+    const TierPictures direct = render_tiers(scene::make_cornell(), "reuse:face=64");
     EXPECT_GE(count_tier(direct, ReflectionTier::capture) + 4, count_mirror_pixels(direct));
-    const TierPictures searched = render_tiers(scene::make_cornell_mirrors(), "secant:face=64");
+    const TierPictures searched = render_tiers(scene::make_cornell(), "secant:face=64");
     std::size_t unknown = 0, miss = 0;
     for (std::size_t i = 0; i < searched.tiers.size(); ++i) {
         const float word = searched.result.lookup[i].w;
@@ -392,7 +392,7 @@ TEST(ReflectionTiers, SearchesEndOnASurfaceOutsideTheSceneOrUnknown) {
 }
 
 TEST(ReflectionTiers, HybridTracesTheShareThatItReports) {
-    const TierPictures found = render_tiers(scene::make_cornell_mirrors(), "hybrid:face=64");
+    const TierPictures found = render_tiers(scene::make_cornell(), "hybrid:face=64");
     ASSERT_TRUE(found.result.traced_fraction);
     const double share = static_cast<double>(count_tier(found, ReflectionTier::traced)) /
                          static_cast<double>(count_mirror_pixels(found));

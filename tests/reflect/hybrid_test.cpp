@@ -75,16 +75,16 @@ void expect_forced_hybrid_is_traced(const scene::Scene& scene, const std::string
 }
 
 TEST(Hybrid, AllUnknownEqualsRayTracing) {
-    expect_forced_hybrid_is_traced(scene::make_cornell_mirrors(), ",face=64", "raytrace:depth=16",
+    expect_forced_hybrid_is_traced(scene::make_cornell(), ",face=64", "raytrace:depth=16",
                                    kHybridPictureSize);
-    expect_forced_hybrid_is_traced(scene::make_cornell_mirrors(), ",face=64,shadow=none",
+    expect_forced_hybrid_is_traced(scene::make_cornell(), ",face=64,shadow=none",
                                    "raytrace:depth=16,shadow=none", kHybridPictureSize);
     expect_forced_hybrid_is_traced(test::make_lit_room(3, 2), ",face=32", "raytrace:depth=16",
                                    kHybridPictureSize);
 }
 
 TEST(Hybrid, LookupsAreReturnedOnlyIfTheyAreAskedFor) {
-    const session::TechniqueResult part = test::render_technique(scene::make_cornell_mirrors(),
+    const session::TechniqueResult part = test::render_technique(scene::make_cornell(),
                                                                  "hybrid:face=32", {32, 32});
     EXPECT_TRUE(part.lookup.empty());
 }
@@ -113,7 +113,7 @@ TEST(Hybrid, MoreWorkGroupsThanOneDimensionAllows) {
 TEST(Hybrid, ExactlyTheUnknownPixelsAreTraced) {
     for (const uvec2 size : {uvec2{1, 1}, uvec2{33, 17}, uvec2{200, 177}})
         for (const std::string force : {"search", "unknown"})
-            expect_traced_pixel_count(render_hybrid_with_lookups(scene::make_cornell_mirrors(),
+            expect_traced_pixel_count(render_hybrid_with_lookups(scene::make_cornell(),
                                                                  "hybrid:face=32,force=" + force,
                                                                  size),
                                       force == "unknown");
@@ -121,7 +121,7 @@ TEST(Hybrid, ExactlyTheUnknownPixelsAreTraced) {
 
 TEST(Hybrid, OnlyTracedPixelsDifferFromTheSearch) {
     constexpr uvec2 kOddPictureSize{201, 177};
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const measure::Picture searched =
         test::render_technique(scene, "pyramid:face=64,captures=all", kOddPictureSize).hdr;
     const measure::Picture traced =

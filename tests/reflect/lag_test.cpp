@@ -192,7 +192,7 @@ TEST(Lag, LagGrowsWithSpeed) {
 /// Checks the lag by another computation: the last frame of an animation against a still picture
 /// with the same number of bounces.
 TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, 50, 0}, .period = .5};
     study::LagRequest request = make_lag_request(scene, {"reuse:face=32"}, {1}, 4);
     request.base.time = .25;
@@ -227,7 +227,7 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
 /// Frame k of `reuse` equals `naive` with k bounces byte for byte, as reuse_test.cpp proves. After
 /// a black start the picture therefore settles after as many frames as bounces are needed.
 TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     study::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {8}, 1);
     request.base.size = {128, 128};
     const report::LagResults lag = measure_lag_results(request);

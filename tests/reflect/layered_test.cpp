@@ -194,11 +194,11 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
 // The distance by which the second layer must lie behind the first covers the rounding of eight
 // bits. It must not depend on the number that is given as range.
 TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
-    const session::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
+    const session::TechniqueResult truth = test::render_technique(scene::make_cornell(),
                                                                   "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
         return test::rmse_of_pictures(
-            test::render_technique(scene::make_cornell_mirrors(),
+            test::render_technique(scene::make_cornell(),
                                    "layered:face=128,distance=unorm8,range=" + range, {256, 256}, 4)
                 .hdr,
             truth.hdr, measure::mask_mirror_pixels(truth.hits));
@@ -213,7 +213,7 @@ TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
 
 TEST(Layered, SceneIsRenderedTwicePerMirror) {
     const session::TechniqueResult part = test::render_technique(
-        scene::make_cornell_mirrors(), "layered:face=16,shadow_map=16", {16, 16});
+        scene::make_cornell(), "layered:face=16,shadow_map=16", {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }
 

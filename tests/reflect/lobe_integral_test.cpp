@@ -135,7 +135,7 @@ TEST(LobeIntegral, TwoHundredPixelsAgreeWithAnotherIntegrator) {
           IntegralScene{
               "half metal before a mirror", {.7, .6, .9}, .5, .15, WallPresence::mirror}}) {
         const scene::Scene scene = make_integral_scene(wanted);
-        const auto c = scene::compute_irradiance_coefficients(*scene.environment);
+        const auto c = scene::irradiance_coefficients(*scene.environment);
         // Irradiance of a surface whose normal points up.
         const dvec3 irradiance = c[0] + c[1] - c[6] - c[8];
         std::vector<measure::Picture> pictures;

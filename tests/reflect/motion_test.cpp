@@ -12,10 +12,10 @@ TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
     // These techniques have no history, so the last frame of an animation must equal a still
     // picture of the same instant.
     for (const char* technique : {"naive:bounces=1,face=64", "raytrace"}) {
-        session::Request moving = test::make_test_request(scene::make_cornell_mirrors(),
-                                                          {technique}, {64, 64});
+        session::Request moving = test::make_test_request(scene::make_cornell(), {technique},
+                                                          {64, 64});
         moving.animate = true, moving.time = .5, moving.warmup = 3, moving.frames = 4;
-        session::Request still = test::make_test_request(scene::make_cornell_mirrors(), {technique},
+        session::Request still = test::make_test_request(scene::make_cornell(), {technique},
                                                          {64, 64});
         still.time = .5 + 6 / 60.0;
         const measure::Picture last =
@@ -31,7 +31,7 @@ TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
 }
 
 TEST(Motion, FramesWithoutAnimationAreEqual) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+    session::Request request = test::make_test_request(scene::make_cornell(),
                                                        {"naive:bounces=1,face=64"}, {64, 64});
     const measure::Picture one = session::run(test::get_test_engine(), request).parts.front().hdr;
     request.frames = 5;
@@ -40,7 +40,7 @@ TEST(Motion, FramesWithoutAnimationAreEqual) {
 }
 
 TEST(Motion, SessionShowsInstantsInAnyOrder) {
-    const session::Request still = test::make_test_request(scene::make_cornell_mirrors(),
+    const session::Request still = test::make_test_request(scene::make_cornell(),
                                                            {"naive:bounces=1,face=64"}, {64, 64});
     session::Session session(test::get_test_engine(), still.scene);
     std::vector<measure::Picture> seen;

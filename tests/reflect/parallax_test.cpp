@@ -15,7 +15,7 @@ constexpr int kParallaxWarmupFrames =
     4; // enough frames for deeper bounces to arrive in the captures
 
 TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
                                                                   kParallaxPictureSize);
     const measure::Picture reuse =
@@ -66,7 +66,7 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
 }
 
 TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
                                                                   kParallaxPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);

@@ -69,7 +69,7 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
     constexpr uvec2 kPlanPictureSize{192, 192};
     // Two frames are enough, because pixels with deeper bounces are left out.
     constexpr int kFramesUntilFirstOrder = 2;
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const session::TechniqueResult truth = test::render_technique(scene, "raytrace",
                                                                   kPlanPictureSize);
     session::Request asked = test::make_test_request(

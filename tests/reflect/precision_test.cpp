@@ -48,7 +48,7 @@ TEST(Precision, DoubleHitPointsReduceTheError) {
 }
 
 TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     for (const std::string knobs : {"", "shadow=map,"}) {
         const session::TechniqueResult f32 = test::render_technique(
                                            scene, "raytrace:" + knobs + "hit=f32", {128, 128}),

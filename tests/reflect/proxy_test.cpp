@@ -116,7 +116,7 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
 /// If rays are followed through the other balls, the box of `proxy` is wrong only for objects
 /// inside the room.
 TEST(Proxy, BoxReducesTheErrorInTheBuiltInScene) {
-    const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
+    const auto judged = test::measure_search_errors(scene::make_cornell(),
                                                     test::list_search_test_views().front(),
                                                     {"parallax", "proxy", "proxy:continue=4"});
     EXPECT_LE(judged[2].all, .80 * judged[0].all);

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, Bounds,
 
 TEST_P(Bounds, BoundsContainEveryLookup) {
     const std::vector<vec4> asked = make_random_directions(4);
-    const PyramidReadBack read = build_and_read_pyramid(scene::make_cornell_mirrors(),
+    const PyramidReadBack read = build_and_read_pyramid(scene::make_cornell(),
                                                         "pyramid:" + GetParam(), asked);
     std::size_t outside = 0, judged = 0, nothing = 0;
     std::ostringstream first;
@@ -169,7 +169,7 @@ TEST_P(Bounds, BoundsContainEveryLookup) {
 
 TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
     const PyramidReadBack read = build_and_read_pyramid(
-        scene::make_cornell_mirrors(), "pyramid:" + GetParam(), make_random_directions(4));
+        scene::make_cornell(), "pyramid:" + GetParam(), make_random_directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
         for (std::uint32_t level = 2; level <= read.count_levels(); ++level)
@@ -191,7 +191,7 @@ TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
 /// The bounds are rounded outwards to half floats.
 TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
     constexpr std::uint32_t kCaptureFaceTexels = 64;
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const test::CapturedCubes captured = test::capture_mirrors(scene, kCaptureFaceTexels,
                                                                TexelFormat::r32f);
     const PyramidReadBack read = build_and_read_pyramid(scene, "pyramid:face=64",
@@ -252,7 +252,7 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
 
 TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
     const auto pixels = test::measure_lookup_directions(
-        scene::make_cornell_mirrors(), "pyramid:face=256,continue=0", test::kSearchTestPictureSize);
+        scene::make_cornell(), "pyramid:face=256,continue=0", test::kSearchTestPictureSize);
     std::array<std::size_t, 3> count{}, wrong{};
     double hit_angle = 0, miss_angle = 0;
     for (const measure::LookupDirectionError& pixel : pixels) {

@@ -650,10 +650,9 @@ TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
 }
 
 TEST(GlassBody, VolumeOfClosedMeshesIsThatOfTheirBody) {
-    EXPECT_NEAR(scene::compute_closed_volume(scene::box("box", {1, 2, 3}, {2, 4, 6})), 6, 1e-12);
-    EXPECT_NEAR(scene::compute_closed_volume(scene::ball("ball", 6)), 4 * test::kPi / 3, .01);
-    EXPECT_EQ(scene::compute_closed_volume(
-                  scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})),
+    EXPECT_NEAR(scene::closed_volume(scene::box("box", {1, 2, 3}, {2, 4, 6})), 6, 1e-12);
+    EXPECT_NEAR(scene::closed_volume(scene::ball("ball", 6)), 4 * test::kPi / 3, .01);
+    EXPECT_EQ(scene::closed_volume(scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})),
               0);
 }
 
@@ -698,8 +697,8 @@ TEST(GlassBody, SimpleBodyFollowsFromShapeAndPlace) {
         scene::Scene scene{.name = "body"};
         scene::add_mesh(scene, std::move(mesh), test::add_material(scene, material));
         scene.objects.back().world_from_object = place;
-        return scene::choose_glass_body_model(scene, scene.objects.back(),
-                                              scene::compute_closed_volume(scene.meshes.back()));
+        return scene::choose_glass_body(scene, scene.objects.back(),
+                                        scene::closed_volume(scene.meshes.back()));
     };
     const scene::Material glass = make_tinted_glass();
     const double c = std::sqrt(.5);

@@ -299,7 +299,7 @@ TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
 TEST(ReportFigures, MovingSceneNeedsHostWork) {
     study::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
     const json still = compare_and_read_report(request);
-    request.base.scene = scene::make_cornell_mirrors(); // a scene with a moving ball
+    request.base.scene = scene::make_cornell(); // a scene with a moving ball
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
     const json moving = compare_and_read_report(request);
@@ -339,7 +339,7 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
                                         "naive:face=16", "reuse:face=16"};
     study::CompareRequest request;
-    request.base = test::make_test_request(scene::make_cornell_mirrors(), rows, kReportPictureSize);
+    request.base = test::make_test_request(scene::make_cornell(), rows, kReportPictureSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
     request.base.frames = kReportFrameCount, request.base.warmup = kReportWarmupFrames;

@@ -56,7 +56,7 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
             .size = {16, 16}};
         const auto at = [&](double seconds) {
             frame_spec.time = seconds;
-            const scene::Scene now = scene::scene_at_time(scene, seconds);
+            const scene::Scene now = scene::scene_at(scene, seconds);
             const require::RequiredWorkModel model = requirements.make_work_model_for_request(
                 {now, frame_spec.camera, frame_spec.size, kRequireShadowMapEdge});
             return std::pair(model.mirrors[0],
@@ -89,13 +89,13 @@ std::size_t cube_face_of_direction(const vec3& direction) {
 TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
     std::size_t looked = 0, left_out = 0;
     for (const scene::Scene& scene :
-         {scene::make_flat_mirror_room(), scene::make_furnished_room(), scene::make_gallery()}) {
+         {scene::make_flat_room(), scene::make_furnished_room(), scene::make_gallery()}) {
         session::Session session(test::get_test_engine(), scene);
         for (const scene::Camera& camera : scene.cameras) {
             if (&camera != &scene.cameras.front() && scene.name == "gallery")
                 continue; // skip the other cameras, because the gallery takes long
-            const scene::Camera now = scene::camera_at_time(camera, 0);
-            const scene::Scene at_rest = scene::scene_at_time(scene, 0);
+            const scene::Camera now = scene::camera_at(camera, 0);
+            const scene::Scene at_rest = scene::scene_at(scene, 0);
             const require::RequiredWorkModel model = require::make_required_model(
                 {at_rest, now, {64, 48}});
             for (const require::MirrorRequirements& needs : model.mirrors)

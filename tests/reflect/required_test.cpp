@@ -231,7 +231,7 @@ TEST(RequiredFrames, ChangedLightAndMaterialsAreDrawnAgain) {
 }
 
 TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
-    RequiredAndFullSessions pair(scene::make_cornell_mirrors(), {"parallax:face=16"});
+    RequiredAndFullSessions pair(scene::make_cornell(), {"parallax:face=16"});
     for (int k = 0; k < 8; ++k) {
         EXPECT_TRUE(do_passes_draw_captures(pair.render_next_frame()));
         pair.frame_spec.time += 1 / 60.0;
@@ -242,7 +242,7 @@ TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
 
 // The pyramid is computed from all six faces of a cube whenever one of them is drawn.
 TEST(RequiredFrames, PyramidIsMadeAgainWheneverACaptureIsDrawn) {
-    RequiredAndFullSessions pair(scene::make_cornell_mirrors(), {"pyramid:face=16"});
+    RequiredAndFullSessions pair(scene::make_cornell(), {"pyramid:face=16"});
     for (int k = 0; k < 6; ++k) {
         EXPECT_THAT(pair.render_next_frame(), testing::Contains("pyramid"));
         pair.frame_spec.time += 1 / 20.0;
@@ -419,8 +419,7 @@ TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
 }
 
 TEST(RequiredFrames, MemoryStaysConstantOverTime) {
-    RequiredAndFullSessions pair(scene::make_cornell_mirrors(),
-                                 {"parallax:face=16", "reuse:face=16"});
+    RequiredAndFullSessions pair(scene::make_cornell(), {"parallax:face=16", "reuse:face=16"});
     pair.render_next_frame(), pair.render_next_frame(), pair.render_next_frame();
     const std::uint64_t before = pair.counters_of_required_session().memory_bytes;
     for (int k = 0; k < 30; ++k) {

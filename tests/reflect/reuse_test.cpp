@@ -14,7 +14,7 @@ using namespace catoptric;
 constexpr uvec2 kReusePictureSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     session::Request request = test::make_test_request(scene, {"reuse:face=128"}, {256, 256});
     request.frames = 8;
     std::vector<session::TechniqueResult> reused;
@@ -65,7 +65,7 @@ SquaredChangeSum sum_squared_change(const measure::Picture& a, const measure::Pi
 /// in ball 4, changes from 0 to 1 and outweighs all others. Single steps are therefore compared
 /// without the pixel that changes most. The total is compared with this pixel.
 TEST(Naive, EachBounceChangesThePictureLess) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     const measure::Mask mirrors = measure::mask_mirror_pixels(
         test::render_technique(scene, "raytrace", kReusePictureSize).hits);
     measure::Picture last = test::render_technique(scene, "naive:bounces=0", kReusePictureSize).hdr;
@@ -95,14 +95,13 @@ TEST(Naive, EachBounceChangesThePictureLess) {
 TEST(Naive, ScenePassesEqualThoseOfTheSeedReport) {
     const int expected[] = {2, 6, 10, 14, 18};
     for (int i = 0; i <= 4; ++i)
-        EXPECT_EQ(test::render_technique(scene::make_cornell_mirrors(),
+        EXPECT_EQ(test::render_technique(scene::make_cornell(),
                                          "naive:face=16,bounces=" + std::to_string(i), {16, 16})
                       .scene_passes,
                   expected[i]);
     for (const char* technique : {"reuse:face=16", "parallax:face=16"})
-        EXPECT_EQ(
-            test::render_technique(scene::make_cornell_mirrors(), technique, {16, 16}).scene_passes,
-            6);
+        EXPECT_EQ(test::render_technique(scene::make_cornell(), technique, {16, 16}).scene_passes,
+                  6);
 }
 
 } // namespace

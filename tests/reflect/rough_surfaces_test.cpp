@@ -229,7 +229,7 @@ TEST(RoughSurfaces, RaysFromPlasticBringTheIntegralOverTheLobe) {
     scene::Scene scene = make_rough_floor_scene(material);
     scene.environment = make_smooth_test_environment(false);
     const measure::Picture picture = render_scene_without_ambient(scene, "raytrace:rays=1024");
-    const auto coefficients = scene::compute_irradiance_coefficients(*scene.environment);
+    const auto coefficients = scene::irradiance_coefficients(*scene.environment);
     // Irradiance of the upward normal, by the formula of Ramamoorthi and Hanrahan.
     const dvec3 irradiance = coefficients[0] + coefficients[1] - coefficients[6] - coefficients[8];
     for (const auto& [x, y] : {std::pair(8, 15), std::pair(3, 9), std::pair(14, 7)}) {

@@ -7,7 +7,7 @@ namespace {
 using namespace catoptric;
 
 TEST(Secant, WithoutStepsEqualsParallax) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     scene.materials.push_back({.name = "glass",
                                .albedo = vec3(1),
                                .roughness = 0,

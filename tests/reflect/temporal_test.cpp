@@ -177,7 +177,7 @@ TEST(Temporal, FramesKnowWhereObjectsWereInTheLastFrameOfTheirSequence) {
     session::Session session(test::get_test_engine(), scene);
     const auto list_transforms = [&](double time) {
         std::vector<dmat4> transforms;
-        for (const scene::Object& object : scene::scene_at_time(session.scene(), time).objects)
+        for (const scene::Object& object : scene::scene_at(session.scene(), time).objects)
             transforms.push_back(object.world_from_object);
         return transforms;
     };

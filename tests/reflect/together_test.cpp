@@ -15,8 +15,7 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
         techniques.push_back(
             test::technique_with_knobs(technique, {{"face", "64"}, {"shadow_map", "256"}}));
     techniques.push_back("naive:bounces=1,face=32"); // `naive` a second time, with other settings
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(), techniques,
-                                                       {96, 80});
+    session::Request request = test::make_test_request(scene::make_cornell(), techniques, {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;
     const session::RunResult together = session::run(test::get_test_engine(), request);
@@ -38,7 +37,7 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
 }
 
 TEST(Together, AllPassesLieOnOneTimeline) {
-    session::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+    session::Request request = test::make_test_request(scene::make_cornell(),
                                                        {"reuse:face=64", "raytrace"}, {64, 64});
     const session::RunResult result = session::run(test::get_test_engine(), request);
     ASSERT_EQ(result.frames.size(), 1u);

@@ -32,7 +32,7 @@ TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
     std::ranges::copy(test::list_unseen_search_test_views(), std::back_inserter(looks));
     for (const test::SearchTestView& look : looks) {
         SCOPED_TRACE(look.camera.name);
-        const auto seen = test::compare_mirror_pictures(scene::make_cornell_mirrors(), look,
+        const auto seen = test::compare_mirror_pictures(scene::make_cornell(), look,
                                                         {"secant", "march", "pyramid", "layered"});
         const measure::Difference &secant = seen[0], &march = seen[1], &pyramid = seen[2],
                                   &layered = seen[3];

@@ -59,7 +59,7 @@ vec4 sample_texture_filtered(const scene::Texture& texture, const vec4& uv) {
 } // namespace
 
 SceneSurfaceCaster::SceneSurfaceCaster(const session::Request& request)
-    : current_scene_(scene::scene_at_time(request.scene, request.time)),
+    : current_scene_(scene::scene_at(request.scene, request.time)),
       space_(render::make_scene_units(request.scene)),
       geometry_(render::make_frame_geometry(current_scene_, space_)),
       view_(render::make_camera_view(request.camera, space_, request.size, 0,

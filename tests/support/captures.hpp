@@ -36,9 +36,9 @@ inline CapturedLayers draw_cube_captures_with_options(const scene::Scene& scene,
                                                       double range_world, bool staged = false) {
     auto& [device, pipelines] = get_test_device(staged);
     render::GpuScene gpu_scene(device, scene);
-    gpu_scene.update(
-        scene, scene.cameras.empty() ? scene::make_default_camera(scene) : scene.cameras.front(),
-        {16, 16}, 0);
+    gpu_scene.update(scene,
+                     scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
+                     {16, 16}, 0);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     render::FrameRequests requests(gpu_scene.next_view());

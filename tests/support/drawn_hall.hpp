@@ -141,8 +141,7 @@ private:
             flags |= bvh::kOneSidedFlag;
         ranges_.emplace_back(triangles_.size(), mesh.triangles.size());
         const auto at = [&](std::uint32_t vertex) {
-            return vec3(
-                scene::transform_point_to_world(object.world_from_object, mesh.positions[vertex]));
+            return vec3(scene::transform_point(object.world_from_object, mesh.positions[vertex]));
         };
         for (const uvec3& t : mesh.triangles)
             triangles_.push_back(

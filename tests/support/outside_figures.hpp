@@ -12,7 +12,7 @@ namespace test {
 
 inline session::TechniqueResult trace_cornell_mirrors(int depth, int samples) {
     session::Request asked = make_test_request(
-        scene::make_cornell_mirrors(),
+        scene::make_cornell(),
         {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
         {512, 512});
     asked.ambient = 0;

@@ -30,8 +30,7 @@ inline session::Request make_test_request(const scene::Scene& scene,
     session::Request asked;
     asked.scene = scene;
     asked.techniques = techniques;
-    asked.camera = scene.cameras.empty() ? scene::make_default_camera(scene)
-                                         : scene.cameras.front();
+    asked.camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front();
     asked.size = size;
     asked.frames = 1, asked.warmup = 0;
     return asked;

@@ -25,7 +25,7 @@ struct SearchTestView {
 /// Returns three cameras: the scene's own, one at the side and one above. Ball 4 is at another
 /// place at each camera's instant.
 inline std::vector<SearchTestView> list_search_test_views() {
-    return {{scene::make_cornell_mirrors().cameras.front(), 0},
+    return {{scene::make_cornell().cameras.front(), 0},
             {{.name = "side",
               .eye = {400, 330, -760},
               .target = {400, 330, 0},

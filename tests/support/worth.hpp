@@ -28,7 +28,7 @@ inline const std::map<std::string, SearchErrorLimits> kSearchErrorLimits{
 inline void expect_errors_within_limits(const std::string& search, const SearchTestView& look) {
     const SearchErrorLimits& worth = kSearchErrorLimits.at(search);
     const std::vector<SearchErrors> judged = measure_search_errors(
-        scene::make_cornell_mirrors(), look,
+        scene::make_cornell(), look,
         {"parallax:face=512", search + ":face=512,continue=0", search + ":face=512,continue=4",
          search + ":face=256,continue=4"});
     const SearchErrors &parallax = judged[0], &alone = judged[1], &followed = judged[2],
@@ -44,7 +44,7 @@ inline void expect_errors_within_limits(const std::string& search, const SearchT
 /// Expects that `secant` with smaller captures has no larger errors than `parallax`.
 inline void expect_small_captures(const SearchTestView& look) {
     const auto judged = measure_search_errors(
-        scene::make_cornell_mirrors(), look,
+        scene::make_cornell(), look,
         {"parallax:face=512", "secant:face=256,continue=0", "secant:face=64,continue=0"});
     EXPECT_LE(judged[1].first_order, judged[0].first_order);
     EXPECT_LE(judged[2].lookup.mean_degrees, .025 * judged[0].lookup.mean_degrees);
@@ -54,7 +54,7 @@ inline void expect_small_captures(const SearchTestView& look) {
 /// closed room.
 inline void expect_hybrid_beats_parallax(const SearchTestView& look) {
     const auto judged = measure_search_errors(
-        scene::make_cornell_mirrors(), look,
+        scene::make_cornell(), look,
         {"parallax:face=512", "hybrid:face=512", "hybrid:face=512,continue=0", "hybrid:face=256"});
     const SearchErrors &parallax = judged[0], &followed = judged[1], &alone = judged[2],
                        &coarse = judged[3];
@@ -63,7 +63,7 @@ inline void expect_hybrid_beats_parallax(const SearchTestView& look) {
     EXPECT_LE(followed.mirror_in_mirror, .24 * alone.mirror_in_mirror);
     EXPECT_LE(followed.traced_fraction, .06);
 
-    const auto closed = measure_search_errors(scene::make_closed_cornell_mirrors(), look,
+    const auto closed = measure_search_errors(scene::make_closed_cornell(), look,
                                               {"parallax:face=512", "hybrid:face=512"});
     EXPECT_LE(closed[1].all, .39 * closed[0].all);
     EXPECT_LE(closed[1].traced_fraction, .02);

@@ -213,7 +213,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
     const std::string scene = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
-    const std::string text = write_scene_file_text(overrides, scene);
+    const std::string text = scene_file_text(overrides, scene);
     EXPECT_THAT(text, HasSubstr("\"environment\": \"sky.exr\""));
     write_file_beside_scene("x.obj.catoptric.json", text);
     const std::optional<SceneFile> found = read_scene_file(scene, {});
@@ -221,9 +221,8 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.environment = real_path(folder / "sky.exr").string();
     EXPECT_EQ(found->overrides, overrides);
     overrides.environment = "/dev/null";
-    EXPECT_THAT(
-        test::catch_error_text(Failure::usage, [&] { write_scene_file_text(overrides, scene); }),
-        HasSubstr("wanted a picture below"));
+    EXPECT_THAT(test::catch_error_text(Failure::usage, [&] { scene_file_text(overrides, scene); }),
+                HasSubstr("wanted a picture below"));
 }
 
 /// Returns OBJ text of a closed box. The walls face inwards or outwards, and a mirror may hang at
@@ -329,7 +328,7 @@ TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
     EXPECT_TRUE(found.scene.environment->studio);
     EXPECT_EQ(session::choose_ambient_light(found), 0);
     EXPECT_EQ(session::find_exposure(found), std::nullopt) << "auto";
-    EXPECT_EQ(camera, make_default_camera(found.scene, 2));
+    EXPECT_EQ(camera, default_camera(found.scene, 2));
     std::vector<std::string> ids;
     for (const UnsupportedFeature& gap : found.scene.unsupported) ids.push_back(gap.id);
     EXPECT_THAT(ids, ElementsAre("indirect-left-out", "environment-unshadowed", "added-studio",
@@ -337,7 +336,7 @@ TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
     EXPECT_THAT(found.said, ElementsAre(HasSubstr("lit by the environment studio"),
                                         HasSubstr("using --camera " + format_camera(camera))));
     // The camera numbers in the message, given back as an option, make the same camera.
-    const Camera typed = find_camera_by_name(format_camera(camera), found.scene);
+    const Camera typed = find_camera(format_camera(camera), found.scene);
     EXPECT_EQ(typed.eye, camera.eye);
     EXPECT_EQ(typed.target, camera.target);
 }
@@ -409,7 +408,7 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
 
 TEST_F(Beside, BuiltInScenesGetNoAddedLightOrCamera) {
     session::ResolvedScene found = session::load_resolved_scene("cornell-mirrors", {});
-    EXPECT_EQ(hash_scene(found.scene), hash_scene(make_cornell_mirrors()));
+    EXPECT_EQ(hash_scene(found.scene), hash_scene(make_cornell()));
     EXPECT_EQ(session::choose_ambient_light(found), .05);
     EXPECT_EQ(session::find_exposure(found), 0);
     ASSERT_EQ(found.scene.unsupported.size(), 1u) << "as in any scene that is lit";

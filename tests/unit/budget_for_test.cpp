@@ -25,33 +25,32 @@ protected:
 };
 
 TEST_F(ChooseLoadBudgetTest, SmallFileKeepsTheDefaultTriangleBudgetOnALargeMachine) {
-    const SceneLoadBudget budget = choose_load_budget(write_sparse_file(1000), {},
-                                                      1000 * kGibibyte);
-    EXPECT_EQ(budget.triangles, SceneLoadBudget().triangles);
-    EXPECT_EQ(budget.vertices, SceneLoadBudget().vertices);
-    EXPECT_EQ(budget.shown, SceneLoadBudget().shown);
+    const LoadBudget budget = choose_budget(write_sparse_file(1000), {}, 1000 * kGibibyte);
+    EXPECT_EQ(budget.triangles, LoadBudget().triangles);
+    EXPECT_EQ(budget.vertices, LoadBudget().vertices);
+    EXPECT_EQ(budget.shown, LoadBudget().shown);
     EXPECT_EQ(budget.file_bytes, 125 * kGibibyte);
 }
 
 TEST_F(ChooseLoadBudgetTest, LargeFileBudgetIsLimitedByFileSizeAndMemory) {
     const std::filesystem::path path = write_sparse_file(kGibibyte);
-    EXPECT_EQ(choose_load_budget(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
-    EXPECT_EQ(choose_load_budget(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
-    EXPECT_EQ(choose_load_budget(path, {}, 16 * kGibibyte).triangles,
+    EXPECT_EQ(choose_budget(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
+    EXPECT_EQ(choose_budget(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
+    EXPECT_EQ(choose_budget(path, {}, 16 * kGibibyte).triangles,
               16 * kGibibyte / kRenderBytesPerTriangle);
-    EXPECT_EQ(choose_load_budget(path, {}, kGibibyte).triangles, SceneLoadBudget().triangles);
-    EXPECT_EQ(choose_load_budget(path, {}, kGibibyte).file_bytes, SceneLoadBudget().file_bytes);
+    EXPECT_EQ(choose_budget(path, {}, kGibibyte).triangles, LoadBudget().triangles);
+    EXPECT_EQ(choose_budget(path, {}, kGibibyte).file_bytes, LoadBudget().file_bytes);
 }
 
 TEST_F(ChooseLoadBudgetTest, UserLimitsReplaceComputedLimits) {
-    const SceneLoadBudget most = choose_load_budget(write_sparse_file(1000),
-                                                    {.bytes = 7, .triangles = 50'000'000}, 0);
+    const LoadBudget most = choose_budget(write_sparse_file(1000),
+                                          {.bytes = 7, .triangles = 50'000'000}, 0);
     EXPECT_EQ(most.file_bytes, 7u);
     EXPECT_EQ(most.triangles, 50'000'000u);
     EXPECT_EQ(most.vertices, 150'000'000u);
-    EXPECT_EQ(choose_load_budget(write_sparse_file(1000), {.triangles = 3}, 0).triangles, 3u);
-    EXPECT_EQ(choose_load_budget(write_sparse_file(1000), {.triangles = 3}, 0).vertices,
-              SceneLoadBudget().vertices);
+    EXPECT_EQ(choose_budget(write_sparse_file(1000), {.triangles = 3}, 0).triangles, 3u);
+    EXPECT_EQ(choose_budget(write_sparse_file(1000), {.triangles = 3}, 0).vertices,
+              LoadBudget().vertices);
 }
 
 TEST_F(ChooseLoadBudgetTest, FreeMemoryOfTheMachineIsKnown) {

@@ -1,4 +1,4 @@
-// Tests of scene::choose_capture_centre: a capture shows nothing if an object within the mirror
+// Tests of scene::capture_centre: a capture shows nothing if an object within the mirror
 // encloses its centre.
 #include "scene/build.hpp"
 #include "scene/capture_centre.hpp"
@@ -28,19 +28,18 @@ TEST(CaptureCentre, IsThatOfTheBoundsUnlessSomethingWithinEnclosesIt) {
     open.triangles.resize(4); // a shell with large holes
     for (const Mesh& mesh :
          {box("beside", dvec3(.1), dvec3(.5)), box("around", dvec3(-3), dvec3(3)), open})
-        EXPECT_EQ(list_capture_centres(make_scene_with(mesh)), std::vector{dvec3(2, 0, 0)})
-            << mesh.name;
+        EXPECT_EQ(capture_centres(make_scene_with(mesh)), std::vector{dvec3(2, 0, 0)}) << mesh.name;
 }
 
 TEST(CaptureCentre, LeavesWhatEnclosesIt) {
     for (const double edge : {.1, .3, .5}) {
-        const dvec3 centre = list_capture_centres(
+        const dvec3 centre = capture_centres(
             make_scene_with(box("core", dvec3(-edge), dvec3(edge))))[0];
         EXPECT_NEAR(centre.z, (edge + 1) / 2, .07) << "amid the core and the bounds";
         EXPECT_EQ(centre.x, 2);
     }
     // The post sticks out of the cube.
-    const dvec3 beside = list_capture_centres(
+    const dvec3 beside = capture_centres(
         make_scene_with(box("post", dvec3(-.2, -.2, -1.5), dvec3(.2, .2, 1.5))))[0];
     EXPECT_NEAR(beside.x, 2.6, .05);
     EXPECT_EQ(beside.z, 0);
@@ -48,7 +47,7 @@ TEST(CaptureCentre, LeavesWhatEnclosesIt) {
 
 TEST(CaptureCentre, StaysIfEverythingIsEnclosed) {
     Scene scene = make_scene_with(box("core", dvec3(-.999), dvec3(.999)));
-    EXPECT_EQ(list_capture_centres(scene)[0], dvec3(2, 0, 0));
+    EXPECT_EQ(capture_centres(scene)[0], dvec3(2, 0, 0));
 }
 
 } // namespace

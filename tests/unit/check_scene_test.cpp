@@ -134,7 +134,7 @@ TEST(CheckScene, WrongPartsAreRefusedWithTheirPlace) {
 
 TEST(CheckScene, BuiltInAndEmptyScenesPass) {
     EXPECT_NO_THROW(scene::check_scene({}));
-    for (const scene::BuiltInScene& built_in : scene::list_built_in_scenes())
+    for (const scene::BuiltInScene& built_in : scene::built_in_scenes())
         EXPECT_NO_THROW(scene::check_scene(scene::load(built_in.name))) << built_in.name;
 }
 

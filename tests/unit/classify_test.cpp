@@ -140,28 +140,28 @@ std::vector<std::string> list_scene_feature_ids(const Scene& scene) {
 
 TEST(SettleGaps, IndirectLightOfDiffuseSurfacesIsListedAsUnsupported) {
     Scene scene = make_panel_scene({.name = "wall", .albedo = vec3(.5f)});
-    add_unsupported_lighting_features(scene);
+    add_unsupported_lighting(scene);
     EXPECT_THAT(list_scene_feature_ids(scene), testing::IsEmpty()) << "nothing lights it";
     scene.punctual.push_back({.intensity = vec3(1)});
-    add_unsupported_lighting_features(scene);
+    add_unsupported_lighting(scene);
     ASSERT_THAT(list_scene_feature_ids(scene), ElementsAre("indirect-left-out"));
     EXPECT_EQ(scene.unsupported[0].count, 1u);
     EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'wall'");
     EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
     scene.punctual.clear();
     scene.environment = std::make_shared<Environment>();
-    add_unsupported_lighting_features(scene);
+    add_unsupported_lighting(scene);
     EXPECT_THAT(list_scene_feature_ids(scene),
                 ElementsAre("indirect-left-out", "environment-unshadowed"));
     // A second call must not list anything twice.
-    add_unsupported_lighting_features(scene);
+    add_unsupported_lighting(scene);
     EXPECT_THAT(list_scene_feature_ids(scene),
                 ElementsAre("indirect-left-out", "environment-unshadowed"));
     for (const Material& none : {Material{.albedo = vec3(0)},
                                  {.albedo = vec3(1), .unlit = true},
                                  make_metal_material(0)}) {
         scene.materials[0] = none;
-        add_unsupported_lighting_features(scene);
+        add_unsupported_lighting(scene);
         EXPECT_THAT(list_scene_feature_ids(scene), testing::IsEmpty()) << "it has no diffuse part";
     }
 }
@@ -187,7 +187,7 @@ Scene make_partly_smooth_wall(std::uint32_t columns) {
 TEST(Classify, TexturedMetalIsAMirrorIfATwentiethOfItsAreaIsSmooth) {
     for (const auto& [columns, is] : {std::pair(2u, true), {19u, true}, {21u, false}}) {
         Scene scene = make_partly_smooth_wall(columns);
-        EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
+        EXPECT_NEAR(surface_shares(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
         find_mirrors(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << columns;
         EXPECT_EQ(scene.unsupported.size(), 1u) << "the rest is rough metal";
@@ -212,9 +212,9 @@ TEST(Classify, MirrorShareIsWeightedByWorldArea) {
     }
     for (const uvec3& t : rough.triangles) mesh.triangles.push_back(t + 4u);
     add_mesh(scene, mesh, index);
-    EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, .25, .001);
+    EXPECT_NEAR(surface_shares(scene, scene.objects[0]).mirror, .25, .001);
     scene.objects[0].world_from_object[2].z = 1.0 / 3; // now both areas are equal, 1 to 1
-    EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, .5, .001);
+    EXPECT_NEAR(surface_shares(scene, scene.objects[0]).mirror, .5, .001);
 }
 
 TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
@@ -225,13 +225,13 @@ TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
     scene.meshes[0].colours.assign(4, vec4(1));
     const float f0 = .5f * linear_from_srgb(0x80);
     EXPECT_NEAR(f0, .1079, 1e-4);
-    EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 0);
+    EXPECT_EQ(surface_shares(scene, scene.objects[0]).mirror, 0);
     scene.materials[0].albedo = vec3(1);
-    const SurfaceKindShares surface = measure_surface_kinds(scene, scene.objects[0]);
+    const SurfaceShares surface = surface_shares(scene, scene.objects[0]);
     EXPECT_EQ(surface.mirror, 1);
     EXPECT_NEAR(surface.mirror_f0.x, .2159, 1e-4);
     scene.meshes[0].colours.assign(4, vec4(.5f, .5f, .5f, 1));
-    EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 0);
+    EXPECT_EQ(surface_shares(scene, scene.objects[0]).mirror, 0);
 }
 
 TEST(Classify, CutOutTexelsDoNotCountAsArea) {
@@ -241,7 +241,7 @@ TEST(Classify, CutOutTexelsDoNotCountAsArea) {
         {2, 1}, {0xffffffffu, 0x00ffffffu}); // the right texel is cut out
     material.roughness_texture = make_test_texture({2, 1}, {0xffff0000u, 0xffffff00u});
     const Scene scene = make_panel_scene(material);
-    EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 1);
+    EXPECT_EQ(surface_shares(scene, scene.objects[0]).mirror, 1);
 }
 
 TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
@@ -262,17 +262,17 @@ TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
     EXPECT_EQ(red(-7), 10);
     one.u_row = {0, 0, .5f}; // a texture transform that makes every u equal to .5
     EXPECT_EQ(red(7), 20);
-    EXPECT_NEAR(mean_texel_colour(one).x, 20 / 255.0, 1e-6);
+    EXPECT_NEAR(mean_texel(one).x, 20 / 255.0, 1e-6);
 }
 
-MirrorShape::ShapeKind classify_shape_of_mesh(Mesh mesh) {
+MirrorShape::Kind classify_shape_of_mesh(Mesh mesh) {
     Scene scene;
     add_mesh(scene, std::move(mesh), add_material(scene, {}));
-    return classify_mirror_shape(scene, scene.objects[0]).kind;
+    return classify_shape(scene, scene.objects[0]).kind;
 }
 
 TEST(ShapeOf, MeshesAreClassifiedByShape) {
-    using enum MirrorShape::ShapeKind;
+    using enum MirrorShape::Kind;
     EXPECT_EQ(classify_shape_of_mesh(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})), flat);
     EXPECT_EQ(classify_shape_of_mesh(ball("b", 4)), sphere);
     EXPECT_EQ(classify_shape_of_mesh(ball("b", 1)), convex) << "too few facets for a ball";
@@ -304,7 +304,7 @@ TEST(ShapeOf, SphereIsFittedToPartOfABall) {
     add_mesh(scene, dish, add_material(scene, {}));
     dmat4& world = scene.objects[0].world_from_object;
     world = dmat4(3), world[3] = dvec4(100, 5, -7, 1);
-    const MirrorShape shape = classify_mirror_shape(scene, scene.objects[0]);
+    const MirrorShape shape = classify_shape(scene, scene.objects[0]);
     EXPECT_FALSE(shape.is_closed);
     ASSERT_TRUE(shape.fit);
     EXPECT_NEAR(shape.fit->radius, 3, 1e-6);
@@ -323,12 +323,12 @@ TEST(ShapeOf, ClosedBoxIsConvexOrConcaveByFacing) {
         for (const uvec3& t : side.triangles) box.triangles.push_back(t + first);
     }
     add_mesh(scene, box, add_material(scene, {}));
-    MirrorShape shape = classify_mirror_shape(scene, scene.objects[0]);
-    EXPECT_EQ(shape.kind, MirrorShape::ShapeKind::concave) << "walls face in";
+    MirrorShape shape = classify_shape(scene, scene.objects[0]);
+    EXPECT_EQ(shape.kind, MirrorShape::Kind::concave) << "walls face in";
     EXPECT_TRUE(shape.is_closed);
     for (uvec3& t : scene.meshes[0].triangles) std::swap(t.y, t.z);
-    shape = classify_mirror_shape(scene, scene.objects[0]);
-    EXPECT_EQ(shape.kind, MirrorShape::ShapeKind::convex);
+    shape = classify_shape(scene, scene.objects[0]);
+    EXPECT_EQ(shape.kind, MirrorShape::Kind::convex);
 }
 
 /// Scene files do not mark balls. One function recognises a ball by its triangles, for `info`,
@@ -357,9 +357,9 @@ TEST(Classify, SmoothMirrorBallsGetAnExactSphere) {
     ASSERT_TRUE(scene.objects[0].sphere);
     EXPECT_NEAR(distance(scene.objects[0].sphere->centre, dvec3(3, -2, 1)), 0, 1e-6);
     EXPECT_NEAR(scene.objects[0].sphere->radius, .5, 1e-6);
-    EXPECT_EQ(classify_mirror_shape(scene, scene.objects[0]).kind, MirrorShape::ShapeKind::sphere);
+    EXPECT_EQ(classify_shape(scene, scene.objects[0]).kind, MirrorShape::Kind::sphere);
     EXPECT_FALSE(scene.objects[1].sphere);
-    EXPECT_NE(classify_mirror_shape(scene, scene.objects[1]).kind, MirrorShape::ShapeKind::sphere);
+    EXPECT_NE(classify_shape(scene, scene.objects[1]).kind, MirrorShape::Kind::sphere);
     EXPECT_FALSE(scene.objects[2].sphere) << "no mirror";
 }
 
@@ -379,7 +379,7 @@ Scene make_ball_on_rig(const dvec3& first, const dvec3& last, const dvec3& of_pa
                          .scales = std::make_shared<const TranslationTrack>(
                              TranslationTrack{.times = {0, 2}, .values = {first, last}})});
     RigAttachment follows{.rig = std::make_shared<const NodeRig>(std::move(rig)), .node = 1};
-    scene.objects[0].world_from_object = compute_node_transforms(*follows.rig, 0)[1];
+    scene.objects[0].world_from_object = node_transforms(*follows.rig, 0)[1];
     scene.objects[0].motion = std::move(follows);
     return scene;
 }
@@ -388,7 +388,7 @@ TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
     Scene scene = make_ball_on_rig(dvec3(1), dvec3(3), dvec3(.5));
     find_mirrors(scene);
     for (const double seconds : {0., .5, 1.25, 2., 7.}) {
-        const Scene still = scene_at_time(scene, seconds);
+        const Scene still = scene_at(scene, seconds);
         const Object& object = still.objects[0];
         ASSERT_TRUE(object.sphere) << seconds;
         EXPECT_NEAR(object.sphere->radius, .5 * (1 + std::min(seconds, 2.)), 1e-6);
@@ -408,8 +408,8 @@ TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
     // stretches the object.
     Scene marked = make_ball_on_rig(dvec3(1), dvec3(1, 2, 1));
     marked.objects[0].sphere = Sphere{dvec3(marked.objects[0].world_from_object[3]), 1};
-    EXPECT_TRUE(scene_at_time(marked, 0).objects[0].sphere);
-    EXPECT_FALSE(scene_at_time(marked, 1).objects[0].sphere);
+    EXPECT_TRUE(scene_at(marked, 0).objects[0].sphere);
+    EXPECT_FALSE(scene_at(marked, 1).objects[0].sphere);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ class RequirementsAtInstants {
 public:
     explicit RequirementsAtInstants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
     RequiredWorkModel required_work_model_at_time(double seconds) {
-        const scene::Scene now = scene::scene_at_time(rest_, seconds);
+        const scene::Scene now = scene::scene_at(rest_, seconds);
         return requirements_.make_work_model_for_request(
             {now, rest_.cameras[0], {64, 64}, kShadowMapEdgeTexels});
     }
@@ -47,7 +47,7 @@ int count_unchanged_faces(const RequiredWorkModel& before, const RequiredWorkMod
 }
 
 TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     RequirementsAtInstants instants(scene);
     const RequiredWorkModel first = instants.required_work_model_at_time(0),
                             second = instants.required_work_model_at_time(0),
@@ -64,7 +64,7 @@ TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
 }
 
 TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     RequirementsAtInstants instants(scene);
     RequiredWorkModel before = instants.required_work_model_at_time(0);
     int stays = 0;
@@ -82,7 +82,7 @@ TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
 }
 
 TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
-    const scene::Scene rest = scene::make_cornell_mirrors();
+    const scene::Scene rest = scene::make_cornell();
     scene::Scene scene = rest;
     RequiredWorkModelBuilder requirements(scene);
     const auto model = [&] {
@@ -210,8 +210,7 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
         RequirementsAtInstants instants(scene);
         const RequiredWorkModel before = instants.required_work_model_at_time(.2),
                                 after = instants.required_work_model_at_time(.5);
-        const scene::Scene then = scene::scene_at_time(scene, .2),
-                           now = scene::scene_at_time(scene, .5);
+        const scene::Scene then = scene::scene_at(scene, .2), now = scene::scene_at(scene, .5);
         const test::ObjectRayCaster old_tree(then), new_tree(now);
         const std::vector<std::size_t> mirrors = scene::mirrors(scene);
         for (std::size_t i = 0; i < mirrors.size(); ++i) {

@@ -43,7 +43,7 @@ bool do_facets_overlap(const PlanarFacet& a, const PlanarFacet& b, double slack)
 }
 
 TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
-    for (const BuiltInScene& built_in : list_built_in_scenes()) {
+    for (const BuiltInScene& built_in : built_in_scenes()) {
         const std::string name = built_in.name;
         const Scene scene = load(name);
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
@@ -56,8 +56,8 @@ TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
             for (const uvec3& t : mesh.triangles) {
                 PlanarFacet facet{.object = i};
                 for (int k = 0; k < 3; ++k)
-                    facet.corners[k] = transform_point_to_world(object.world_from_object,
-                                                                mesh.positions[t[k]]);
+                    facet.corners[k] = transform_point(object.world_from_object,
+                                                       mesh.positions[t[k]]);
                 facet.normal = normalized_or_zero(glm::cross(facet.corners[1] - facet.corners[0],
                                                              facet.corners[2] - facet.corners[0]));
                 if (facet.normal == dvec3(0)) continue;

@@ -15,7 +15,7 @@
 namespace {
 
 using namespace catoptric;
-using scene::compute_core_bounds;
+using scene::core_bounds;
 
 scene::Mesh make_triangle_mesh(const std::string& name, const dvec3& at, double size = 1) {
     return {.name = name,
@@ -25,7 +25,7 @@ scene::Mesh make_triangle_mesh(const std::string& name, const dvec3& at, double 
 }
 
 scene::Scene make_scene_with_distant_triangle(double distance) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     test::add_mesh(scene, make_triangle_mesh("stray", {distance, 0, distance}), 0);
     return scene;
 }
@@ -37,21 +37,20 @@ void expect_same_core_bounds(const Bounds<double>& found, const Bounds<double>& 
 
 TEST(Core, CoreIsTheWholeSceneIfNothingIsFarOutside) {
     for (const scene::Scene& scene :
-         {scene::make_cornell_mirrors(), test::make_lit_room(3, 2), test::make_furnace_scene(1),
+         {scene::make_cornell(), test::make_lit_room(3, 2), test::make_furnace_scene(1),
           make_scene_with_distant_triangle(1500)})
-        expect_same_core_bounds(compute_core_bounds(scene), scene::bounds(scene));
-    EXPECT_TRUE(compute_core_bounds({}).empty());
+        expect_same_core_bounds(core_bounds(scene), scene::bounds(scene));
+    EXPECT_TRUE(core_bounds({}).empty());
 }
 
 TEST(Core, CoreLeavesOutObjectsFarOutside) {
-    const Bounds<double> room = scene::bounds(scene::make_cornell_mirrors());
+    const Bounds<double> room = scene::bounds(scene::make_cornell());
     for (const double distance : {1e4, 1e6, 1e9, 1e30})
-        expect_same_core_bounds(compute_core_bounds(make_scene_with_distant_triangle(distance)),
-                                room);
+        expect_same_core_bounds(core_bounds(make_scene_with_distant_triangle(distance)), room);
     scene::Scene many = make_scene_with_distant_triangle(1e5);
     for (int i = 0; i < 3; ++i)
         test::add_mesh(many, make_triangle_mesh("more", dvec3(0, 1e7 * (i + 1), 0), 1e5), 0);
-    expect_same_core_bounds(compute_core_bounds(many), room);
+    expect_same_core_bounds(core_bounds(many), room);
 }
 
 TEST(Core, CoreLeavesOutAFarTriangleOfTheOnlyMesh) {
@@ -69,7 +68,7 @@ TEST(Core, CoreLeavesOutAFarTriangleOfTheOnlyMesh) {
     const auto last = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.triangles.push_back({last - 3, last - 2, last - 1});
     test::add_mesh(one, mesh, 0);
-    const Bounds<double> found = compute_core_bounds(one);
+    const Bounds<double> found = core_bounds(one);
     // The core is found from a sample of corners, so the test allows a tolerance.
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(found.lo[axis], core.lo[axis], .1);
@@ -83,12 +82,11 @@ TEST(Core, CoreLeavesOutADistantSkyOfManyTriangles) {
     scene::Mesh sky = scene::ball("sky", 6);
     for (dvec3& position : sky.positions) position = 1e6 * position + dvec3(3e5, 0, 0);
     test::add_mesh(scene, sky, 0);
-    expect_same_core_bounds(compute_core_bounds(scene), room);
+    expect_same_core_bounds(core_bounds(scene), room);
 }
 
 TEST(Core, ObjectsFarOutsideDoNotChangeSceneUnits) {
-    const render::SceneUnitTransform plain = render::make_scene_units(
-        scene::make_cornell_mirrors());
+    const render::SceneUnitTransform plain = render::make_scene_units(scene::make_cornell());
     for (const double distance : {1e4, 1e9}) {
         const render::SceneUnitTransform with = render::make_scene_units(
             make_scene_with_distant_triangle(distance));
@@ -154,7 +152,7 @@ TEST(Core, MirrorFarOutsideDoesNotMoveTheOrigin) {
 }
 
 TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     const std::size_t objects = scene.objects.size();
     test::add_mesh(scene, make_triangle_mesh("reachable", dvec3(1e20, 0, 0), 1e19), 0);
     test::add_mesh(scene, make_triangle_mesh("beyond", dvec3(1e22, 0, 0), 1e21), 0);
@@ -167,9 +165,9 @@ TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
                                                      "1e+18 sizes of the scene's core"));
     }
     scene::LoaderNotes notes;
-    // finish_loaded_scene(), which every loader calls, removes an object whose distance from the
+    // finish_scene(), which every loader calls, removes an object whose distance from the
     // core exceeds the range of floats.
-    scene::finish_loaded_scene(scene, "file.obj", notes);
+    scene::finish_scene(scene, "file.obj", notes);
     EXPECT_EQ(scene.objects.size(), objects + 1);
     EXPECT_THAT(scene.warnings,
                 testing::ElementsAre("file.obj: objects farther away than floats reach, left out: "
@@ -215,8 +213,7 @@ TEST(Geometry, LampCornersRunCounterClockwiseAroundTheirNormals) {
 /// The boxes of a BVH are widened by a rounding error that grows with distance. One stray triangle
 /// must not widen all boxes, and rays must still find the stray triangle.
 TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
-    const scene::Scene room = scene::make_cornell_mirrors(),
-                       scene = make_scene_with_distant_triangle(1e9);
+    const scene::Scene room = scene::make_cornell(), scene = make_scene_with_distant_triangle(1e9);
     const render::FrameGeometry plain = render::make_frame_geometry(room,
                                                                     render::make_scene_units(room)),
                                 geometry = render::make_frame_geometry(

@@ -35,19 +35,19 @@ TEST(FlatMirror, RoughMirrorHasFlatFacesAndBumpyMirrorHasNone) {
     const scene::FlatFaces rough = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(rough.misfit, "");
     EXPECT_TRUE(rough.is_rough);
-    EXPECT_TRUE(rough.is_single_plane());
+    EXPECT_TRUE(rough.is_plane());
     scene.materials.front().roughness = .03f;
     const scene::FlatFaces sharp = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(sharp.misfit, "");
     EXPECT_FALSE(sharp.is_rough);
-    EXPECT_TRUE(sharp.is_single_plane());
+    EXPECT_TRUE(sharp.is_plane());
     scene.materials.front().normal_texture = scene::Texture{
         .image = std::make_shared<scene::Image>(
             scene::Image{.name = "normals", .size = {1, 1}, .texels = {0xffff8080u}})};
     const scene::FlatFaces bumpy = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(bumpy.misfit, "bumpy");
     EXPECT_TRUE(bumpy.faces.empty());
-    EXPECT_EQ(bumpy.bent, (std::vector<scene::TriangleIndexRun>{{0, 2}}));
+    EXPECT_EQ(bumpy.bent, (std::vector<scene::TriangleRun>{{0, 2}}));
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
@@ -94,7 +94,7 @@ TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     const scene::FlatFaces flats = scene::find_flat_faces(box, kTurnedObjectPlacement);
     ASSERT_EQ(flats.faces.size(), 6u);
     EXPECT_TRUE(flats.bent.empty());
-    EXPECT_NEAR(flats.flat_area_share(1e-9), 1, 1e-9);
+    EXPECT_NEAR(flats.flat_share(1e-9), 1, 1e-9);
     std::uint32_t triangles = 0;
     for (const scene::FlatFace& face : flats.faces) {
         EXPECT_TRUE(face.is_one_sided);
@@ -125,23 +125,21 @@ TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
                 rounded.normals[t[k]] = glm::normalize(rounded.normals[t[k]] + vec3(0, 0, .2f));
     const scene::FlatFaces flats = scene::find_flat_faces(rounded, dmat4(1));
     EXPECT_EQ(flats.faces.size(), 2u);
-    EXPECT_NEAR(flats.flat_area_share(1e-6), 8 / 9.6, 1e-6);
+    EXPECT_NEAR(flats.flat_share(1e-6), 8 / 9.6, 1e-6);
     ASSERT_FALSE(flats.bent.empty());
     const scene::FlatFaces ball = scene::find_flat_faces(scene::ball("ball", 3), dmat4(1));
     EXPECT_TRUE(ball.faces.empty());
     EXPECT_EQ(ball.bent.size(), 1u);
     const scene::FlatFaces quad = scene::find_flat_faces(make_flat_board(), kTurnedObjectPlacement);
-    EXPECT_TRUE(quad.is_single_plane());
+    EXPECT_TRUE(quad.is_plane());
     EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
 }
 
 // The expected tolerance is a sixteenth of a pixel's angle, atan(2 tan(30 deg) / 600).
 TEST(FlatMirror, FlatToleranceIsASixteenthOfAPixel) {
     const scene::Camera camera{.vertical_fov_degrees = 60};
-    EXPECT_NEAR(scene::compute_flat_tolerance(camera, {10, 600}), 2 * std::tan(M_PI / 6) / 600 / 16,
-                1e-9);
-    EXPECT_NEAR(scene::compute_flat_tolerance({.orthographic_height = 3}, {10, 600}),
-                2.0 / 600 / 16, 1e-9);
+    EXPECT_NEAR(scene::flat_tolerance(camera, {10, 600}), 2 * std::tan(M_PI / 6) / 600 / 16, 1e-9);
+    EXPECT_NEAR(scene::flat_tolerance({.orthographic_height = 3}, {10, 600}), 2.0 / 600 / 16, 1e-9);
 }
 
 render::MirroredViewEye make_eye_at(const dvec3& place, const dvec3& target) {

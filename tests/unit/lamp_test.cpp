@@ -144,7 +144,7 @@ double irradiance_at_place(const Scene& scene, const dvec3& place) {
     double sum = 0;
     for (const PointLight& light : list_lights(scene)) {
         const dvec3 way = place - light.position, along = glm::normalize(way);
-        sum += light.emission.x * light.area * light_share_in_direction(light, along) *
+        sum += light.emission.x * light.area * light_share(light, along) *
                glm::dot(along, glm::normalize(place)) / glm::dot(way, way);
     }
     return sum;
@@ -215,7 +215,7 @@ TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
                     for (const PointLight& light : list_lights(scene)) {
                         const dvec3 way = dvec3(x, 0, z) - light.position,
                                     along = glm::normalize(way);
-                        found += light.area * light_share_in_direction(light, along) * -along.y /
+                        found += light.area * light_share(light, along) * -along.y /
                                  glm::dot(way, way) / test::kPi;
                     }
                     most = std::max(most, std::abs(found - wanted));
@@ -266,10 +266,10 @@ TEST_F(Lamps, OpenTwoSidedBoardShinesByItsVisibleArea) {
     EXPECT_FALSE(light.closed);
     for (const dvec3& along :
          {dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(.6, .8, 0), dvec3(0, -.6, .8), dvec3(1, 0, 0)})
-        EXPECT_NEAR(light_share_in_direction(light, along), std::abs(along.y), 1e-7);
+        EXPECT_NEAR(light_share(light, along), std::abs(along.y), 1e-7);
     const Scene one = load(write_loaded_file("one.glb", make_glb_of_mesh(board, false)));
-    EXPECT_NEAR(light_share_in_direction(list_lights(one)[0], {.6, .8, 0}), .8, 1e-7);
-    EXPECT_EQ(light_share_in_direction(list_lights(one)[0], {.6, -.8, 0}), 0);
+    EXPECT_NEAR(light_share(list_lights(one)[0], {.6, .8, 0}), .8, 1e-7);
+    EXPECT_EQ(light_share(list_lights(one)[0], {.6, -.8, 0}), 0);
 }
 
 TEST_F(Lamps, OpenTwoSidedTubeShinesByTheMeanCosineOfItsFacets) {
@@ -280,9 +280,8 @@ TEST_F(Lamps, OpenTwoSidedTubeShinesByTheMeanCosineOfItsFacets) {
     // A facet at the angle a around the tube covers |cos a| times the sine of the angle between
     // view direction and axis. The mean of |cos a| over a full turn is 2 / pi.
     for (const double angle : {0.0, .4, .9, test::kPi / 2})
-        EXPECT_NEAR(
-            light_share_in_direction(list_lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
-            2 / test::kPi * std::sin(angle), 1e-3);
+        EXPECT_NEAR(light_share(list_lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
+                    2 / test::kPi * std::sin(angle), 1e-3);
 }
 
 TEST_F(Lamps, SphereWithAHoleIsAnOpenLamp) {
@@ -295,9 +294,8 @@ TEST_F(Lamps, SphereWithAHoleIsAnOpenLamp) {
     // The sphere with a hole shines almost equally in all directions. Its inside shines out
     // through the hole, too, so the lamp is as bright as half of its surface seen head-on.
     const Scene two = load(write_loaded_file("two.glb", make_glb_of_mesh(mesh, true)));
-    EXPECT_NEAR(mean_over_six_axes([&](const dvec3& along) {
-                    return light_share_in_direction(list_lights(two)[0], along);
-                }),
+    EXPECT_NEAR(mean_over_six_axes(
+                    [&](const dvec3& along) { return light_share(list_lights(two)[0], along); }),
                 .5, .01);
 }
 
@@ -305,16 +303,14 @@ TEST(Topology, PositionsWithinRoundingErrorsAreMerged) {
     const std::vector<dvec3> places{{1, 0, 0},     {1, 1e-17, -1e-17}, {1 + 2e-7, 0, 0},
                                     {1.01, 0, 0},  {1, 2e-6, 0},       {0, 0, 0},
                                     {0, -1e-9, 0}, {1, 0, 0}};
-    EXPECT_THAT(find_first_vertex_at_each_position(places),
-                testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
-    EXPECT_TRUE(find_first_vertex_at_each_position({}).empty());
-    EXPECT_THAT(find_first_vertex_at_each_position(std::vector(3, dvec3(0))),
-                testing::ElementsAre(0, 0, 0));
+    EXPECT_THAT(weld_vertices(places), testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
+    EXPECT_TRUE(weld_vertices({}).empty());
+    EXPECT_THAT(weld_vertices(std::vector(3, dvec3(0))), testing::ElementsAre(0, 0, 0));
 }
 
 TEST(Topology, TriangleWithARepeatedCornerHasNoSides) {
     const std::vector<TriangleCorners> triangles{{0, 1, 2}, {2, 1, 1}, {3, 1, 2}};
-    const std::vector<TriangleEdge> sides = list_triangle_edges(triangles);
+    const std::vector<TriangleEdge> sides = triangle_edges(triangles);
     EXPECT_EQ(sides.size(), 6u);
     std::size_t shared = 0;
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) { shared += edge.size() == 2; });

@@ -35,14 +35,13 @@ protected:
         animation["samplers"].push_back(
             {{"input", input}, {"output", output}, {"interpolation", interpolation}});
     }
-    Scene load_animated_gltf(const GltfFileBuilder& gltf,
-                             const SceneFileOptions& options = {}) const {
-        return load_scene_file(write_loaded_file("x.glb", gltf.glb_bytes()), options);
+    Scene load_animated_gltf(const GltfFileBuilder& gltf, const FileOptions& options = {}) const {
+        return load_file(write_loaded_file("x.glb", gltf.glb_bytes()), options);
     }
     static dvec3 move_point_with_object(const Scene& scene, double seconds,
                                         const dvec3& point = dvec3(0)) {
-        const Scene now = scene_at_time(scene, seconds);
-        return transform_point_to_world(now.objects.at(0).world_from_object, point);
+        const Scene now = scene_at(scene, seconds);
+        return transform_point(now.objects.at(0).world_from_object, point);
     }
     static void expect_near_point(const dvec3& found, const dvec3& wanted) {
         for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], 1e-6) << "component " << i;
@@ -59,7 +58,7 @@ TEST_F(LoadAnimationTest, TranslationsFollowEachInterpolation) {
     expect_near_point(move_point_with_object(linear, 3), {0, 0, 8});
     expect_near_point(move_point_with_object(linear, 100), {0, 0, 8});
     expect_near_point(move_point_with_object(linear, -5), {0, 0, 0});
-    EXPECT_EQ(compute_scene_period(linear), 3);
+    EXPECT_EQ(scene_period(linear), 3);
     const Scene step = load_animated_gltf(
         make_gltf_with_moving_node("translation", values, "STEP"));
     expect_near_point(move_point_with_object(step, .999), {0, 0, 0});
@@ -140,7 +139,7 @@ TEST_F(LoadAnimationTest, MovingParentsCarryTheirChildren) {
     expect_near_point(move_point_with_object(scene, 1, {1, 0, 0}), {-3, 3, 5});
     EXPECT_TRUE(is_animated(scene));
     EXPECT_EQ(scene.meshes.size(), 1u);
-    EXPECT_FALSE(is_animated(scene_at_time(scene, .5)));
+    EXPECT_FALSE(is_animated(scene_at(scene, .5)));
     // Two objects with the same moving parent share one rig.
     gltf.root["nodes"][1]["mesh"] = 0;
     const Scene two = load_animated_gltf(gltf);
@@ -161,13 +160,13 @@ TEST_F(LoadAnimationTest, CamerasAndLightsMoveWithTheirNodes) {
     const Scene scene = load_animated_gltf(gltf);
     expect_near_point(scene.cameras.at(0).eye, {0, 0, 2});
     for (const Camera& camera :
-         {camera_at_time(scene.cameras[0], 1), scene_at_time(scene, 1).cameras.at(0)}) {
+         {camera_at(scene.cameras[0], 1), scene_at(scene, 1).cameras.at(0)}) {
         expect_near_point(camera.eye, {2, 0, 0}); // after a quarter turn about y
         expect_near_point(camera.target, {1, 0, 0});
         expect_near_point(camera.up, {0, 1, 0});
     }
-    expect_near_point(dvec3(scene_at_time(scene, 1).punctual.at(0).world_from_light[3]), {1, 1, 0});
-    EXPECT_EQ(camera_at_time(Camera(), 3), Camera());
+    expect_near_point(dvec3(scene_at(scene, 1).punctual.at(0).world_from_light[3]), {1, 1, 0});
+    EXPECT_EQ(camera_at(Camera(), 3), Camera());
     // A camera that moves along a single translation track.
     GltfFileBuilder sliding = make_gltf_with_moving_node("translation", {1, 0, 0, 5, 0, 0},
                                                          "LINEAR", {0, 1});
@@ -175,8 +174,8 @@ TEST_F(LoadAnimationTest, CamerasAndLightsMoveWithTheirNodes) {
     sliding.root["nodes"][0]["translation"] = {1, 0, 0};
     sliding.root["cameras"] = gltf.root["cameras"];
     const Scene slides = load_animated_gltf(sliding);
-    expect_near_point(camera_at_time(slides.cameras.at(0), .5).eye, {3, 0, 0});
-    expect_near_point(camera_at_time(slides.cameras.at(0), .5).target, {3, 0, -1});
+    expect_near_point(camera_at(slides.cameras.at(0), .5).eye, {3, 0, 0});
+    expect_near_point(camera_at(slides.cameras.at(0), .5).target, {3, 0, -1});
 }
 
 TEST_F(LoadAnimationTest, OneAnimationIsPlayedAndTheOthersAreListed) {

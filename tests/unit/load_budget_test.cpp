@@ -12,7 +12,7 @@ using namespace test::loading;
 class LoadBudgetTest : public Load {
 protected:
     std::string budget_error_text(const std::string& name, const std::string& text,
-                                  SceneLoadBudget budget = {}) const {
+                                  LoadBudget budget = {}) const {
         const std::string message = load_error_text(name, text, Failure::bad_data,
                                                     {.budget = budget});
         EXPECT_THAT(message, HasSubstr(", the budget of a scene, found "));
@@ -38,7 +38,7 @@ TEST_F(LoadBudgetTest, TooManyNodesThatShareAMeshAreRefused) {
         gltf.root["scenes"][0]["nodes"].push_back(i);
     }
     // Each object has 60,000 vertices: without normals in the file, triangles share no vertices.
-    const SceneLoadBudget shown{.shown = 2'000'000};
+    const LoadBudget shown{.shown = 2'000'000};
     EXPECT_THAT(budget_error_text("x.glb", gltf.glb_bytes(), shown),
                 AllOf(HasSubstr("nodes[33]: wanted at most 2000000 vertices shown by objects"),
                       HasSubstr("found 2040000")));
@@ -105,7 +105,7 @@ TEST_F(LoadBudgetTest, SharedAnimationKeysAreStoredAndCountedOnce) {
     };
     EXPECT_EQ(keys_of(0), keys_of(kNodes - 1)) << "one copy";
     EXPECT_EQ(keys_of(0)->times.size(), kAnimationKeyCount);
-    EXPECT_NE(hash_scene(scene), hash_scene(scene_at_time(scene, 0)));
+    EXPECT_NE(hash_scene(scene), hash_scene(scene_at(scene, 0)));
 
     for (std::size_t i = 1; i < kNodes; ++i) {
         gltf.root["animations"][0]["samplers"].push_back(sampler);
@@ -128,7 +128,7 @@ TEST_F(LoadBudgetTest, KeysOfAMovingParentAreSharedByItsChildren) {
     const Scene scene = load(write_loaded_file("x.glb", gltf.glb_bytes()));
     EXPECT_EQ(std::get<Keyframes>(scene.objects[0].motion).keys,
               std::get<Keyframes>(scene.objects[1].motion).keys);
-    EXPECT_EQ(scene_at_time(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
+    EXPECT_EQ(scene_at(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
 }
 
 TEST_F(LoadBudgetTest, TooManyBytesOfNamesAreRefused) {
@@ -224,35 +224,35 @@ TEST_F(LoadBudgetTest, TooLongGltfListsAreRefused) {
 
 TEST_F(LoadBudgetTest, EachBudgetCanBeLowered) {
     const auto with = [](auto member, std::uint64_t value) {
-        SceneLoadBudget budget;
+        LoadBudget budget;
         budget.*member = value;
         return budget;
     };
     const std::string glb = make_small_gltf(3).glb_bytes(),
                       obj = kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 3 2\no b\nf 1 2 3\n";
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::triangles, 2)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::triangles, 2)),
                 HasSubstr("2 triangles in meshes"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::vertices, 3)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::vertices, 3)),
                 HasSubstr("3 positions"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::vertices, 12)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::vertices, 12)),
                 HasSubstr("12 vertices in meshes"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::json_bytes, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::json_bytes, 99)),
                 HasSubstr("99 bytes of JSON"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::json_memory, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::json_memory, 99)),
                 HasSubstr("99 bytes of memory for its JSON"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::file_bytes, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::file_bytes, 99)),
                 HasSubstr("99 bytes in its files"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::objects, 0)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::objects, 0)),
                 HasSubstr("0 meshes"));
-    EXPECT_THAT(budget_error_text("x.obj", obj, with(&SceneLoadBudget::triangles, 2)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::triangles, 2)),
                 HasSubstr("x.obj:8: wanted at most 2 triangles"));
-    EXPECT_THAT(budget_error_text("x.obj", obj, with(&SceneLoadBudget::vertices, 2)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::vertices, 2)),
                 HasSubstr("x.obj:3: wanted at most 2 positions"));
-    EXPECT_THAT(budget_error_text("x.obj", obj, with(&SceneLoadBudget::objects, 1)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::objects, 1)),
                 HasSubstr("1 objects"));
     EXPECT_THAT(budget_error_text("x.obj",
                                   kTriangle + "# catoptric motion a step 2 0 0 0 0 1 0 0 0\n",
-                                  with(&SceneLoadBudget::keys, 1)),
+                                  with(&LoadBudget::keys, 1)),
                 HasSubstr("x.obj:4: wanted at most 1 keys"));
 }
 

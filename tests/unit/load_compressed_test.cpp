@@ -21,9 +21,9 @@ using test::kGridEdge;
 class LoadCompressedTest : public Load {
 protected:
     Scene load_glb(const GltfFileBuilder& gltf) const {
-        return load_scene_file(write_loaded_file("x.glb", gltf.glb_bytes()), {});
+        return load_file(write_loaded_file("x.glb", gltf.glb_bytes()), {});
     }
-    std::string refuse(const GltfFileBuilder& gltf, const SceneFileOptions& options = {}) const {
+    std::string refuse(const GltfFileBuilder& gltf, const FileOptions& options = {}) const {
         return load_error_text("y.glb", gltf.glb_bytes(), Failure::bad_data, options);
     }
 };
@@ -118,10 +118,10 @@ TEST_F(LoadCompressedTest, DracoMeshesLoadLikeTheirUncompressedTwins) {
     strip.root["meshes"][0]["primitives"][0]["mode"] = 0;
     EXPECT_THAT(refuse(strip), HasSubstr("mode: wanted 4 or 5 beside KHR_draco"));
     // Accessors that only describe compressed data take no memory of their own.
-    const SceneFileOptions options{.budget = {.made_bytes = 400}};
+    const FileOptions options{.budget = {.made_bytes = 400}};
     const std::string file = write_loaded_file(
         "x.glb", make_draco_gltf(grid, encode_by_draco("edgebreaker", 16)).glb_bytes());
-    EXPECT_EQ(triangle_count(load_scene_file(file, options)), 98u);
+    EXPECT_EQ(triangle_count(load_file(file, options)), 98u);
 }
 
 TEST_F(LoadCompressedTest, DracoDataThatDoNotFitAreRefused) {
@@ -320,7 +320,7 @@ TEST_F(LoadCompressedTest, InstancesBecomeObjectsOfOneMesh) {
     ASSERT_EQ(scene.objects.size(), 3u);
     EXPECT_EQ(scene.meshes.size(), 1u);
     const auto place = [&](std::size_t object, const dvec3& at) {
-        return transform_point_to_world(scene.objects[object].world_from_object, at);
+        return transform_point(scene.objects[object].world_from_object, at);
     };
     const auto expect_near = [](const dvec3& found, const dvec3& wanted) {
         EXPECT_LT(glm::distance(found, wanted), 1e-3)
@@ -345,8 +345,8 @@ TEST_F(LoadCompressedTest, InstancesFollowTheAnimationOfTheirNode) {
     const Scene scene = load_glb(gltf);
     ASSERT_EQ(scene.objects.size(), 3u);
     Scene later = scene;
-    move_scene_to_time(later, scene, 1);
-    const dvec3 found = transform_point_to_world(later.objects[1].world_from_object, dvec3(0));
+    move_to_time(later, scene, 1);
+    const dvec3 found = transform_point(later.objects[1].world_from_object, dvec3(0));
     EXPECT_LT(glm::distance(found, dvec3(5, 0, 40)), 1e-3) << found.x << " " << found.z;
 }
 
@@ -368,7 +368,7 @@ TEST_F(LoadCompressedTest, InstancesMayBeSparseAndKeepOnlyOurExtras) {
     gltf.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["_COLOR_0"] = 0;
     const Scene scene = load_glb(gltf);
     ASSERT_EQ(scene.objects.size(), 3u);
-    const dvec3 found = transform_point_to_world(scene.objects[2].world_from_object, dvec3(0));
+    const dvec3 found = transform_point(scene.objects[2].world_from_object, dvec3(0));
     EXPECT_LT(glm::distance(found, dvec3(100, 0, 50)), 1e-3) << found.x << " " << found.z;
     EXPECT_FALSE(scene.objects[1].seen_by_camera);
     ASSERT_EQ(scene.warnings.size(), 1u);

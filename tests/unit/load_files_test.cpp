@@ -20,9 +20,9 @@ protected:
         const std::string data = make_gltf_text().substr(make_gltf_text().find("data:"));
         return make_gltf_text(data.substr(0, data.find('"')), uri);
     }
-    double load_triangle_width(const std::string& uri, const SceneFileOptions& options = {}) const {
-        return bounds(load_scene_file(
-                          write_loaded_file("in/x.gltf", make_gltf_with_buffer_uri(uri)), options))
+    double load_triangle_width(const std::string& uri, const FileOptions& options = {}) const {
+        return bounds(load_file(write_loaded_file("in/x.gltf", make_gltf_with_buffer_uri(uri)),
+                                options))
             .hi.x;
     }
     std::string uri_error_text(const std::string& uri, Failure failure = Failure::bad_data) const {
@@ -168,10 +168,9 @@ TEST_F(LoadFilesTest, FileOfManyBuffersCountsOnce) {
     std::string more;
     for (int i = 0; i < 100; ++i) more += ",{\"byteLength\":36,\"uri\":\"./a.bin\"}";
     text.insert(text.rfind(']'), more);
-    SceneLoadBudget budget;
+    LoadBudget budget;
     budget.file_bytes = text.size() + 36;
-    EXPECT_EQ(
-        load_scene_file(write_loaded_file("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
+    EXPECT_EQ(load_file(write_loaded_file("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
 }
 
 TEST_F(LoadFilesTest, RootMustBeAFolder) {

@@ -33,10 +33,10 @@ protected:
     /// its message.
     std::string load_error_text(const std::string& name, const std::string& text,
                                 Failure failure = Failure::bad_data,
-                                const SceneFileOptions& options = {}) const {
+                                const FileOptions& options = {}) const {
         const std::string path = write_loaded_file(name, text);
         try {
-            load_scene_file(path, options);
+            load_file(path, options);
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, failure) << error.what();
             EXPECT_THAT(error.what(), HasSubstr(path));

@@ -18,8 +18,8 @@ protected:
         fs::create_directories(folder / "maps");
         fs::create_directories(folder / "My Library");
         const Image red{.name = "red", .size = {1, 1}, .texels = {0xff0000ffu}};
-        write_file(folder / "maps/Red Wood.png", encode_image_png(red));
-        write_file(folder / "My Library/own.png", encode_image_png(red));
+        write_file(folder / "maps/Red Wood.png", encode_png(red));
+        write_file(folder / "My Library/own.png", encode_png(red));
         write_file(folder / "My Library/room.mtl", "newmtl a\nKd 1 0 0\nmap_Kd own.png\n");
         write_file(folder / "plain.mtl", "newmtl a\nKd 1 0 0\n");
     }

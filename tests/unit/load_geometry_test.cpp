@@ -21,7 +21,7 @@ protected:
             for (const uvec3& t : scene.meshes[object.mesh].triangles) {
                 std::array<dvec3, 3> corners;
                 for (int i = 0; i < 3; ++i)
-                    corners[std::size_t(i)] = transform_point_to_world(
+                    corners[std::size_t(i)] = transform_point(
                         object.world_from_object, scene.meshes[object.mesh].positions[t[i]]);
                 list.push_back(corners);
             }

@@ -64,7 +64,7 @@ TEST_F(LoadObj, ColoursAfterPositionsBecomeVertexColours) {
 }
 
 TEST_F(LoadObj, TextureMapsAndTheirOptionsAreRead) {
-    write_loaded_file("wood and stone.png", encode_image_png(kLoadObjPicture));
+    write_loaded_file("wood and stone.png", encode_png(kLoadObjPicture));
     const Scene plain = load_obj_statements("map_Kd wood and stone.png\n");
     const Material& material = plain.materials[0];
     ASSERT_TRUE(material.albedo_texture);
@@ -160,7 +160,7 @@ TEST_F(LoadObj, HighlightsAreRoughLobes) {
 }
 
 TEST_F(LoadObj, NormalMapsAreReadAndHeightMapsAreListed) {
-    write_loaded_file("bumps.png", encode_image_png(kLoadObjPicture));
+    write_loaded_file("bumps.png", encode_png(kLoadObjPicture));
     const Scene mapped = load_obj_statements("Kd 1 1 1\nnorm bumps.png\n");
     ASSERT_TRUE(mapped.materials[0].normal_texture);
     EXPECT_FALSE(mapped.materials[0].normal_texture->srgb);
@@ -191,8 +191,8 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
     EXPECT_EQ(load_mtl_material("Tr .25\nNi 1\n").alpha, .75f);
     EXPECT_FALSE(has_alpha_mask(load_mtl_material("d 1\nNi 1.5\n")));
     // The loader does not read a separate mask (map_d), so nothing is cut out.
-    write_loaded_file("p.png", encode_image_png(kLoadObjPicture)),
-        write_loaded_file("q.png", encode_image_png(kLoadObjPicture));
+    write_loaded_file("p.png", encode_png(kLoadObjPicture)),
+        write_loaded_file("q.png", encode_png(kLoadObjPicture));
     const Scene other = load_obj_statements("map_Kd p.png\nmap_d q.png\n");
     EXPECT_FALSE(has_alpha_mask(other.materials[0]));
     EXPECT_THAT(list_unsupported_feature_ids(other), testing::Contains("material-extension"));

@@ -41,9 +41,8 @@ protected:
         GltfFileBuilder gltf = make_small_gltf();
         gltf.root["materials"] = {material};
         gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
-        gltf.root["images"] = {
-            {{"uri",
-              "data:image/png;base64," + encode_as_base64(encode_image_png(kLoadSurfacePicture))}}};
+        gltf.root["images"] = {{{"uri", "data:image/png;base64," +
+                                            encode_as_base64(encode_png(kLoadSurfacePicture))}}};
         gltf.root["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
         gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
         return gltf;
@@ -211,7 +210,7 @@ TEST_F(LoadSurfaceTest, TextureTransformsAreRead) {
 }
 
 TEST_F(LoadSurfaceTest, ImagesAreReadFromDataUrisFilesAndBufferViews) {
-    const std::string png = encode_image_png(kLoadSurfacePicture);
+    const std::string png = encode_png(kLoadSurfacePicture);
     GltfFileBuilder gltf = make_gltf_with_material(
         {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
     const auto texels = [&] {
@@ -232,7 +231,7 @@ TEST_F(LoadSurfaceTest, ImagesAreReadFromDataUrisFilesAndBufferViews) {
 
 TEST_F(LoadSurfaceTest, GreyImagesWithAndWithoutAlphaAreDecoded) {
     const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
-    SceneLoadBudgetUsage account({});
+    LoadAccount account({});
     const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
         return decode_image(encode_png(shape, values), "", "x", account)->texels;
     };
@@ -290,7 +289,7 @@ std::string make_one_texel_tiff() {
 }
 
 TEST_F(LoadSurfaceTest, ColoursOfImagesAreNotMultipliedByAlpha) {
-    SceneLoadBudgetUsage account({});
+    LoadAccount account({});
     const std::shared_ptr<const Image> image = decode_image(make_one_texel_tiff(), "", "x",
                                                             account);
     ASSERT_TRUE(image);
@@ -298,7 +297,7 @@ TEST_F(LoadSurfaceTest, ColoursOfImagesAreNotMultipliedByAlpha) {
 }
 
 TEST_F(LoadSurfaceTest, JpegImagesAreDecoded) {
-    SceneLoadBudgetUsage account({});
+    LoadAccount account({});
     const std::shared_ptr<const Image> image = decode_image(make_two_texel_jpeg(), "", "x",
                                                             account);
     ASSERT_TRUE(image);
@@ -332,10 +331,10 @@ TEST_F(LoadSurfaceTest, NormalTexturesAreReadWithTheirScale) {
 }
 
 TEST_F(LoadSurfaceTest, ImagesWithSidesOver65535TexelsAreRefused) {
-    SceneLoadBudgetUsage account({});
+    LoadAccount account({});
     const auto decode = [&](uvec2 size) {
         const Image image{.size = size, .texels = std::vector<std::uint32_t>(size.x * size.y)};
-        return decode_image(encode_image_png(image), "", "x", account)->size;
+        return decode_image(encode_png(image), "", "x", account)->size;
     };
     EXPECT_EQ(decode({65535, 1}), uvec2(65535, 1));
     EXPECT_THAT(test::catch_error_text(Failure::bad_data,
@@ -361,7 +360,7 @@ TEST_F(LoadSurfaceTest, MissingImageIsListedAndTheColourFactorStays) {
 
 TEST_F(LoadSurfaceTest, TexelBudgetIsCheckedBeforeDecoding) {
     // The PNG header claims 60000 x 60000 texels, for which the file has no data.
-    const std::string png = encode_image_png(kLoadSurfacePicture);
+    const std::string png = encode_png(kLoadSurfacePicture);
     std::string huge = png;
     for (const std::size_t at : {16u, 20u}) huge.replace(at, 4, std::string("\0\0\xea\x60", 4));
     const auto crc = [](std::string_view bytes) {

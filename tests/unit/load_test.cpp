@@ -82,7 +82,7 @@ void expect_same_cameras(const Scene& found, const Scene& wanted) {
 // ---- built-in scenes and missing files
 
 TEST_F(Load, BuiltInScenesLoadAndUnknownNamesAreRefused) {
-    for (const BuiltInScene& scene : list_built_in_scenes())
+    for (const BuiltInScene& scene : built_in_scenes())
         EXPECT_EQ(load(scene.name).name, scene.name);
     try {
         load("cornel-mirors");
@@ -109,15 +109,15 @@ TEST_F(Load, LoadingAMissingFileIsAMissingInputError) {
 // ---- the scene files in samples/scenes
 
 TEST_F(Load, ShippedFilesEqualTheOutputOfTheWriters) {
-    save_glb(make_cornell_mirrors(), folder / "cornell-mirrors.glb");
-    save_obj(make_cornell_mirrors(), folder / "cornell-mirrors.obj");
+    save_glb(make_cornell(), folder / "cornell-mirrors.glb");
+    save_obj(make_cornell(), folder / "cornell-mirrors.obj");
     for (const char* name : {"cornell-mirrors.glb", "cornell-mirrors.obj", "cornell-mirrors.mtl"})
         EXPECT_TRUE(read_file(folder / name) == read_file(kSamples / name)) << name;
 }
 
 TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
     const Scene scene = load((kSamples / "cornell-mirrors.obj").string());
-    const Scene wanted = make_cornell_mirrors();
+    const Scene wanted = make_cornell();
     EXPECT_EQ(compare_objects_of_scenes(scene, wanted),
               0); // doubles written in shortest form read back exactly
     expect_same_materials(scene, wanted);
@@ -133,7 +133,7 @@ TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
 
 TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
     const Scene scene = load((kSamples / "cornell-mirrors.glb").string());
-    const Scene wanted = make_cornell_mirrors();
+    const Scene wanted = make_cornell();
     // Half an ulp of a float below 1024 is 2^-15 for each component. Coordinates of the Cornell box
     // reach 559.2.
     EXPECT_LT(compare_objects_of_scenes(scene, wanted), std::sqrt(3.0) * std::ldexp(1.0, -15));
@@ -143,16 +143,16 @@ TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
     EXPECT_EQ(scene.objects[6].mesh, scene.objects[9].mesh);
     EXPECT_THAT(scene.warnings, testing::IsEmpty());
     for (const double t : {0.0, 0.03125, 1.0, 1.7, 2.0, 3.99, 4.0, 9.3}) {
-        const dvec3 found = scene_at_time(scene, t).objects.back().sphere->centre;
+        const dvec3 found = scene_at(scene, t).objects.back().sphere->centre;
         // The tolerance covers the Hermite error of 2.5e-7 times 50, and the rounding of floats
         // below 256.
-        expect_near_loaded_positions(found, scene_at_time(wanted, t).objects.back().sphere->centre,
+        expect_near_loaded_positions(found, scene_at(wanted, t).objects.back().sphere->centre,
                                      4e-5);
     }
 }
 
 TEST_F(Load, TwoSidedLampsSurviveBothFormats) {
-    Scene scene = make_cornell_mirrors();
+    Scene scene = make_cornell();
     for (const bool two_sided : {false, true}) {
         scene.materials[3].two_sided = two_sided;
         save_glb(scene, folder / "x.glb");
@@ -170,7 +170,7 @@ TEST_F(Load, TwoSidedLampsSurviveBothFormats) {
 }
 
 TEST_F(Load, AlphaOfBlendedSurfacesSurvivesBothFormats) {
-    Scene scene = make_cornell_mirrors();
+    Scene scene = make_cornell();
     scene.materials[1].blended = true;
     scene.materials[1].alpha = .3f, scene.materials[1].alpha_cutoff = .5f;
     save_glb(scene, folder / "x.glb");
@@ -184,7 +184,7 @@ TEST_F(Load, AlphaOfBlendedSurfacesSurvivesBothFormats) {
 }
 
 TEST_F(Load, ClearCoatSurvivesBothFormats) {
-    Scene scene = make_cornell_mirrors();
+    Scene scene = make_cornell();
     scene.materials[1].clearcoat = .75f, scene.materials[1].clearcoat_roughness = .2f;
     save_glb(scene, folder / "x.glb");
     save_obj(scene, folder / "x.obj");
@@ -197,7 +197,7 @@ TEST_F(Load, ClearCoatSurvivesBothFormats) {
 }
 
 TEST_F(Load, HiddenFrontWallSurvivesBothFormats) {
-    const Scene wanted = make_closed_cornell_mirrors();
+    const Scene wanted = make_closed_cornell();
     save_glb(wanted, folder / "x.glb");
     save_obj(wanted, folder / "x.obj");
     EXPECT_LT(compare_objects_of_scenes(load((folder / "x.glb").string()), wanted), 1e-4);
@@ -243,7 +243,7 @@ TEST_F(Load, TransformsKeyframesAndClashingNamesSurviveBothFormats) {
         EXPECT_EQ(scene.materials[scene.objects[1].material].albedo, vec3(0.1f, 0.2f, 0.3f));
         EXPECT_EQ(scene.materials[scene.objects[2].material].emission, vec3(0.5f, 0, 0.125f));
         for (const double t : {0.0, 0.5, 1.75}) {
-            const Scene found = scene_at_time(scene, t), still = scene_at_time(wanted, t);
+            const Scene found = scene_at(scene, t), still = scene_at(wanted, t);
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto a = bounds(found, found.objects[i]), b = bounds(still, still.objects[i]);
                 expect_near_loaded_positions(a.lo, b.lo, 1e-6);
@@ -439,7 +439,7 @@ TEST_F(Load, GltfParentTransformsApplyToTheMotionOfChildren) {
                                    {"scale", {2, 2, 2}},
                                    {"rotation", {0, 0, std::sqrt(.5), std::sqrt(.5)}}});
     const Scene scene = load(write_loaded_file("outer.glb", outer.glb_bytes()));
-    const Scene moved = scene_at_time(scene, 1);
+    const Scene moved = scene_at(scene, 1);
     expect_near_loaded_positions(dvec3(moved.objects[0].world_from_object[3]), {0, 4, 0}, 1e-6);
     expect_near_loaded_positions(bounds(moved).lo, {-2, 4, 0}, 1e-6);
 }
@@ -496,10 +496,10 @@ TEST_F(Load, LoadingDamagedFilesNeverCrashes) {
 
 TEST(Number, NumbersWrittenAsTextReadBackExactly) {
     for (const double x : {0.1, 1e-300, 548.8, -1.0 / 3, 1e22, 5e-324})
-        EXPECT_EQ(parse_number(format_shortest_number(x)), x);
-    EXPECT_EQ(format_shortest_number(-0.0), "0");
-    EXPECT_EQ(format_shortest_number(0.1f), "0.1");
-    EXPECT_EQ(float_to_shortest_double(0.725f), 0.725);
+        EXPECT_EQ(parse_number(format_number(x)), x);
+    EXPECT_EQ(format_number(-0.0), "0");
+    EXPECT_EQ(format_number(0.1f), "0.1");
+    EXPECT_EQ(shortest_double(0.725f), 0.725);
     EXPECT_EQ(parse_number("+2.5"), 2.5);
     EXPECT_EQ(parse_number("1e-999"), 0);
     for (const char* text : {"", "+", "-", "x", "1x", "nan", "inf", "1e999", "+-1", "0x10", "1,5"})

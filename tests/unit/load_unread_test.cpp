@@ -150,7 +150,7 @@ TEST_F(LoadUnreadFeaturesTest, NodesOutsideTheShownSceneGiveAWarning) {
         load_and_list_warnings("x.glb", gltf.glb_bytes()),
         testing::UnorderedElementsAre(
             "nodes outside the scene that is shown, left out: 1 (first: nodes[2] 'elsewhere')"));
-    const Scene moved = scene_at_time(load((folder / "x.glb").string()), 1);
+    const Scene moved = scene_at(load((folder / "x.glb").string()), 1);
     EXPECT_EQ(dvec3(moved.objects[0].world_from_object[3]), dvec3(1, 0, 0)) << "the first counts";
 }
 
@@ -251,10 +251,10 @@ TEST_F(LoadUnreadFeaturesTest, FacetNormalsOfMirroredNodesPointOutwards) {
         ASSERT_EQ(mesh.triangles.size(), 12u);
         for (const uvec3& t : mesh.triangles) {
             const auto at = [&](int i) {
-                return transform_point_to_world(object.world_from_object, mesh.positions[t[i]]);
+                return transform_point(object.world_from_object, mesh.positions[t[i]]);
             };
             const dvec3 winding = glm::cross(at(1) - at(0), at(2) - at(0));
-            const dvec3 shading = compute_normal_matrix(object.world_from_object) *
+            const dvec3 shading = normal_matrix(object.world_from_object) *
                                   dvec3(mesh.normals[t[0]]);
             EXPECT_GT(glm::dot(winding, at(0) - centre), 0) << node;
             EXPECT_GT(glm::dot(shading, at(0) - centre), 0) << node;

@@ -50,9 +50,9 @@ void expect_nearest_as_by_search(render::NearestTriangleQuery& nearest,
 }
 
 TEST(Nearest, NearestDistanceEqualsThatOfAFullSearchAlsoAfterMoves) {
-    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(3, 2)}) {
+    for (const scene::Scene& scene : {scene::make_cornell(), test::make_lit_room(3, 2)}) {
         const render::SceneUnitTransform space = render::make_scene_units(scene);
-        scene::Scene now = scene::scene_at_time(scene, 0);
+        scene::Scene now = scene::scene_at(scene, 0);
         render::FrameGeometry geometry = render::make_frame_geometry(now, space);
         render::NearestTriangleQuery nearest;
         nearest.set_geometry(geometry);

@@ -117,7 +117,7 @@ TEST(NestedGlass, UnsupportedFeatureListsBothMaterialsOnce) {
     Scene scene = make_scene_of_two_glass_bodies(box("inside", dvec3(-.3), dvec3(.3)),
                                                  make_nested_glass_material("inner"));
     for (int k = 0; k < 2; ++k) {
-        add_unsupported_lighting_features(scene);
+        add_unsupported_lighting(scene);
         ASSERT_EQ(scene.unsupported.size(), 1u) << "found again, not added up";
         EXPECT_EQ(scene.unsupported[0].id, "nested-glass");
         EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'outer'");

@@ -22,7 +22,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
-    scene::Scene scene = scene::make_flat_mirror_room();
+    scene::Scene scene = scene::make_flat_room();
     const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
     EXPECT_EQ(model.mirrors[0].faces, kAllCubeFaceBits & ~(1 << 4)); // the mirror faces -z
     ASSERT_EQ(model.left_out.size(), 1u);
@@ -31,7 +31,7 @@ TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
 }
 
 TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {
-    scene::Scene scene = scene::make_flat_mirror_room();
+    scene::Scene scene = scene::make_flat_room();
     // A ball behind the mirror's plane sees the mirror's back. The wall between them is moved away.
     const std::size_t mirror = scene.objects[6].material;
     scene.objects[4].world_from_object[3].z = 5;
@@ -40,7 +40,7 @@ TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {
 }
 
 TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
-    scene::Scene scene = scene::make_flat_mirror_room();
+    scene::Scene scene = scene::make_flat_room();
     const std::size_t mirror = scene.objects[6].material;
     test::add_quad(scene, "beside", mirror, {1.9, .5, 2.98}, {1.5, .5, 2.98}, {1.5, 2.1, 2.98},
                    {1.9, 2.1, 2.98});
@@ -52,7 +52,7 @@ TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
 }
 
 TEST(RequireFaces, CurvedMirrorsAndOrthographicCamerasNeedAllFaces) {
-    scene::Scene scene = scene::make_flat_mirror_room();
+    scene::Scene scene = scene::make_flat_room();
     scene.cameras[0].orthographic_height = 3;
     EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllCubeFaceBits);
     EXPECT_EQ(find_normal_of_flat_mesh(scene::ball("", 2)), dvec3(0));
@@ -111,7 +111,7 @@ TEST(RequireLeftOut, CulledWorkOfManyMirrorsIsListedOnce) {
     EXPECT_THAT(describe_model(all, scene), Not(HasSubstr("kept")));
     EXPECT_THAT(describe_model(model, scene),
                 HasSubstr("kept: 0 faces of captures, 1 shadow map\n"));
-    const scene::Scene balls = scene::make_cornell_mirrors();
+    const scene::Scene balls = scene::make_cornell();
     EXPECT_THAT(describe_model(make_required_model({balls, balls.cameras[0]}), balls),
                 HasSubstr("kept: 24 faces of captures, 1 shadow map\n    why: "));
 }

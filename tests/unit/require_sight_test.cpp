@@ -239,9 +239,9 @@ TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
 /// surface does not.
 TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     const scene::Scene gallery = scene::load("gallery", {});
-    const scene::Scene now = scene::scene_at_time(gallery, 0);
+    const scene::Scene now = scene::scene_at(gallery, 0);
     const RequiredWorkModel model = make_required_model(
-        {now, scene::camera_at_time(gallery.cameras[0], 0)});
+        {now, scene::camera_at(gallery.cameras[0], 0)});
     const std::string text = describe_model(model, now);
     EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
     const PictureFrustum picture(gallery.cameras[0], {512, 512});

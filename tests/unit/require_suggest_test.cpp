@@ -39,7 +39,7 @@ UnitCosts make_costs_with_dear_rays() {
 
 TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     const auto suggest = [](const scene::Scene& rest) {
-        const scene::Scene now = scene::scene_at_time(rest, 0);
+        const scene::Scene now = scene::scene_at(rest, 0);
         return suggest_technique_plan({now, now.cameras[0], {96, 96}});
     };
     const auto plan = [&](const scene::Scene& rest) {
@@ -48,9 +48,9 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
             << "on the software driver, rays take a small picture less time than captures";
         return best_without_tracing(suggestion).plan;
     };
-    EXPECT_EQ(plan(scene::make_cornell_mirrors()), "hybrid");
-    EXPECT_EQ(plan(scene::make_closed_cornell_mirrors()), "4=march *=hybrid");
-    EXPECT_EQ(plan(scene::make_flat_mirror_room()), "planar");
+    EXPECT_EQ(plan(scene::make_cornell()), "hybrid");
+    EXPECT_EQ(plan(scene::make_closed_cornell()), "4=march *=hybrid");
+    EXPECT_EQ(plan(scene::make_flat_room()), "planar");
     EXPECT_EQ(plan(scene::make_furnished_room()), "planar");
     EXPECT_EQ(plan(scene::make_gallery()),
               "1,4=march 3,12,13,14,15=planar 10=reuse:face=64 *=hybrid");
@@ -64,7 +64,7 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
 /// Tracing the whole picture is a candidate of every scene. The costs of the device decide.
 TEST(RequireSuggest, CostsOfTheDeviceDecideBetweenRaysAndCaptures) {
     for (const char* name : {"flat", "room"}) {
-        const scene::Scene now = scene::scene_at_time(scene::load(name), 0);
+        const scene::Scene now = scene::scene_at(scene::load(name), 0);
         const RequiredWorkModelInput question{now, now.cameras[0], {96, 96}};
         const PlanSuggestion cheap = suggest_technique_plan(question),
                              dear = suggest_technique_plan(question, make_costs_with_dear_rays());
@@ -182,7 +182,7 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
 /// would draw the ball wrongly.
 TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
     for (const bool is_walled_in : {false, true}) {
-        scene::Scene scene = scene::make_flat_mirror_room();
+        scene::Scene scene = scene::make_flat_room();
         const std::size_t mirror = scene.objects[6].material;
         test::add_ball(scene, "ball", mirror, {.9, 1.1, -2}, .85, 3);
         if (is_walled_in)
@@ -258,7 +258,7 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
     const double most = .1 * errors.search / (errors.unknown - errors.search);
     bool is_traced = false, is_searched = false;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        const scene::Scene scene = scene::scene_at_time(scene::make_cornell_mirrors(), 0);
+        const scene::Scene scene = scene::scene_at(scene::make_cornell(), 0);
         const scene::Camera camera = session::make_seeded_camera(scene, 0, seed);
         const RequiredWorkModelInput question{scene, camera, {96, 96}};
         const MirrorPathCounts paths = trace_mirror_paths(question);

@@ -126,8 +126,7 @@ TEST_F(SaveSceneTest, SavedLightsAndCamerasLoadUnchanged) {
     }
     EXPECT_NEAR(found.punctual[1].cos_inner, std::cos(.25), 1e-12);
     EXPECT_NEAR(found.punctual[1].cos_outer, std::cos(.5), 1e-12);
-    EXPECT_NEAR(scene_at_time(found, 6).punctual[2].world_from_light[3].y, 2, 1e-5)
-        << "goes on and on";
+    EXPECT_NEAR(scene_at(found, 6).punctual[2].world_from_light[3].y, 2, 1e-5) << "goes on and on";
     EXPECT_EQ(found.cameras.at(0).orthographic_height, 3);
     EXPECT_EQ(found.exposure, -.5);
     EXPECT_FALSE(save_and_load_scene(make_square_scene()).exposure);
@@ -147,7 +146,7 @@ TEST_F(SaveSceneTest, SavedRigsLoadUnchanged) {
     scene.cameras = {{.name = "c", .eye = {0, 0, 5}, .target = {0, 0, 4}, .follows = follows}};
     const Scene found = save_and_load_scene(scene);
     for (const double t : {0., .25, .75, 1., 2.}) {
-        const Scene now = scene_at_time(found, t), wanted = scene_at_time(scene, t);
+        const Scene now = scene_at(found, t), wanted = scene_at(scene, t);
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
                 EXPECT_NEAR(now.objects[0].world_from_object[column][row],
@@ -168,8 +167,8 @@ TEST_F(SaveSceneTest, MotionOfACameraThatEndsDoesNotRepeat) {
                       .follows = {.rig = std::make_shared<const NodeRig>(rig)}}};
     const Scene found = save_and_load_scene(scene);
     for (const double t : {.25, 1., 1.25})
-        EXPECT_LT(glm::distance(camera_at_time(found.cameras[0], t).target,
-                                camera_at_time(scene.cameras[0], t).target),
+        EXPECT_LT(glm::distance(camera_at(found.cameras[0], t).target,
+                                camera_at(scene.cameras[0], t).target),
                   1e-6)
             << t;
 }

@@ -50,7 +50,7 @@ TEST(Search, AddedSearchIsInTheTableOfTechniques) {
         "test_search:much=1.5,face=64");
     EXPECT_EQ(choice.settings.front().number, 1.5);
     EXPECT_EQ(choice.settings.size(), session::parse_technique("secant").settings.size());
-    const scene::Scene room = scene::make_cornell_mirrors();
+    const scene::Scene room = scene::make_cornell();
     EXPECT_THAT(study::list_default_techniques({.scene = room}), Contains("test_search:much=2"));
     try {
         session::parse_technique("test_search:much=some");
@@ -74,7 +74,7 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
 
 /// Returns whether a picture of the built-in scene by the technique requires complete captures.
 bool does_technique_read_all_captures(const std::string& technique) {
-    const scene::Scene room = scene::make_cornell_mirrors();
+    const scene::Scene room = scene::make_cornell();
     require::RequiredWorkModelInput question{.now = room, .camera = room.cameras.front()};
     reflect::add_capture_needs_of_plan(question, {reflect::parse_plan(technique)});
     return question.asks_all;

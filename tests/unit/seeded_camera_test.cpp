@@ -69,7 +69,7 @@ TEST(SeededCamera, SeededCameraSeesTheFrontOfAMirrorAtAnySceneScale) {
 }
 
 TEST(SeededCamera, EqualSeedsAndInstantsGiveEqualCameras) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell();
     for (std::uint64_t seed = 0; seed < kSeedCount; ++seed) {
         const scene::Camera a = session::make_seeded_camera(scene, 1.5, seed),
                             b = session::make_seeded_camera(scene, 1.5, seed);

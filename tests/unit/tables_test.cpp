@@ -228,8 +228,7 @@ TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
 TEST(Tables, RegisteredSceneIsFoundByName) {
     EXPECT_EQ(scene::load("test-only").name, "test-only");
     std::vector<std::string> names;
-    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
-        names.push_back(scene.name);
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes()) names.push_back(scene.name);
     EXPECT_EQ(names.front(), "cornell-mirrors");
     EXPECT_EQ(names.back(), "test-only");
     EXPECT_THAT(names, testing::IsSupersetOf(
@@ -239,7 +238,7 @@ TEST(Tables, RegisteredSceneIsFoundByName) {
 struct TableOfLightKinds : test::InFolder {};
 
 TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
-    scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell();
     scene.punctual.push_back({.name = "lamp",
                               .kind = kTestOnlyLightKind,
                               .intensity = vec3(1, 2, 3),
@@ -265,7 +264,7 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
 
 TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
     std::vector<std::string_view> names;
-    for (const scene::LightKind& kind : scene::list_light_kinds()) names.push_back(kind.name);
+    for (const scene::LightKind& kind : scene::light_kinds()) names.push_back(kind.name);
     EXPECT_THAT(names, testing::ElementsAre("point", "spot", "directional", "test-only"));
     EXPECT_THROW(scene::find_light_kind(scene::PunctualLight::Kind{199}), Error);
 }
@@ -274,7 +273,7 @@ TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
     EXPECT_EQ(session::parse_technique("testonly:much=3").settings[0].number, 3.0);
     EXPECT_EQ(session::techniques().back().name, "testonly");
     const std::vector<std::string> rows = study::list_default_techniques(
-        {.scene = scene::make_cornell_mirrors()});
+        {.scene = scene::make_cornell()});
     EXPECT_THAT(rows, Contains("testonly:much=2"));
     EXPECT_THAT(rows, Contains("naive:bounces=0"));
 }

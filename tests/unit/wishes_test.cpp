@@ -42,7 +42,7 @@ const Material& material_of_object(const Scene& scene, std::size_t object) {
 
 TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     const auto read = [](const std::string& text) {
-        return read_mirror_override("--mirror", text);
+        return parse_mirror_override("--mirror", text);
     };
     EXPECT_EQ(read("a"), (MirrorOverride{"a", vec3(1)}));
     EXPECT_EQ(read("a=.5"), (MirrorOverride{"a", vec3(.5f)}));
@@ -120,13 +120,13 @@ TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
 
 TEST(MirrorOverride, LaterMirrorOverrideWins) {
     Scene scene = make_override_test_scene();
-    apply_overrides(scene, combine_overrides({.mirrors = {{"wood", vec3(.5f)}}},
-                                             {.mirrors = {{"table*", vec3(.1f)}}}));
+    apply_overrides(
+        scene, combine({.mirrors = {{"wood", vec3(.5f)}}}, {.mirrors = {{"table*", vec3(.1f)}}}));
     EXPECT_EQ(material_of_object(scene, 0).reflectance, vec3(.5f));
 }
 
 TEST(Over, CombinedOverridesHoldEachPatternOnce) {
-    const SceneOverrides both = combine_overrides(
+    const SceneOverrides both = combine(
         {.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
         {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
     EXPECT_EQ(both.mirrors, (std::vector<MirrorOverride>{{"b", vec3(1)}, {"a", vec3(1)}}));
@@ -146,21 +146,21 @@ TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
     EXPECT_THAT(session::suggest_mirror_options(scene),
                 ElementsAre("--mirror 'frame/glass'", "--mirror 'table top'",
                             "--mirror 'it'\\''s a \\* \\[1]=2=1'"));
-    const MirrorOverride wish = read_mirror_override("--mirror",
-                                                     make_mirror_pattern(scene.objects[1].name));
+    const MirrorOverride wish = parse_mirror_override("--mirror",
+                                                      mirror_pattern(scene.objects[1].name));
     apply_overrides(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
     // Names that hold the texts of options.
     for (const std::string name : {"a,roughness=.5", "a=.5,roughness=.5", "a=1,1,1"}) {
-        const MirrorOverride read = read_mirror_override("--mirror", make_mirror_pattern(name));
-        EXPECT_TRUE(name_matches_pattern(read.pattern, name)) << read.pattern;
+        const MirrorOverride read = parse_mirror_override("--mirror", mirror_pattern(name));
+        EXPECT_TRUE(matches(read.pattern, name)) << read.pattern;
         EXPECT_EQ(read.roughness, MirrorOverride().roughness) << name;
     }
-    EXPECT_TRUE(name_matches_pattern(make_mirror_pattern("\x1b[2J\xff"), "\x1b[2J\xff"));
-    EXPECT_EQ(make_mirror_pattern("\x1b\xff"), "??");
+    EXPECT_TRUE(matches(mirror_pattern("\x1b[2J\xff"), "\x1b[2J\xff"));
+    EXPECT_EQ(mirror_pattern("\x1b\xff"), "??");
     const std::string longest(100, 'n'), wide = std::string(59, 'n') + "\xc3\xa4 and more";
-    EXPECT_EQ(make_mirror_pattern(longest), std::string(60, 'n') + "*");
-    EXPECT_EQ(make_mirror_pattern(wide), std::string(59, 'n') + "*");
+    EXPECT_EQ(mirror_pattern(longest), std::string(60, 'n') + "*");
+    EXPECT_EQ(mirror_pattern(wide), std::string(59, 'n') + "*");
 }
 
 TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
@@ -187,14 +187,13 @@ TEST(TurnZUp, TurnZUpMapsZToYExactly) {
     scene.punctual.push_back({.kind = PunctualLight::Kind::spot});
     scene.objects[3].motion = HarmonicMotion{.amplitude = {1, 2, 3}};
     const dvec3 centre = bounds(scene, scene.objects[1]).centre();
-    const dvec3 before = scene_at_time(scene, .25).objects[3].sphere->centre;
+    const dvec3 before = scene_at(scene, .25).objects[3].sphere->centre;
     apply_overrides(scene, {.up = UpAxis::z});
     EXPECT_EQ(scene.cameras[0].eye, dvec3(1, 3, -2));
     EXPECT_EQ(scene.cameras[0].up, dvec3(0, 1, 0));
     EXPECT_EQ(bounds(scene, scene.objects[1]).centre(), dvec3(centre.x, centre.z, -centre.y));
     EXPECT_EQ(scene.objects[1].sphere->centre, dvec3(0, -5, 0));
-    EXPECT_EQ(scene_at_time(scene, .25).objects[3].sphere->centre,
-              dvec3(before.x, before.z, -before.y));
+    EXPECT_EQ(scene_at(scene, .25).objects[3].sphere->centre, dvec3(before.x, before.z, -before.y));
     EXPECT_EQ(list_lights(scene).back().axis, dvec3(0, -1, 0)) << "along -z of the file";
     EXPECT_GT(glm::determinant(dmat3(scene.objects[0].world_from_object)), 0);
 }
@@ -215,11 +214,11 @@ TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
         return copy;
     }();
     for (const double seconds : {0.0, .5, 1.0}) {
-        const dvec3 eye = camera_at_time(scene.cameras[0], seconds).eye;
-        EXPECT_LT(glm::length(camera_at_time(turned.cameras[0], seconds).eye -
-                              dvec3(eye.x, eye.z, -eye.y)),
-                  1e-12);
-        const Scene before = scene_at_time(scene, seconds), after = scene_at_time(turned, seconds);
+        const dvec3 eye = camera_at(scene.cameras[0], seconds).eye;
+        EXPECT_LT(
+            glm::length(camera_at(turned.cameras[0], seconds).eye - dvec3(eye.x, eye.z, -eye.y)),
+            1e-12);
+        const Scene before = scene_at(scene, seconds), after = scene_at(turned, seconds);
         const dvec3 centre = bounds(before, before.objects[0]).centre();
         EXPECT_LT(glm::length(bounds(after, after.objects[0]).centre() -
                               dvec3(centre.x, centre.z, -centre.y)),
@@ -291,15 +290,15 @@ TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestPartsOfAMesh) {
 }
 
 TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
-    const Camera camera = find_camera_by_name("1,2,3:4,5,6:h=2.5", Scene());
+    const Camera camera = find_camera("1,2,3:4,5,6:h=2.5", Scene());
     EXPECT_EQ(camera.eye, dvec3(1, 2, 3));
     EXPECT_EQ(camera.target, dvec3(4, 5, 6));
     EXPECT_EQ(camera.orthographic_height, 2.5);
     EXPECT_EQ(format_camera(camera), "1,2,3:4,5,6:h=2.5");
-    EXPECT_EQ(format_camera(find_camera_by_name("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
-    EXPECT_THAT(test::catch_error_text(Failure::usage,
-                                       [] { find_camera_by_name("0,0,0:0,0,1:h=0", Scene()); }),
-                HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
+    EXPECT_EQ(format_camera(find_camera("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
+    EXPECT_THAT(
+        test::catch_error_text(Failure::usage, [] { find_camera("0,0,0:0,0,1:h=0", Scene()); }),
+        HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
 }
 
 TEST(ExposureFor, ExposureBringsThe95thPercentileTo80Percent) {

@@ -109,7 +109,7 @@ TEST_F(ViewCameraTest, CameraTextGivesTheSameCamera) {
     for (int i = 0; i < 50; ++i) {
         c = move_camera(c, {.turned = {13.3, -7.1 * (i % 3 - 1)}, .shifted = {1, 2}, .wheel = .1},
                         i % 2, 400, 10);
-        scene::Camera typed = scene::find_camera_by_name(scene::format_camera(c), {});
+        scene::Camera typed = scene::find_camera(scene::format_camera(c), {});
         typed.name = c.name;
         ASSERT_EQ(typed, c);
     }
@@ -121,7 +121,7 @@ TEST_F(ViewCameraTest, CameraStaysValidAtExtremeInput) {
     for (const double wheel : {1e3, -1e5}) {
         scene::Camera c = camera;
         for (int i = 0; i < 10; ++i) c = move_camera(c, {.wheel = wheel}, false, 400, 10);
-        EXPECT_NO_THROW(static_cast<void>(scene::find_camera_by_name(scene::format_camera(c), {})));
+        EXPECT_NO_THROW(static_cast<void>(scene::find_camera(scene::format_camera(c), {})));
     }
     camera.vertical_fov_degrees = 179.9; // degrees, more than `--camera` accepts
     EXPECT_EQ(move_camera(camera, {.turned = {9, 9}}, false, 400, 10), camera);

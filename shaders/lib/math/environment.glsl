@@ -96,7 +96,7 @@ INLINE real studio_radiance(vec3 d) {
 }
 
 // Returns the irradiance on a surface with unit normal `n`, from the nine coefficients of
-// scene::compute_irradiance_coefficients (Ramamoorthi and Hanrahan 2001). The coefficients include the constant factors of the spherical harmonics.
+// scene::irradiance_coefficients (Ramamoorthi and Hanrahan 2001). The coefficients include the constant factors of the spherical harmonics.
 INLINE vec3 irradiance_from_harmonics(vec3 of[9], vec3 n) {
     vec3 sum = of[0] + n.y * of[1] + n.z * of[2] + n.x * of[3] + n.x * n.y * of[4] + n.y * n.z * of[5] +
                (real(3) * n.z * n.z - real(1)) * of[6] + n.x * n.z * of[7] + (n.x * n.x - n.y * n.y) * of[8];
