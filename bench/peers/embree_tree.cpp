@@ -28,8 +28,8 @@ double compute_bvh_node_sah_cost(const EmbreeTreeNode& node) {
     for (int side = 0; side < 2; ++side) {
         const EmbreeTreeNode& child = *node.children[side];
         const bool is_leaf = child.triangles > 0;
-        sum += bvh::bounding_box_surface_area(node.boxes[side]) *
-                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kBvhNodeVisitCost) +
+        sum += bvh::surface_area(node.boxes[side]) *
+                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kNodeVisitCost) +
                (is_leaf ? 0 : compute_bvh_node_sah_cost(child));
     }
     return sum;
@@ -76,7 +76,7 @@ void split_primitive_at_plane(const RTCBuildPrimitive* primitive, unsigned axis_
 void set_embree_bvh_build_arguments(RTCBuildArguments& arguments) {
     arguments.maxDepth = kMaxEmbreeTreeDepth;
     arguments.maxLeafSize = bvh::kMaxLeafTriangles;
-    arguments.traversalCost = static_cast<float>(bvh::kBvhNodeVisitCost);
+    arguments.traversalCost = static_cast<float>(bvh::kNodeVisitCost);
     arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
         return allocate_embree_bvh_node(allocator);
     };
@@ -107,7 +107,7 @@ double compute_embree_bvh_sah_cost(const EmbreeDevice& device,
     std::vector<RTCBuildPrimitive> primitives(kMaxSplitPrimitivesPerTriangle * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const bvh::Triangle& t = triangles[i];
-        const BoundingBox box = bvh::compute_triangle_bounds(t.a, t.b, t.c, t.flags);
+        const BoundingBox box = bvh::triangle_bounds(t.a, t.b, t.c, t.flags);
         primitives[i] = {box.lo.x, box.lo.y, box.lo.z, 0,
                          box.hi.x, box.hi.y, box.hi.z, static_cast<unsigned>(i)};
     }

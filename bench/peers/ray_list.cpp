@@ -13,7 +13,7 @@ RayListBenchmark::RayListBenchmark(gpu::GpuDevice& device, gpu::PipelineStore& p
     : peer_device_(device),
       met_(device, "met", rays.size() * sizeof(FirstRayHit), BufferUsage::read_back), sets_(device),
       groups_(static_cast<std::uint32_t>(rays.size() / 64)) {
-    const bvh::Bvh tree = bvh::build_bvh(triangles);
+    const bvh::Bvh tree = bvh::build(triangles);
     std::vector<vec4> texels;
     for (const auto& [origin, direction] : rays) {
         texels.emplace_back(origin.x, origin.y, origin.z, 0);

@@ -61,7 +61,7 @@ RayTracingPrototype::RayTracingPrototype(gpu::GpuDevice& device, gpu::PipelineSt
 
 void RayTracingPrototype::upload(const WhittedTracerScene& scene,
                                  std::span<const bvh::Triangle> triangles, PrototypeBvhKind tree) {
-    const bvh::Bvh hierarchy = bvh::build_bvh(triangles);
+    const bvh::Bvh hierarchy = bvh::build(triangles);
     std::vector<vec4> corners, normals, surfaces;
     for (std::size_t i = 0; i < hierarchy.triangles.size(); i += 3) {
         const vec4* const at = &hierarchy.triangles[i];

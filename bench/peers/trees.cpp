@@ -25,9 +25,8 @@ void compare_bvh_build_times_with_embree(const EmbreeComparisonBench& bench,
         tree.build_tree();
     };
     const auto ours = [&](unsigned threads) {
-        return [&triangles, threads] {
-            bvh::build_bvh(triangles, {}, bvh::kMaxLeafTriangles, threads);
-        };
+        return
+            [&triangles, threads] { bvh::build(triangles, {}, bvh::kMaxLeafTriangles, threads); };
     };
     const std::vector<BenchmarkResult> list = benchmark::measure_benchmarks_in_rounds(
         {benchmark::make_benchmark_subject("ours/build", ours(0)),
@@ -46,7 +45,7 @@ void compare_bvh_build_times_with_embree(const EmbreeComparisonBench& bench,
 /// qualities.
 void compare_bvh_sah_costs_with_embree(const EmbreeDevice& device, const std::string& name,
                                        const std::vector<bvh::Triangle>& triangles) {
-    const double ours = bvh::compute_sah_cost(bvh::build_bvh(triangles));
+    const double ours = bvh::sah_cost(bvh::build(triangles));
     std::printf("%-24s %8zu triangles, cost of the tree / Embree's: medium %.3f, high %.3f\n",
                 name.c_str(), triangles.size(),
                 ours / compute_embree_bvh_sah_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),

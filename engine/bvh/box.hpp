@@ -7,17 +7,17 @@ namespace catoptric::bvh {
 
 using BoundingBox = Bounds<float>;
 
-inline constexpr double kBvhNodeVisitCost = 2; // cost of visiting a node, in triangle tests
+inline constexpr double kNodeVisitCost = 2; // cost of visiting a node, in triangle tests
 
 /// Returns the surface area of a box; 0 for an empty box.
-inline double bounding_box_surface_area(const Bounds<double>& box) {
+inline double surface_area(const Bounds<double>& box) {
     if (box.empty()) return 0;
     const dvec3 e = box.extent();
     return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
 }
 /// Returns the same. Computes in double, where the extents of finite floats cannot overflow.
-inline double bounding_box_surface_area(const BoundingBox& box) {
-    return bounding_box_surface_area(Bounds<double>{dvec3(box.lo), dvec3(box.hi)});
+inline double surface_area(const BoundingBox& box) {
+    return surface_area(Bounds<double>{dvec3(box.lo), dvec3(box.hi)});
 }
 
 /// Returns by how much the box of a triangle outside the core must grow on each side. The ray
@@ -25,7 +25,7 @@ inline double bounding_box_surface_area(const BoundingBox& box) {
 /// the size of the core. That slack is too small for a triangle that reaches out of the core. This
 /// pad adds the same fraction of the triangle's distance from the middle of the core. Returns 0 for
 /// a box inside the core.
-inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core) {
+inline float box_padding(const BoundingBox& box, const BoundingBox& core) {
     const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
     if (inside) return 0;
     const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
@@ -35,15 +35,15 @@ inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core
 }
 
 /// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
-inline BoundingBox expand_bounding_box(const BoundingBox& box, float pad) {
+inline BoundingBox expand(const BoundingBox& box, float pad) {
     return {max(box.lo - pad, vec3(-f32::kLargestFloat)),
             min(box.hi + pad, vec3(f32::kLargestFloat))};
 }
 
 /// Returns the bounds of a triangle. If `flags` has kSpherePrimitiveFlag, returns the bounds of a
 /// sphere, grown by the rounding errors of the sphere test.
-inline BoundingBox compute_triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
-                                           std::uint32_t flags) {
+inline BoundingBox triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
+                                   std::uint32_t flags) {
     BoundingBox box;
     if ((flags & kSpherePrimitiveFlag) != 0) {
         const float reach = b.x + f32::rounding_error_gamma_bound(16) *
@@ -55,7 +55,7 @@ inline BoundingBox compute_triangle_bounds(const vec3& a, const vec3& b, const v
     return box;
 }
 
-inline bool is_finite_triangle(const Triangle& t) {
+inline bool is_finite(const Triangle& t) {
     return f32::is_finite(t.a) && f32::is_finite(t.b) && f32::is_finite(t.c);
 }
 

@@ -13,7 +13,7 @@ struct Triangle {
     vec3 a{0}, b{0}, c{0};
     std::uint32_t object = 0; ///< below 2^29; a hit returns it
     std::uint32_t flags =
-        0; ///< kHiddenFromCameraFlag | kCastsNoShadowFlag | kTriangleApproximatesSphereFlag
+        0; ///< kHiddenFromCameraFlag | kCastsNoShadowFlag | kStandsForSphereFlag
            ///< | kOneSidedFlag | kAlphaMaskedFlag | kSpherePrimitiveFlag | kTintsShadowFlag
 };
 
@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kHiddenFromCameraFlag =
     f32::kBvhHiddenFromCamera; ///< camera rays pass through
 inline constexpr std::uint32_t kCastsNoShadowFlag =
     f32::kBvhCastsNoShadow; ///< shadow rays pass through
-inline constexpr std::uint32_t kTriangleApproximatesSphereFlag =
+inline constexpr std::uint32_t kStandsForSphereFlag =
     f32::kBvhStandsForSphere; ///< stands for an exact sphere
 /// Rays that skip this flag hit the triangle from the front only.
 inline constexpr std::uint32_t kOneSidedFlag = f32::kBvhOneSided;
@@ -29,17 +29,17 @@ inline constexpr std::uint32_t kOneSidedFlag = f32::kBvhOneSided;
 inline constexpr std::uint32_t kAlphaMaskedFlag = f32::kBvhAlphaMasked;
 /// Flag of glass that shadow rays pass, and that attenuates their light.
 inline constexpr std::uint32_t kTintsShadowFlag = f32::kBvhTintsShadow;
-/// A sphere in place of a triangle: see `make_sphere_primitive`.
+/// A sphere in place of a triangle: see `make_sphere`.
 inline constexpr std::uint32_t kSpherePrimitiveFlag = f32::kBvhSpherePrimitive;
 inline constexpr std::uint32_t kMaxTreeDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeafTriangles = 4; ///< triangles in a leaf
 /// The most kCastsNoShadowFlag triangles that get a subtree of their own.
-inline constexpr std::size_t kMaxShadowlessTriangleSubtreeSize = 256;
+inline constexpr std::size_t kMaxShadowless = 256;
 
 /// Returns a sphere that takes the place of a triangle. Only walks with TRACE_BALLS set
 /// (shaders/lib/trace.glsl) can intersect spheres.
-inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uint32_t object,
-                                      std::uint32_t flags) {
+inline Triangle make_sphere(const vec3& centre, float radius, std::uint32_t object,
+                            std::uint32_t flags) {
     return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kSpherePrimitiveFlag};
 }
 
@@ -69,7 +69,7 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 /// words hold their number in bits 0..28.
 ///
 /// Walks begin at the first word of the header. If there are triangles that cast no shadow, but at
-/// most kMaxShadowlessTriangleSubtreeSize, the first word is the root's first child, with all
+/// most kMaxShadowless, the first word is the root's first child, with all
 /// triangles that cast shadows, and the second word is the root's other child. Shadow rays walk the
 /// first child alone. Other rays walk it before the second child. Otherwise the first word is the
 /// root, and the second word is kBvhEmptyChild.
@@ -77,12 +77,11 @@ struct Bvh {
     std::vector<vec4> nodes;
     std::vector<vec4> triangles;
     std::size_t dropped = 0; ///< triangles left out because a coordinate is not finite
-    std::size_t copies =
-        0; ///< triangles left out as copies of one with a lower number (see build_bvh)
+    std::size_t copies = 0; ///< triangles left out as copies of one with a lower number (see build)
     /// Node of the first instance's record (bvh/tlas.hpp); 0: no instances. The record of instance
     /// i begins kBvhNodesPerInstance * i nodes later.
     std::uint32_t first_record = 0;
-    double cost = 0; ///< result of `compute_sah_cost`; `refit_bvh` updates it incrementally
+    double cost = 0; ///< result of `sah_cost`; `refit` updates it incrementally
 };
 
 /// Builds a hierarchy with the binned surface area heuristic. Where a path would grow deeper than
@@ -102,8 +101,8 @@ struct Bvh {
 /// `threads`: the most threads to use; 0: as many as the machine runs at once. The tree does not
 /// depend on it.
 /// Throws `Failure::exhausted` above 2^27 - 1 triangles.
-Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core = {},
-              std::uint32_t leaf = kMaxLeafTriangles, unsigned threads = 0);
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
+          std::uint32_t leaf = kMaxLeafTriangles, unsigned threads = 0);
 
 /// A half-open range of indices: `first` is included, `end` is not.
 struct IndexRange {
@@ -112,31 +111,31 @@ struct IndexRange {
 };
 
 /// The parts of a tree that a refit must visit when some objects move.
-struct ChangedBvhRegion {
+struct RefitRegion {
     std::vector<std::uint32_t> triangles; ///< places in the order of the leaves, ascending
     std::vector<std::uint32_t> boxes; ///< 2 * node + side; descendants come before their ancestors
 };
 
 /// Returns the triangles of the moving objects and the boxes that hold some of them. `objects`: by
 /// object index, non-zero for an object that may move. Costs O(n).
-ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> objects);
+RefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects);
 
 /// Updates the boxes of a tree after its triangles have moved. The structure of the tree stays.
-/// `triangles`: the list given to `build_bvh`, in the same order, with the new positions.
+/// `triangles`: the list given to `build`, in the same order, with the new positions.
 /// `reach`: the parts of all objects that may have moved; null: all objects may have moved.
 /// Returns the range of Bvh::triangles that holds every changed element. A refitted tree and a
 /// rebuilt tree give the same hits. Costs O(size of `reach`); refitting everything costs a tenth of
 /// a build. Throws `Failure::internal` if a triangle that was finite no longer is.
-IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
-                     const ChangedBvhRegion* reach = nullptr);
+IndexRange refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
+                 const RefitRegion* reach = nullptr);
 
 /// Returns the cost of traversing the tree that the surface area heuristic expects for a ray, times
 /// the surface area of the whole tree. The value rises as triangles of a refitted tree move away
 /// from their neighbours. Takes O(n).
-double compute_sah_cost(const Bvh& bvh);
+double sah_cost(const Bvh& bvh);
 
 /// Writes the two words of the tree's header that say at which nodes rays begin their traversal.
-void write_bvh_traversal_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
+void write_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
 
 std::size_t count_nodes(const Bvh& bvh);     ///< including the header
 std::size_t count_triangles(const Bvh& bvh); ///< number of triangles that the build kept

@@ -9,13 +9,13 @@ namespace catoptric::bvh {
 
 namespace {
 
-BoundingBox stored_triangle_bounds(const vec4* stored) {
-    return compute_triangle_bounds(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]),
-                                   unpack_number(stored[2].w));
+BoundingBox stored_bounds(const vec4* stored) {
+    return triangle_bounds(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]),
+                           unpack_number(stored[2].w));
 }
 
 /// Returns the bounds of a child, from the corners and nodes below it.
-BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const BoundingBox& core) {
+BoundingBox child_bounds(const Bvh& bvh, std::uint32_t child, const BoundingBox& core) {
     BoundingBox box;
     if (f32::is_bvh_word_inner_node(child)) {
         const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_word_index(child)}];
@@ -24,30 +24,29 @@ BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const Boun
         return box;
     }
     for (std::uint32_t i = 0; i < f32::bvh_word_triangle_count(child); ++i) {
-        const BoundingBox triangle = stored_triangle_bounds(
+        const BoundingBox triangle = stored_bounds(
             &bvh.triangles[3 * std::size_t{f32::bvh_word_index(child) + i}]);
-        box.add(expand_bounding_box(triangle, compute_box_padding(triangle, core)));
+        box.add(expand(triangle, box_padding(triangle, core)));
     }
     return box;
 }
 
 /// Returns the cost of one child. The cost of a node is the sum over its two children.
-double compute_bvh_child_sah_cost(std::uint32_t child, const BoundingBox& box) {
-    return bounding_box_surface_area(box) *
-           (f32::is_bvh_word_inner_node(child)
-                ? kBvhNodeVisitCost
-                : static_cast<double>(f32::bvh_word_triangle_count(child)));
+double child_cost(std::uint32_t child, const BoundingBox& box) {
+    return surface_area(box) * (f32::is_bvh_word_inner_node(child)
+                                    ? kNodeVisitCost
+                                    : static_cast<double>(f32::bvh_word_triangle_count(child)));
 }
 
 /// Returns whether two vectors have the same bits. 0 and -0 count as different.
-bool have_bit_identical_vectors(const vec3& a, const vec3& b) {
+bool have_same_bits(const vec3& a, const vec3& b) {
     return float_to_bits(a.x) == float_to_bits(b.x) && float_to_bits(a.y) == float_to_bits(b.y) &&
            float_to_bits(a.z) == float_to_bits(b.z);
 }
 
 /// Writes the new corners of the triangle at `place`, in the order of the leaves. Returns whether
 /// they changed.
-bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
+bool write_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     vec4* texel = &bvh.triangles[3 * place];
     const std::size_t number = unpack_number(texel[1].w);
     check(number < triangles.size(), Failure::internal, "refit of a BVH: wanted numbers below ",
@@ -56,30 +55,29 @@ bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle>
     const std::array corners{t.a, t.b, t.c};
     bool moved = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (have_bit_identical_vectors(vec3(texel[k]), corners[k])) continue;
+        if (have_same_bits(vec3(texel[k]), corners[k])) continue;
         texel[k] = vec4(corners[k], texel[k].w);
         moved = true;
     }
-    check(!moved || is_finite_triangle(t), Failure::internal,
+    check(!moved || is_finite(t), Failure::internal,
           "refit of a BVH: wanted finite coordinates, triangle ", number, " has others");
     return moved;
 }
 
-void refit_stored_node_box(Bvh& bvh, std::uint32_t place, const BoundingBox& slack) {
+void refit_box(Bvh& bvh, std::uint32_t place, const BoundingBox& slack) {
     vec4* texel = &bvh.nodes[4 * std::size_t{place / 2}];
     vec4 &lo = texel[2 * (place % 2)], &hi = texel[2 * (place % 2) + 1];
     const std::uint32_t child = float_to_bits(texel[place % 2].w);
-    const BoundingBox box = compute_child_bounds(bvh, child, slack);
-    bvh.cost += compute_bvh_child_sah_cost(child, box) -
-                compute_bvh_child_sah_cost(child, {vec3(lo), vec3(hi)});
+    const BoundingBox box = child_bounds(bvh, child, slack);
+    bvh.cost += child_cost(child, box) - child_cost(child, {vec3(lo), vec3(hi)});
     lo = vec4(box.lo, lo.w);
     hi = vec4(box.hi, hi.w);
 }
 
 } // namespace
 
-ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> objects) {
-    ChangedBvhRegion reach;
+RefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) {
+    RefitRegion reach;
     std::vector<char> moves(count_triangles(bvh)), holds(count_nodes(bvh));
     for (std::uint32_t place = 0; place < moves.size(); ++place) {
         if (!objects[unpack_number(bvh.triangles[3 * std::size_t{place}].w)]) continue;
@@ -103,11 +101,11 @@ ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> 
     return reach;
 }
 
-IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
-                     const ChangedBvhRegion* reach) {
+IndexRange refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
+                 const RefitRegion* reach) {
     IndexRange run;
     const auto move_one = [&](std::size_t place) {
-        if (write_moved_triangle(bvh, place, triangles))
+        if (write_triangle(bvh, place, triangles))
             run = {run.end == 0 ? 3 * place : run.first, 3 * place + 3};
     };
     if (reach)
@@ -117,25 +115,25 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
     BoundingBox slack = core;
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
-            slack.add(stored_triangle_bounds(&bvh.triangles[i]));
+            slack.add(stored_bounds(&bvh.triangles[i]));
     // The padding of far triangles depends on the core, so a new core changes every box.
     if (reach && vec3(bvh.nodes[0]) == slack.lo && vec3(bvh.nodes[1]) == slack.hi)
-        for (const std::uint32_t place : reach->boxes) refit_stored_node_box(bvh, place, slack);
+        for (const std::uint32_t place : reach->boxes) refit_box(bvh, place, slack);
     else
         for (auto place = 2 * static_cast<std::uint32_t>(count_nodes(bvh)); place-- > 2;)
-            refit_stored_node_box(bvh, place, slack);
+            refit_box(bvh, place, slack);
     bvh.nodes[0] = vec4(slack.lo, bvh.nodes[0].w);
     bvh.nodes[1] = vec4(slack.hi, bvh.nodes[1].w);
     return run;
 }
 
-double compute_sah_cost(const Bvh& bvh) {
+double sah_cost(const Bvh& bvh) {
     double sum = 0;
     for (std::size_t node = 1; node < count_nodes(bvh); ++node) {
         const vec4* texel = &bvh.nodes[4 * node];
         for (int side = 0; side < 2; ++side) {
-            sum += compute_bvh_child_sah_cost(float_to_bits(texel[side].w),
-                                              {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
+            sum += child_cost(float_to_bits(texel[side].w),
+                              {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
         }
     }
     return sum;

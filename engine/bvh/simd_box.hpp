@@ -8,11 +8,11 @@ namespace catoptric::bvh {
 /// The x, y and z of a box corner. The owner of the box defines the fourth element.
 using SimdFloat4 = float __attribute__((vector_size(16)));
 
-inline SimdFloat4 load_simd_vector(const vec3& v, float fourth) {
+inline SimdFloat4 load_simd(const vec3& v, float fourth) {
     return SimdFloat4{v.x, v.y, v.z, fourth};
 }
 inline SimdFloat4 broadcast_simd(float v) { return SimdFloat4{v, v, v, v}; }
-inline vec3 simd_to_vec3(SimdFloat4 v) { return {v[0], v[1], v[2]}; }
+inline vec3 to_vec3(SimdFloat4 v) { return {v[0], v[1], v[2]}; }
 /// Returns the element-wise minimum and maximum; `a` if both are equal or one is NaN.
 inline SimdFloat4 simd_min(SimdFloat4 a, SimdFloat4 b) { return b < a ? b : a; }
 inline SimdFloat4 simd_max(SimdFloat4 a, SimdFloat4 b) { return b > a ? b : a; }
@@ -26,20 +26,20 @@ struct SimdBox {
 
     void add_point(SimdFloat4 point) { lo = simd_min(lo, point), hi = simd_max(hi, point); }
     /// Adds the point if `away` is 0; does nothing if `away` is infinite.
-    void add_point_unless_infinite(SimdFloat4 point, SimdFloat4 away) {
+    void add_point_unless(SimdFloat4 point, SimdFloat4 away) {
         lo = simd_min(lo, point + away), hi = simd_max(hi, point - away);
     }
     void add_box(const SimdBox& other) { lo = simd_min(lo, other.lo), hi = simd_max(hi, other.hi); }
-    BoundingBox to_bounding_box() const { return {simd_to_vec3(lo), simd_to_vec3(hi)}; }
+    BoundingBox to_bounds() const { return {to_vec3(lo), to_vec3(hi)}; }
     /// Returns half the surface area. The box must not be empty. Computes in double, where products
     /// of finite floats cannot overflow.
-    double half_surface_area() const {
+    double half_area() const {
         const SimdFloat4 size = hi - lo;
         const double x = double{size[0]}, y = double{size[1]}, z = double{size[2]};
         return x * (y + z) + y * z;
     }
     /// Returns whether the box is a single point.
-    bool is_single_point() const { return lo[0] == hi[0] && lo[1] == hi[1] && lo[2] == hi[2]; }
+    bool is_point() const { return lo[0] == hi[0] && lo[1] == hi[1] && lo[2] == hi[2]; }
 };
 
 } // namespace catoptric::bvh

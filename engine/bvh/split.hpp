@@ -16,92 +16,86 @@ struct TriangleReference {
     SimdFloat4 lo; ///< low corner of the box; the fourth element is the triangle's number as a word
     SimdFloat4 hi;
 
-    std::uint32_t triangle_index_of_reference() const { return unpack_number(lo[3]); }
+    std::uint32_t number() const { return unpack_number(lo[3]); }
     /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
-    SimdFloat4 bounding_box_centre() const { return lo * .5f + hi * .5f; }
-    SimdBox triangle_bounding_box() const { return {lo, hi}; }
+    SimdFloat4 centre() const { return lo * .5f + hi * .5f; }
+    SimdBox box() const { return {lo, hi}; }
 };
 
 using TriangleReferences = std::span<TriangleReference>;
 
 /// The references below a node.
-struct TriangleReferenceSpanRange {
+struct ReferenceRange {
     std::size_t first = 0, count = 0; ///< place among all references
     bool in_second = false;           ///< lies in the second of the two buffers
     bool has_single_centre =
         false; ///< all centres are equal, copies are gone, and the order is by number
     SimdBox box, centres;
 
-    void add_reference(const TriangleReference& r) {
-        box.add_box(r.triangle_bounding_box()), centres.add_point(r.bounding_box_centre()), ++count;
+    void add(const TriangleReference& r) {
+        box.add_box(r.box()), centres.add_point(r.centre()), ++count;
     }
 };
 
-inline constexpr int kSplitBinCount = 16;
+inline constexpr int kBinCount = 16;
 
 /// A map from centres to bins along each axis of the centres' bounds.
-struct CentroidToBinMapping {
+struct Binning {
     SimdFloat4 lowest_centre, bins_per_unit;
 
-    explicit CentroidToBinMapping(const SimdBox& centres);
-    /// Returns the position in units of bins, 0 to kSplitBinCount inclusive. The result is not
+    explicit Binning(const SimdBox& centres);
+    /// Returns the position in units of bins, 0 to kBinCount inclusive. The result is not
     /// finite if the bounds are too small or too large for a float quotient. In that case all
     /// references go to one bin.
-    SimdFloat4 fractional_bin_of_centroid(SimdFloat4 centre) const {
+    SimdFloat4 position(SimdFloat4 centre) const {
         return (centre - lowest_centre) * bins_per_unit;
     }
 };
 
-struct BinnedSahSplit;
+struct BinnedSplit;
 
 /// The contents of the bins of each axis.
-class SahSplitBins {
+class SplitBins {
 public:
-    void add_references(std::span<const TriangleReference> references,
-                        const CentroidToBinMapping& binning);
-    void add_bins(const SahSplitBins& other);
-    std::size_t left_triangle_count_of_split(const BinnedSahSplit& split) const;
+    void add(std::span<const TriangleReference> references, const Binning& binning);
+    void add(const SplitBins& other);
+    std::size_t left_count(const BinnedSplit& split) const;
     /// Returns the bounds of both sides.
-    std::array<SimdBox, 2> extents(const BinnedSahSplit& split) const;
+    std::array<SimdBox, 2> extents(const BinnedSplit& split) const;
 
 private:
-    friend std::optional<BinnedSahSplit> find_best_binned_sah_split(const SahSplitBins& bins,
-                                                                    std::size_t most);
-    std::array<std::array<SimdBox, kSplitBinCount>, 3> extents_{};
-    std::array<std::array<std::uint32_t, kSplitBinCount>, 3> counts_{};
+    friend std::optional<BinnedSplit> find_binned_split(const SplitBins& bins, std::size_t most);
+    std::array<std::array<SimdBox, kBinCount>, 3> extents_{};
+    std::array<std::array<std::uint32_t, kBinCount>, 3> counts_{};
 };
 
 /// A plane between two bins.
-struct BinnedSahSplit {
+struct BinnedSplit {
     int axis;
     int first_right; ///< the first bin on the right side
 
     /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
     /// to `centres`.
-    void scatter_references_to_sides(std::span<const TriangleReference> references,
-                                     const CentroidToBinMapping& binning,
-                                     std::array<TriangleReference*, 2> to,
-                                     std::array<SimdBox, 2>& centres) const;
+    void scatter(std::span<const TriangleReference> references, const Binning& binning,
+                 std::array<TriangleReference*, 2> to, std::array<SimdBox, 2>& centres) const;
 };
 
-using SplitTriangleRanges = std::array<TriangleReferenceSpanRange, 2>;
+using SplitRanges = std::array<ReferenceRange, 2>;
 
 /// Returns the two ranges of references into which a split divides a node, in the buffer that does
 /// not hold the node. `centres`: bounds of the centres on each side.
-SplitTriangleRanges make_split_ranges(const TriangleReferenceSpanRange& part,
-                                      const SahSplitBins& bins, const BinnedSahSplit& split,
-                                      const std::array<SimdBox, 2>& centres);
+SplitRanges make_split_ranges(const ReferenceRange& part, const SplitBins& bins,
+                              const BinnedSplit& split, const std::array<SimdBox, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
 /// Returns nothing if no plane does so, for example because one bin holds all references.
-std::optional<BinnedSahSplit> find_best_binned_sah_split(const SahSplitBins& bins,
-                                                         std::size_t most);
+std::optional<BinnedSplit> find_binned_split(const SplitBins& bins, std::size_t most);
 
-/// The most references that `find_best_sah_split_by_sweep` accepts.
+/// The most references that `find_swept_split` accepts.
 inline constexpr std::size_t kMaxSweepTriangles = 8;
 
 /// The cheapest way to cut a list of references in two along an axis.
-struct SweptSahSplit {
+struct SweptSplit {
     double cost;        ///< sum over the sides of half area times count
     std::size_t middle; ///< index of the first reference on the right
 };
@@ -109,18 +103,16 @@ struct SweptSahSplit {
 /// Sorts references by centre, then by number, along the axis with the cheapest division, and
 /// returns that division. Returns nothing if one side would always have more than `most`. Accepts
 /// at most kMaxSweepTriangles references.
-std::optional<SweptSahSplit> find_best_sah_split_by_sweep(TriangleReferences references,
-                                                          std::size_t most);
+std::optional<SweptSplit> find_swept_split(TriangleReferences references, std::size_t most);
 
 /// Moves the half with the smaller centres, along the longest axis of their bounds, to the front.
 /// Breaks ties by number. Returns the index of the first reference of the other half.
-std::size_t partition_triangles_at_median(TriangleReferences references, const SimdBox& centres);
+std::size_t partition_at_median(TriangleReferences references, const SimdBox& centres);
 
 /// Keeps one reference for each set of equal triangles, the one with the lowest number. Returns
 /// them in order of number. If more triangles share a centre than fit into a leaf, a ray would test
 /// every copy: all are at the same t and the lowest number wins.
-TriangleReferences remove_duplicate_triangles(TriangleReferences references,
-                                              std::span<const Triangle> triangles,
-                                              DuplicateTriangleSearchScope copies);
+TriangleReferences remove_copies(TriangleReferences references, std::span<const Triangle> triangles,
+                                 CopyScope copies);
 
 } // namespace catoptric::bvh

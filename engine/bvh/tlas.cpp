@@ -14,12 +14,12 @@ namespace catoptric::bvh {
 
 namespace {
 
-constexpr double kFloatBoxRoundingError = 0x1p-22; // relative error of a box that becomes float
+constexpr double kBoxRoundingError = 0x1p-22; // relative error of a box that becomes float
 
-BoundingBox read_stored_core(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
+BoundingBox stored_core(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
 
 /// Returns the bounds of everything below a node.
-BoundingBox compute_node_bounds(const Bvh& bvh, std::size_t node) {
+BoundingBox node_bounds(const Bvh& bvh, std::size_t node) {
     BoundingBox box;
     for (std::size_t side = 0; side < 2; ++side)
         box.add(BoundingBox{vec3(bvh.nodes[4 * node + 2 * side]),
@@ -28,7 +28,7 @@ BoundingBox compute_node_bounds(const Bvh& bvh, std::size_t node) {
 }
 
 /// Appends a tree without its header. Returns the word of its root.
-std::uint32_t append_bvh_nodes_without_header(Bvh& into, const Bvh& part) {
+std::uint32_t append_tree(Bvh& into, const Bvh& part) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1),
                triangles = static_cast<std::uint32_t>(count_triangles(into));
     for (std::size_t node = 1; node < count_nodes(part); ++node)
@@ -45,13 +45,13 @@ std::uint32_t append_bvh_nodes_without_header(Bvh& into, const Bvh& part) {
     return f32::kBvhNormalFloatBit | (nodes + 1);
 }
 
-void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t root) {
+void add_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t root) {
     const dmat3 own_from_scene = glm::inverse(instance.scene_from_own);
     const vec3 centre(instance.centre);
     const auto row = [&](int i) {
         return vec3(own_from_scene[0][i], own_from_scene[1][i], own_from_scene[2][i]);
     };
-    const BoundingBox own = read_stored_core(*instance.tree);
+    const BoundingBox own = stored_core(*instance.tree);
     const std::array<vec4, 4 * f32::kBvhNodesPerInstance> texels{
         vec4(row(0), std::bit_cast<float>(root)),
         vec4(row(1), pack_word(instance.object)),
@@ -60,7 +60,7 @@ void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t ro
         vec4(vec3(instance.scene_from_own[0]), 0),
         vec4(vec3(instance.scene_from_own[1]), 0),
         vec4(vec3(instance.scene_from_own[2]), 0),
-        vec4(double_to_float_rounding_error(instance.centre), 0),
+        vec4(float_rounding_error(instance.centre), 0),
         vec4(own.lo, 0),
         vec4(own.hi, instance.radius)};
     bvh.nodes.insert(bvh.nodes.end(), texels.begin(), texels.end());
@@ -68,8 +68,8 @@ void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t ro
 
 /// Returns the bounds of the instance in scene units, padded for rounding to float. The bounds
 /// include the exact sphere, if the instance has one.
-BoundingBox compute_instance_bounds(const BvhInstance& instance) {
-    BoundingBox own = read_stored_core(*instance.tree);
+BoundingBox instance_bounds(const BvhInstance& instance) {
+    BoundingBox own = stored_core(*instance.tree);
     if (instance.radius > 0) own.add(BoundingBox{vec3(-instance.radius), vec3(instance.radius)});
     Bounds<double> box;
     for (int corner = 0; corner < 8; ++corner)
@@ -77,7 +77,7 @@ BoundingBox compute_instance_bounds(const BvhInstance& instance) {
                 instance.scene_from_own * dvec3((corner & 1 ? own.lo : own.hi).x,
                                                 (corner & 2 ? own.lo : own.hi).y,
                                                 (corner & 4 ? own.lo : own.hi).z));
-    const dvec3 pad = kFloatBoxRoundingError * glm::max(glm::abs(box.lo), glm::abs(box.hi));
+    const dvec3 pad = kBoxRoundingError * glm::max(glm::abs(box.lo), glm::abs(box.hi));
     return {vec3(box.lo - pad), vec3(box.hi + pad)};
 }
 
@@ -86,7 +86,7 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
                         double times, std::uint32_t first_record) {
     std::vector<Triangle> boxes;
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        BoundingBox box = compute_instance_bounds(instances[i]);
+        BoundingBox box = instance_bounds(instances[i]);
         const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
         const vec3 size = max(abs(box.lo), abs(box.hi));
         if (f32::largest_vector_component(beyond) > 0) { // outside the slack by which traversal
@@ -97,7 +97,7 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
         }
         boxes.push_back({box.lo, box.hi, box.hi, static_cast<std::uint32_t>(i), 0});
     }
-    Bvh top = build_bvh(boxes, core, 1);
+    Bvh top = build(boxes, core, 1);
     check(top.dropped == 0, Failure::exhausted, "an instance has bounds that are not finite");
     for (std::size_t node = 1; node < count_nodes(top); ++node)
         for (std::size_t side = 0; side < 2; ++side) {
@@ -113,9 +113,9 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
     return top;
 }
 
-/// Appends like `append_bvh_nodes_without_header`, for a tree whose leaf words already refer to
+/// Appends like `append_tree`, for a tree whose leaf words already refer to
 /// records.
-std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
+std::uint32_t append_top_level(Bvh& into, const Bvh& top) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1);
     for (std::size_t i = 4; i < top.nodes.size(); ++i) {
         vec4 texel = top.nodes[i];
@@ -128,7 +128,7 @@ std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
 
 } // namespace
 
-vec3 double_to_float_rounding_error(const dvec3& v) {
+vec3 float_rounding_error(const dvec3& v) {
     vec3 low;
     for (int i = 0; i < 3; ++i) {
         // The variable is `volatile`, because g++ 12 otherwise vectorises this loop and drops the
@@ -139,7 +139,7 @@ vec3 double_to_float_rounding_error(const dvec3& v) {
     return low;
 }
 
-double max_matrix_rounding_amplification(const dmat3& matrix) {
+double rounding_amplification(const dmat3& matrix) {
     const dmat3 inverse = glm::inverse(matrix);
     double most = 0;
     for (int row = 0; row < 3; ++row) {
@@ -153,31 +153,30 @@ double max_matrix_rounding_amplification(const dmat3& matrix) {
     return std::isfinite(most) && most > 0 ? most : std::numeric_limits<double>::infinity();
 }
 
-Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instances) {
+Bvh assemble_two_level(const Bvh& flat, std::span<const BvhInstance> instances) {
     if (instances.empty()) return flat;
     Bvh result;
     result.nodes.resize(8, vec4(0));
-    const BoundingBox in_flat = compute_node_bounds(flat, 1);
-    const std::uint32_t flat_root = count_triangles(flat) > 0
-                                        ? append_bvh_nodes_without_header(result, flat)
-                                        : f32::kBvhEmptyChild;
+    const BoundingBox in_flat = node_bounds(flat, 1);
+    const std::uint32_t flat_root = count_triangles(flat) > 0 ? append_tree(result, flat)
+                                                              : f32::kBvhEmptyChild;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
-    BoundingBox core = read_stored_core(flat);
+    BoundingBox core = stored_core(flat);
     for (const BvhInstance& instance : instances) {
-        worst = std::max(worst, max_matrix_rounding_amplification(instance.scene_from_own));
+        worst = std::max(worst, rounding_amplification(instance.scene_from_own));
         if (count_triangles(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
-            core.add(compute_instance_bounds(instance));
+            core.add(instance_bounds(instance));
         if (!roots.contains(instance.tree))
-            roots[instance.tree] = append_bvh_nodes_without_header(result, *instance.tree);
+            roots[instance.tree] = append_tree(result, *instance.tree);
     }
     const auto first_record = result.first_record = static_cast<std::uint32_t>(count_nodes(result));
     for (const BvhInstance& instance : instances)
-        add_instance_record(result, instance, roots.at(instance.tree));
+        add_record(result, instance, roots.at(instance.tree));
     const double times = 1 + 4 * worst;
     const Bvh top = build_instance_tree(instances, core, times, first_record);
-    const BoundingBox in_top = compute_node_bounds(top, 1);
-    const std::uint32_t top_root = append_top_level_tree(result, top);
+    const BoundingBox in_top = node_bounds(top, 1);
+    const std::uint32_t top_root = append_top_level(result, top);
     check(
         count_nodes(result) <= f32::kBvhIndexMask && count_triangles(result) <= f32::kBvhIndexMask,
         Failure::exhausted, "bounding volume hierarchy wants ", count_nodes(result), " nodes and ",
@@ -185,7 +184,7 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
     result.nodes[0] = vec4(core.lo, pack_number(count_triangles(result)));
     result.nodes[1] = vec4(core.hi, pack_number(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
-    write_bvh_traversal_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
+    write_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
     result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));
     result.nodes[6] = vec4(in_top.lo, 0);

@@ -17,12 +17,12 @@ struct BvhInstance {
 };
 
 /// Returns the rounding error of each component when it becomes a float, itself rounded to float.
-vec3 double_to_float_rounding_error(const dvec3& v);
+vec3 float_rounding_error(const dvec3& v);
 
 /// Returns how much a matrix and its inverse together may amplify roundings: the largest row sum of
 /// |m| |m^-1|. The value is 1 for a scale, at most 3 for a rotation and infinite for a singular
 /// matrix.
-double max_matrix_rounding_amplification(const dmat3& matrix);
+double rounding_amplification(const dmat3& matrix);
 
 /// Builds the tree of a scene in which some objects have an object space. The root has two
 /// children: the flat tree, and a top-level tree with one instance in each leaf. A word with the
@@ -35,6 +35,6 @@ double max_matrix_rounding_amplification(const dmat3& matrix);
 /// Texel 2 of the header holds the factor by which the walk widens boxes. The transform of a ray
 /// into object space adds roundings relative to its distance, and the way back amplifies them.
 /// Without instances, returns `flat` unchanged.
-Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instances);
+Bvh assemble_two_level(const Bvh& flat, std::span<const BvhInstance> instances);
 
 } // namespace catoptric::bvh

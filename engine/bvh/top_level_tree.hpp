@@ -9,8 +9,7 @@ namespace catoptric::bvh {
 /// Builds the tree over one or two parts, whose references fill the first buffer in this order, and
 /// appends it to the header in `nodes`. Two parts become the two children of the root. Returns the
 /// number of triangles kept. The kept triangles are the first elements of `work.triangles`.
-std::size_t build_bvh_in_parallel(const BvhBuildWorkspace& work,
-                                  std::span<const TriangleReferenceSpanRange> parts,
-                                  unsigned threads, std::vector<vec4>& nodes);
+std::size_t build_in_parallel(const BuildWorkspace& work, std::span<const ReferenceRange> parts,
+                              unsigned threads, std::vector<vec4>& nodes);
 
 } // namespace catoptric::bvh

@@ -226,7 +226,7 @@ void GpuScene::fill_instance_placement_table() {
         if (!own) continue;
         const dmat3& axes = own->scene_from_own;
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
-                         bvh::double_to_float_rounding_error(own->centre)};
+                         bvh::float_rounding_error(own->centre)};
     }
     placement_buffer_.set_device_list_contents(placements);
 }
@@ -323,13 +323,13 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const ObjectDrawRange&) { return i == object; });
         for (shared::View& view : make_cube_views(probe.centre, gap)) {
-            view.eye_low = bvh::double_to_float_rounding_error(probe_places_[mirror]);
+            view.eye_low = bvh::float_rounding_error(probe_places_[mirror]);
             scene_views_.push_back(view);
         }
     }
     for (std::size_t light = 0; light < lights_.size(); ++light)
         for (shared::View& view : shadow_views(lights_[light])) {
-            view.eye_low = bvh::double_to_float_rounding_error(light_places_[light]);
+            view.eye_low = bvh::float_rounding_error(light_places_[light]);
             scene_views_.push_back(view);
         }
     probe_buffer_.set_device_list_contents(pack_structs_into_texels(probes_));

@@ -119,7 +119,7 @@ MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatF
     };
     shared::View& view = made.view = from.view;
     view.eye = vec3(made.eye);
-    view.eye_low = bvh::double_to_float_rounding_error(made.eye);
+    view.eye_low = bvh::float_rounding_error(made.eye);
     view.right = turned(from.view.right), view.down = turned(from.view.down),
     view.forward = turned(from.view.forward);
     // A ray that leaves through the mirror has a length of at least the eye's distance from the

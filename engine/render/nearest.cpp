@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kMaxLinearSearchTriangles =
     16; // the most triangles that are tested one by one
 
-Bounds<float> compute_triangle_bounds(const FrameGeometry& geometry, std::uint32_t first_index) {
+Bounds<float> triangle_bounds(const FrameGeometry& geometry, std::uint32_t first_index) {
     Bounds<float> box;
     for (std::uint32_t j = 0; j < 3; ++j)
         box.add(geometry.vertices[geometry.indices[first_index + j]].position);
@@ -22,7 +22,7 @@ std::vector<Bounds<float>> list_triangle_boxes(const FrameGeometry& geometry,
                                                const ObjectDrawRange& range) {
     std::vector<Bounds<float>> boxes;
     for (std::uint32_t k = 0; k < range.index_count; k += 3)
-        boxes.push_back(compute_triangle_bounds(geometry, range.first_index + k));
+        boxes.push_back(triangle_bounds(geometry, range.first_index + k));
     return boxes;
 }
 

@@ -48,8 +48,8 @@ bool may_object_share_mesh(const scene::Scene& now, const scene::Object& object)
     const scene::Material& material = now.materials[object.material];
     const bool is_lamp = scene::is_one_sided(material) &&
                          scene::emitted_radiance(material) != vec3(0);
-    return !is_lamp && bvh::max_matrix_rounding_amplification(dmat3(object.world_from_object)) <=
-                           kMaxMatrixStretch;
+    return !is_lamp &&
+           bvh::rounding_amplification(dmat3(object.world_from_object)) <= kMaxMatrixStretch;
 }
 
 std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene) {

@@ -20,7 +20,7 @@ std::uint32_t ray_mask_of_draw_range(const ObjectDrawRange& range) {
     return (range.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
            (range.casts_shadow || range.tints ? 0 : bvh::kCastsNoShadowFlag) |
            (range.tints ? bvh::kTintsShadowFlag : 0) |
-           (range.exact_sphere ? bvh::kTriangleApproximatesSphereFlag : 0) |
+           (range.exact_sphere ? bvh::kStandsForSphereFlag : 0) |
            (range.one_sided ? bvh::kOneSidedFlag : 0) | (range.masked ? bvh::kAlphaMaskedFlag : 0);
 }
 
@@ -69,7 +69,7 @@ std::vector<bvh::Triangle> replace_by_exact_spheres(std::span<const bvh::Triangl
         if (!range.exact_sphere || range.own || range.index_count == 0) continue;
         const auto own = std::span(triangles).subspan(range.first_index / 3, range.index_count / 3);
         std::ranges::fill(own, nothing);
-        own.front() = bvh::make_sphere_primitive(
+        own.front() = bvh::make_sphere(
             surfaces[i].centre, surfaces[i].radius, i,
             ray_mask_of_draw_range(range) &
                 (bvh::kHiddenFromCameraFlag | bvh::kCastsNoShadowFlag | bvh::kTintsShadowFlag));
@@ -146,8 +146,7 @@ void RayTracingTrees::record_layout_change() {
 
 void RayTracingTrees::build_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                               std::span<const bvh::Triangle> flat) {
-    hierarchy.tree = bvh::build_bvh(flat, geometry.core,
-                                    bvh::DuplicateTriangleSearchScope::across_objects);
+    hierarchy.tree = bvh::build(flat, geometry.core, bvh::CopyScope::across_objects);
     hierarchy.reached.clear();
     hierarchy.lists_first_hits = false;
     hierarchy.cost_when_built = hierarchy.tree.cost;
@@ -158,10 +157,10 @@ void RayTracingTrees::build_ray_tracing_trees(DeviceBvh& hierarchy, const FrameG
 void RayTracingTrees::refit_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                               std::span<const bvh::Triangle> flat) {
     if (hierarchy.moved != hierarchy.reached) { // mostly the same objects move from frame to frame
-        hierarchy.reach = bvh::find_bvh_region_to_refit(hierarchy.tree, hierarchy.moved);
+        hierarchy.reach = bvh::find_refit_region(hierarchy.tree, hierarchy.moved);
         hierarchy.reached = hierarchy.moved;
     }
-    hierarchy.changed = bvh::refit_bvh(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
+    hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
     // The comparison is written so that a cost of NaN also causes a new build.
     if (!(hierarchy.tree.cost <= kMaxRefitCostRatio * hierarchy.cost_when_built))
@@ -171,8 +170,7 @@ void RayTracingTrees::refit_ray_tracing_trees(DeviceBvh& hierarchy, const FrameG
 void RayTracingTrees::build_object_space_tree(const FrameGeometry& geometry, std::size_t object) {
     const ObjectDrawRange& range = geometry.ranges[object];
     bvh::Bvh& tree = own_trees_[object];
-    tree = bvh::build_bvh(
-        std::span(triangles_).subspan(range.first_index / 3, range.index_count / 3));
+    tree = bvh::build(std::span(triangles_).subspan(range.first_index / 3, range.index_count / 3));
     offset_triangle_numbers_of_bvh(tree, range.first_index / 3);
 }
 
@@ -250,9 +248,8 @@ RayTracingTrees::list_bvh_instances(const FrameGeometry& geometry) const {
 void RayTracingTrees::assemble_two_level_tree(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                               bool first_hits) const {
     const std::vector<bvh::BvhInstance> instances = this->list_bvh_instances(geometry);
-    const bvh::Bvh whole = instances.empty()
-                               ? bvh::Bvh()
-                               : bvh::assemble_two_level_bvh(hierarchy.tree, instances);
+    const bvh::Bvh whole = instances.empty() ? bvh::Bvh()
+                                             : bvh::assemble_two_level(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
     hierarchy.node_list.set_device_list_contents(shown.nodes);
     if (instances.empty())

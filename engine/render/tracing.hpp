@@ -13,7 +13,7 @@
 
 namespace catoptric::render {
 
-/// A refitted hierarchy is rebuilt once its cost (bvh::compute_sah_cost) exceeds this many times
+/// A refitted hierarchy is rebuilt once its cost (bvh::sah_cost) exceeds this many times
 /// the cost when built.
 inline constexpr double kMaxRefitCostRatio = 2;
 
@@ -86,7 +86,7 @@ private:
         SceneGeometryVersion seen;
         std::vector<char> moved; ///< for each object in scene units: whether it moved since `seen`
         std::vector<char> reached; ///< for each object: whether `reach` includes it
-        bvh::ChangedBvhRegion reach;
+        bvh::RefitRegion reach;
         bvh::IndexRange changed; ///< range of the tree's triangles that changed since the last
                                  ///< `assemble_two_level_tree`
         bool lists_first_hits = false; ///< `first_hits` describes the hierarchy

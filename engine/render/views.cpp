@@ -95,7 +95,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
                            {std::max(depth.low, dot(forward, eye)), depth.high});
     }
     view.eye = vec3(eye);
-    view.eye_low = bvh::double_to_float_rounding_error(eye);
+    view.eye_low = bvh::float_rounding_error(eye);
     // The comparison is written so that NaN fails, too.
     check(
         length(view.eye) <= scene::kMaxSceneRadius && length(view.forward) > .5f &&

@@ -31,7 +31,7 @@ public:
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i)
             add_triangles_of_object(question, i, triangles);
-        tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateTriangleSearchScope::across_objects);
+        tree_ = bvh::build(triangles, {}, bvh::CopyScope::across_objects);
     }
 
     struct TracedMirrorPath {
@@ -86,7 +86,7 @@ private:
 
     std::optional<bvh::RayHit<float>> find_hit(const f32::Ray& ray, std::uint32_t skipped,
                                                TracedMirrorPath& path) const {
-        bvh::BvhTraversalCounters steps;
+        bvh::TraversalCounters steps;
         auto hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, skipped, &steps);
         path.nodes.push_back(steps.nodes);
         return hit;

@@ -51,7 +51,7 @@ struct MirrorPathCounts {
     count_paths_on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.
 };
 
-/// Builds a BVH over all triangles (bvh::build_bvh) and follows at most kMaxMirrorPaths rays, in
+/// Builds a BVH over all triangles (bvh::build) and follows at most kMaxMirrorPaths rays, in
 /// floats relative to the eye. Each reflection costs one more ray, from a capture's centre.
 MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question);
 

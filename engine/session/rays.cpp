@@ -20,8 +20,7 @@ bvh::Bvh build_bvh_without_object(const render::FrameGeometry& geometry, std::si
                                      (range.one_sided ? bvh::kOneSidedFlag : 0)});
         }
     }
-    return bvh::build_bvh(triangles, geometry.core,
-                          bvh::DuplicateTriangleSearchScope::across_objects);
+    return bvh::build(triangles, geometry.core, bvh::CopyScope::across_objects);
 }
 
 f32::Ray make_camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {

@@ -86,7 +86,7 @@ layout(constant_id = OWN_SPACES_CONSTANT) const uint object_spaces = 0u;
 // The rounding error of the next ray's origin: the exact origin is origin + trace_low. Each walk resets it to 0.
 vec3 trace_low = vec3(0);
 
-ObjectPlacement read_instance_ray_transform(uint record) {
+ObjectPlacement read_placement(uint record) {
     uint i = 4u * record;
     return ObjectPlacement(bvh_nodes_at(i).xyz, bvh_nodes_at(i + 1u).xyz, bvh_nodes_at(i + 2u).xyz, bvh_nodes_at(i + 4u).xyz,
                  bvh_nodes_at(i + 5u).xyz, bvh_nodes_at(i + 6u).xyz, bvh_nodes_at(i + 3u).xyz, bvh_nodes_at(i + 7u).xyz);
@@ -217,7 +217,7 @@ TreeWalkState begin_walk_in_scene(Ray ray) {
 TreeWalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint root) {
     uint i = 4u * record;
     root = floatBitsToUint(bvh_nodes_at(i).w);
-    Ray own = transform_ray_to_object_space(read_instance_ray_transform(record), ray, low);
+    Ray own = transform_ray_to_object_space(read_placement(record), ray, low);
     BoxTestRay boxes = is_precision_rule_kept(kBoxPaddingRule) ? make_box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz,
         1.0) : make_plain_box_ray(own);
     return TreeWalkState(own, boxes, make_ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,

@@ -100,7 +100,7 @@ uint skipped_triangle_flags() { return exact_spheres != 0u ? kBvhStandsForSphere
 
 // Transforms a point from an instance's object space to scene units.
 void transform_point_to_scene(inout SurfacePoint p, uint record) {
-    ObjectPlacement place = read_instance_ray_transform(record);
+    ObjectPlacement place = read_placement(record);
     p.inside = record;
     p.arm = rotate_to_scene_offset(place, p.position);
     p.arm_error = offset_rounding_error(place, p.position, p.error);
@@ -127,7 +127,7 @@ SurfacePoint point_on_triangle(TraceHit hit) {
     p.normal = normalize(w.x * normal_a + w.y * normal_b + w.z * normal_c);
     vec3 lit_a = a, lit_b = b, lit_c = c; // corners in scene units
     if (object_spaces != 0u && hit.inside != 0u) {
-        ObjectPlacement place = read_instance_ray_transform(hit.inside);
+        ObjectPlacement place = read_placement(hit.inside);
         lit_a = rotate_to_scene_offset(place, a), lit_b = rotate_to_scene_offset(place, b), lit_c = rotate_to_scene_offset(place, c);
         normal_a = transform_normal_out_of_object_space(place, normal_a), normal_b = transform_normal_out_of_object_space(place, normal_b), normal_c = transform_normal_out_of_object_space(place, normal_c);
         p.facet = facet_normal(lit_a, lit_b, lit_c);
@@ -142,13 +142,13 @@ SurfacePoint point_on_triangle(TraceHit hit) {
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
     if (object_spaces != 0u && hit.inside != 0u) {
-        ObjectPlacement place = read_instance_ray_transform(hit.inside);
+        ObjectPlacement place = read_placement(hit.inside);
         exact_a = transform_exact_position_to_scene(place, a), exact_b = transform_exact_position_to_scene(place, b), exact_c = transform_exact_position_to_scene(place, c);
     }
     dvec3 exact_w = refine_exact_triangle_hit(exact_a, exact_b, exact_c, w);
     exact_normal = exact_w.x * dvec3(NORMAL(corner)) + exact_w.y * dvec3(NORMAL(corner + 1u)) +
                    exact_w.z * dvec3(NORMAL(corner + 2u));
-    if (object_spaces != 0u && hit.inside != 0u) exact_normal = transform_exact_normal_to_scene(read_instance_ray_transform(hit.inside), exact_normal);
+    if (object_spaces != 0u && hit.inside != 0u) exact_normal = transform_exact_normal_to_scene(read_placement(hit.inside), exact_normal);
     exact_normal = normalize(exact_normal);
     p.position = vec3(exact_point);
     p.normal = vec3(exact_normal);
@@ -180,7 +180,7 @@ SurfacePoint point_on_sphere(Ray ray, float t, uint object) {
 // Returns the point of a hit on the exact sphere of an instance. `low` is the rounding error of the ray's origin.
 SurfacePoint point_on_instance_sphere(Ray ray, vec3 low, TraceHit hit) {
     SurfacePoint p;
-    ObjectPlacement place = read_instance_ray_transform(hit.inside);
+    ObjectPlacement place = read_placement(hit.inside);
     float radius = object_space_sphere_radius(hit.inside);
     p.position = sphere_hit_point(vec3(0), radius, transform_ray_to_object_space(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
@@ -223,7 +223,7 @@ uint intersect_rasterised_triangle(Ray ray, out TraceHit hit) {
     Ray own = ray;
     uint shift = 0u;
     if (object_spaces != 0u && record != 0u) {
-        own = transform_ray_to_object_space(read_instance_ray_transform(record), ray, trace_low);
+        own = transform_ray_to_object_space(read_placement(record), ray, trace_low);
         shift = triangle_number_offset(record);
     }
     vec3 a, b, c, weights;
@@ -279,7 +279,7 @@ Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
 // Returns the origin of a ray that leaves the point along `direction`. Sets trace_low if the point is on an instance.
 vec3 find_leaving_ray_origin(SurfacePoint p, vec3 direction) {
     if (object_spaces != 0u && p.inside != 0u)
-        return add_offset_to_object_centre(read_instance_ray_transform(p.inside), ray_spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
+        return add_offset_to_object_centre(read_placement(p.inside), ray_spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
     return is_precision_rule_kept(kOriginErrorBoundRule) ? ray_spawn_origin(p.position, p.error, p.facet, direction)
         : plain_ray_spawn_origin(p.position, p.facet, direction);
 }
@@ -289,7 +289,7 @@ vec3 find_leaving_ray_origin(SurfacePoint p, vec3 direction) {
 // would hit neighbouring facets, and a smooth body's shadow terminator would show its facets.
 vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
     if (object_spaces != 0u && p.inside != 0u)
-        return add_offset_to_object_centre(read_instance_ray_transform(p.inside), ray_spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
+        return add_offset_to_object_centre(read_placement(p.inside), ray_spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
     return ray_spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
 
@@ -384,7 +384,7 @@ void pass_triangle_of_glass(uint record, Ray ray, uint object, uint triangle, ve
     if (has_vertex_attributes(surface.detail)) at = interpolate_attribute(corner, weights);
     if (masks != 0u && fails_alpha_test(surface.detail, at)) return;
     vec3 normal = weights.x * NORMAL(corner) + weights.y * NORMAL(corner + 1u) + weights.z * NORMAL(corner + 2u);
-    if (object_spaces != 0u && record != 0u) normal = transform_normal_out_of_object_space(read_instance_ray_transform(record), normal);
+    if (object_spaces != 0u && record != 0u) normal = transform_normal_out_of_object_space(read_placement(record), normal);
     passed_depth += glass_surface_depth(surface.detail, surface.albedo, at, abs(dot(normalize(normal), normalize(shadow_direction))));
     if (is_solid_glass(surface.detail)) pass_side_of_solid_glass(surface.detail, t * length(shadow_direction), dot(facet, ray.direction) > 0.0);
 }

@@ -26,8 +26,8 @@ std::vector<bvh::Triangle> draw_triangles_and_balls(test::RandomNumbers& numbers
         }
         const float radius = i % 10 == 1 ? 3.0f
                                          : .01f + .1f * std::abs(numbers.random_point_in_cube().x);
-        things.push_back(bvh::make_sphere_primitive(i % 14 == 1 ? 50.0f * place : place, radius, i,
-                                                    i % 6 == 1 ? bvh::kHiddenFromCameraFlag : 0));
+        things.push_back(bvh::make_sphere(i % 14 == 1 ? 50.0f * place : place, radius, i,
+                                          i % 6 == 1 ? bvh::kHiddenFromCameraFlag : 0));
     }
     return things;
 }
@@ -114,7 +114,7 @@ TEST(KernelBalls, RaysHitBallsAsExactSpheres) {
 TEST(KernelBalls, RaysHitMovedBallsInARefittedTree) {
     test::RandomNumbers numbers(52);
     std::vector<bvh::Triangle> things = draw_triangles_and_balls(numbers);
-    bvh::Bvh tree = bvh::build_bvh(things);
+    bvh::Bvh tree = bvh::build(things);
     for (bvh::Triangle& thing : things) {
         const vec3 by = .2f * numbers.random_point_in_cube();
         thing.a += by;
@@ -123,7 +123,7 @@ TEST(KernelBalls, RaysHitMovedBallsInARefittedTree) {
         else
             thing.b += by, thing.c += by;
     }
-    bvh::refit_bvh(tree, things);
+    bvh::refit(tree, things);
     DeviceRayTracer kernel(std::move(tree));
     expect_nearest_hits(kernel, things, make_rays_among_balls(things, numbers));
 }

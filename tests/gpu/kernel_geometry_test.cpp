@@ -88,7 +88,7 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         ASSERT_EQ(bvh::count_triangles(hierarchy), finite.size());
         for (const vec4& corner : hierarchy.triangles) ASSERT_TRUE(f32::is_finite(vec3(corner)));
         const std::vector<bvh::Triangle> area = repair_triangles_as_loader(good, flat);
-        ASSERT_EQ(bvh::build_bvh(area).dropped, 0u);
+        ASSERT_EQ(bvh::build(area).dropped, 0u);
         not_finite += hierarchy.dropped;
         kept += area.size();
 
@@ -140,7 +140,7 @@ std::vector<DeviceRay> make_rays_at_triangle_copies() {
 TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
     const std::vector<bvh::Triangle> triangles = make_triangle_copies(100000, true);
     const auto start = std::chrono::steady_clock::now();
-    bvh::Bvh hierarchy = bvh::build_bvh(triangles);
+    bvh::Bvh hierarchy = bvh::build(triangles);
     const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
     DeviceRayTracer kernel(std::move(hierarchy));
     const std::vector<DeviceRay> rays = make_rays_at_triangle_copies();

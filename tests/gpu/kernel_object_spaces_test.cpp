@@ -103,13 +103,12 @@ TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
     EXPECT_GT(hit, 22 * rays.size() / 2);
 }
 
-/// Tests objects that have an exact sphere. Rays hit the spheres if kTriangleApproximatesSphereFlag
+/// Tests objects that have an exact sphere. Rays hit the spheres if kStandsForSphereFlag
 /// is among the skipped flags, and the meshes otherwise.
 TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
     RandomInstanceScene crowd(43);
     for (bvh::BvhInstance& thing : crowd.list_instances())
-        if (thing.object % 2 == 0)
-            thing.radius = .5f, thing.flags = bvh::kTriangleApproximatesSphereFlag;
+        if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kStandsForSphereFlag;
     const RayBatch batch(crowd.make_random_rays(20000));
     DeviceRayTracer kernel(crowd.build_scene_bvh());
     EXPECT_EQ(test::count_wrong_hits(kernel, batch.rays,
@@ -117,13 +116,13 @@ TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
                                      batch.lows),
               0u);
     const std::vector<DeviceHit> hits = kernel.find_closest_hits(
-        batch.rays, bvh::kTriangleApproximatesSphereFlag, batch.lows);
+        batch.rays, bvh::kStandsForSphereFlag, batch.lows);
     std::size_t different = 0, on_spheres = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const vec3 low(batch.lows[i]);
         const DeviceRay& ray = batch.rays[i];
         DeviceHit wanted = test::find_hit_on_cpu(kernel.traversed_bvh(), ray,
-                                                 bvh::kTriangleApproximatesSphereFlag, low);
+                                                 bvh::kStandsForSphereFlag, low);
         float nearest = wanted.is_hit() ? wanted.t : ray.t_max, t;
         for (const bvh::BvhInstance& thing : crowd.list_instances())
             if (thing.radius > 0 &&

@@ -36,16 +36,16 @@ std::uint64_t total_work_of_kind(const std::vector<PassWork>& passes, WorkKind k
 }
 
 /// Returns the work of all camera rays, by the traversal on the CPU.
-bvh::BvhTraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
+bvh::TraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
     const session::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
     const render::SceneUnitTransform units = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(scene, units);
     const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
     const shared::View view = render::make_camera_view(asked.camera, units, kWorkPictureSize, 0,
                                                        render::compute_geometry_bounds(geometry));
-    bvh::BvhTraversalCounters sum;
+    bvh::TraversalCounters sum;
     for (std::size_t pixel = 0; pixel < kWorkPixelCount; ++pixel) {
-        bvh::BvhTraversalCounters one;
+        bvh::TraversalCounters one;
         bvh::find_closest_hit<float>(tree, session::make_camera_ray(view, kWorkPictureSize, pixel),
                                      std::numeric_limits<float>::max(),
                                      bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, &one);
@@ -63,7 +63,7 @@ TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
             material.emission = vec3(0), material.light.reset();
         scene.punctual.clear();
         const auto work = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
-        const bvh::BvhTraversalCounters wanted = count_traversal_work_on_cpu(scene);
+        const bvh::TraversalCounters wanted = count_traversal_work_on_cpu(scene);
         EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), kWorkPixelCount) << name;
         EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), 0u) << name;
         EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), 0u) << name;

@@ -81,7 +81,7 @@ SceneSurfaceCaster::SceneSurfaceCaster(const session::Request& request)
                                (range.one_sided ? bvh::kOneSidedFlag : 0)});
         }
     }
-    tree_ = bvh::build_bvh(all, geometry_.core);
+    tree_ = bvh::build(all, geometry_.core);
 }
 
 std::optional<SceneSurfaceCaster::CutOutSurface>

@@ -21,7 +21,7 @@ inline f32::ObjectPlacement make_placement_of_instance(const bvh::BvhInstance& i
     return {vec3(back[0]),         vec3(back[1]),
             vec3(back[2]),         vec3(to[0]),
             vec3(to[1]),           vec3(to[2]),
-            vec3(instance.centre), bvh::double_to_float_rounding_error(instance.centre)};
+            vec3(instance.centre), bvh::float_rounding_error(instance.centre)};
 }
 
 /// Returns a random rotation after a scale of each axis. The scale squeezes the second axis and
@@ -61,8 +61,8 @@ public:
     /// object space multiplied by `own`. Both factors are powers of two. The objects keep their
     /// places relative to each other.
     bvh::Bvh build_scene_bvh(float scene = 1, float own = 1) const {
-        const bvh::Bvh trees[]{bvh::build_bvh(scale_triangles(shapes_[0], own)),
-                               bvh::build_bvh(scale_triangles(shapes_[1], own))};
+        const bvh::Bvh trees[]{bvh::build(scale_triangles(shapes_[0], own)),
+                               bvh::build(scale_triangles(shapes_[1], own))};
         std::vector<bvh::BvhInstance> placed = things_;
         for (std::size_t k = 0; k < placed.size(); ++k) {
             placed[k].tree = &trees[k % 2];
@@ -70,7 +70,7 @@ public:
             placed[k].centre *= double{scene};
             placed[k].radius *= own;
         }
-        return bvh::assemble_two_level_bvh(bvh::build_bvh(scale_triangles(room_, scene)), placed);
+        return bvh::assemble_two_level(bvh::build(scale_triangles(room_, scene)), placed);
     }
 
     /// Returns random rays of four kinds in turn: anywhere; from near an instance to a point on it;

@@ -92,7 +92,7 @@ class ObjectRayCaster {
 public:
     explicit ObjectRayCaster(const scene::Scene& now) {
         for (std::size_t i = 0; i < now.objects.size(); ++i) add_object_triangles(now, i);
-        tree_ = bvh::build_bvh(triangles_);
+        tree_ = bvh::build(triangles_);
     }
     struct RayCasterObjectHit {
         std::size_t object = 0;

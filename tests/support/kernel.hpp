@@ -73,7 +73,7 @@ public:
                          gpu::BufferUsage::texels);
     }
     explicit DeviceRayTracer(std::span<const bvh::Triangle> triangles)
-        : DeviceRayTracer(bvh::build_bvh(triangles)) {}
+        : DeviceRayTracer(bvh::build(triangles)) {}
 
     /// Robustness rules that the shader leaves out, as constants of shaders/lib/plain.glsl. Without
     /// a rule, a test shows the errors that the rule prevents.
@@ -175,12 +175,12 @@ inline bool are_equal_hits(const DeviceHit& a, const DeviceHit& b) {
 /// Returns the hit that the CPU reference finds (bvh/closest_hit.hpp).
 inline DeviceHit find_hit_on_cpu(const bvh::Bvh& hierarchy, const DeviceRay& ray,
                                  std::uint32_t skipped = 0, const vec3& low = vec3(0)) {
-    bvh::BvhTraversalCounters steps;
+    bvh::TraversalCounters steps;
     const auto hit = bvh::find_closest_hit<float>(
         hierarchy, {ray.origin, ray.direction, ray.leaves}, ray.t_max, skipped, &steps, low);
     DeviceHit result;
     if (hit) result = {hit->t, hit->barycentric, hit->triangle, hit->object, 1, 0};
-    result.steps = static_cast<std::uint32_t>(steps.count_traversal_steps_total());
+    result.steps = static_cast<std::uint32_t>(steps.total());
     return result;
 }
 

@@ -20,9 +20,8 @@ using test::expect_valid_bvh, test::have_equal_bytes, test::make_random_triangle
 std::vector<TriangleReference> make_triangle_references(std::span<const Triangle> triangles) {
     std::vector<TriangleReference> result;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const BoundingBox box = compute_triangle_bounds(triangles[i].a, triangles[i].b,
-                                                        triangles[i].c, 0);
-        result.push_back({load_simd_vector(box.lo, pack_number(i)), load_simd_vector(box.hi, 0)});
+        const BoundingBox box = triangle_bounds(triangles[i].a, triangles[i].b, triangles[i].c, 0);
+        result.push_back({load_simd(box.lo, pack_number(i)), load_simd(box.hi, 0)});
     }
     return result;
 }
@@ -31,8 +30,8 @@ std::vector<TriangleReference> make_triangle_references(std::span<const Triangle
 double node_cost_of_references(std::span<const TriangleReference> references) {
     Bounds<double> box;
     for (const TriangleReference& r : references)
-        box.add(Bounds<double>{dvec3(simd_to_vec3(r.lo)), dvec3(simd_to_vec3(r.hi))});
-    return bounding_box_surface_area(box) / 2 * static_cast<double>(references.size());
+        box.add(Bounds<double>{dvec3(to_vec3(r.lo)), dvec3(to_vec3(r.hi))});
+    return surface_area(box) / 2 * static_cast<double>(references.size());
 }
 
 double node_cost_of_references(std::span<const TriangleReference> references, std::size_t middle) {
@@ -42,8 +41,8 @@ double node_cost_of_references(std::span<const TriangleReference> references, st
 
 std::vector<TriangleReference> sort_references_along_axis(std::vector<TriangleReference> references,
                                                           int axis) {
-    std::ranges::stable_sort(
-        references, {}, [&](const TriangleReference& r) { return r.bounding_box_centre()[axis]; });
+    std::ranges::stable_sort(references, {},
+                             [&](const TriangleReference& r) { return r.centre()[axis]; });
     return references;
 }
 
@@ -55,15 +54,14 @@ TEST(BvhBuild, MedianDividesAlongTheWidestAxis) {
         SimdBox centres;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const vec3 centre = triangles[i].a * vec3(size[0], size[1], size[2]);
-            references.push_back(
-                {load_simd_vector(centre, pack_number(i)), load_simd_vector(centre, 0)});
+            references.push_back({load_simd(centre, pack_number(i)), load_simd(centre, 0)});
             centres.add_point(references.back().lo);
         }
-        const vec3 extent = centres.to_bounding_box().extent();
+        const vec3 extent = centres.to_bounds().extent();
         const int axis = extent.x > extent.y && extent.x > extent.z ? 0
                          : extent.y > extent.z                      ? 1
                                                                     : 2;
-        const std::size_t middle = partition_triangles_at_median(references, centres);
+        const std::size_t middle = partition_at_median(references, centres);
         ASSERT_EQ(middle, 49u);
         const auto place = [axis](const TriangleReference& r) { return r.lo[axis]; };
         EXPECT_LE(std::ranges::max(std::span(references).first(middle), {}, place).lo[axis],
@@ -83,7 +81,7 @@ TEST(BvhDivision, SweepFindsTheCheapestDivision) {
                 if (std::max(middle, count - middle) <= most)
                     least = std::min(least, node_cost_of_references(
                                                 sort_references_along_axis(few, axis), middle));
-        const std::optional<SweptSahSplit> found = find_best_sah_split_by_sweep(few, most);
+        const std::optional<SweptSplit> found = find_swept_split(few, most);
         ASSERT_EQ(found.has_value(), std::isfinite(least));
         if (!found) continue;
         EXPECT_NEAR(found->cost, least, 1e-6 * least);
@@ -98,41 +96,39 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
         const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
         std::vector<TriangleReference> all = make_triangle_references(
             make_random_triangles(count, seed));
-        TriangleReferenceSpanRange part;
-        for (const TriangleReference& r : all) part.add_reference(r);
+        ReferenceRange part;
+        for (const TriangleReference& r : all) part.add(r);
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const std::vector<TriangleReference> along = sort_references_along_axis(all, axis);
-            for (int plane = 1; plane < kSplitBinCount; ++plane) {
+            for (int plane = 1; plane < kBinCount; ++plane) {
                 const double lo = double{part.centres.lo[axis]}, hi = double{part.centres.hi[axis]},
-                             place = lo + (hi - lo) * plane / kSplitBinCount;
+                             place = lo + (hi - lo) * plane / kBinCount;
                 const auto middle = static_cast<std::size_t>(
                     std::ranges::count_if(along, [&](const TriangleReference& r) {
-                        return double{r.bounding_box_centre()[axis]} < place;
+                        return double{r.centre()[axis]} < place;
                     }));
                 if (middle > 0 && middle < count && std::max(middle, count - middle) <= most)
                     least = std::min(least, node_cost_of_references(along, middle));
             }
         }
-        SahSplitBins bins;
-        bins.add_references(all, CentroidToBinMapping(part.centres));
-        const std::optional<BinnedSahSplit> split = find_best_binned_sah_split(bins, most);
+        SplitBins bins;
+        bins.add(all, Binning(part.centres));
+        const std::optional<BinnedSplit> split = find_binned_split(bins, most);
         ASSERT_TRUE(split);
-        const std::size_t middle = bins.left_triangle_count_of_split(*split);
+        const std::size_t middle = bins.left_count(*split);
         std::vector<TriangleReference> sides(count);
         std::array<SimdBox, 2> centres;
-        split->scatter_references_to_sides(all, CentroidToBinMapping(part.centres),
-                                           {sides.data(), &sides[middle]}, centres);
+        split->scatter(all, Binning(part.centres), {sides.data(), &sides[middle]}, centres);
         EXPECT_NEAR(node_cost_of_references(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
                                                       side == 0 ? middle : count - middle);
-            TriangleReferenceSpanRange made;
-            for (const TriangleReference& r : own) made.add_reference(r);
-            EXPECT_EQ(bins.extents(*split)[side].to_bounding_box(), made.box.to_bounding_box());
-            EXPECT_EQ(centres[side].to_bounding_box(), made.centres.to_bounding_box());
-            EXPECT_TRUE(
-                std::ranges::is_sorted(own, {}, &TriangleReference::triangle_index_of_reference))
+            ReferenceRange made;
+            for (const TriangleReference& r : own) made.add(r);
+            EXPECT_EQ(bins.extents(*split)[side].to_bounds(), made.box.to_bounds());
+            EXPECT_EQ(centres[side].to_bounds(), made.centres.to_bounds());
+            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &TriangleReference::number))
                 << "in their order";
         }
     }
@@ -197,7 +193,7 @@ std::vector<BvhBuildInput> list_bvh_build_inputs() {
 TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
     for (const BvhBuildInput& input : list_bvh_build_inputs()) {
         SCOPED_TRACE(input.name);
-        const Bvh one = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 1);
+        const Bvh one = build(input.triangles, input.core, kMaxLeafTriangles, 1);
         const std::size_t kept = input.triangles.size() - one.dropped - one.copies;
         EXPECT_EQ(count_triangles(one), kept);
         if (input.core.empty()) expect_valid_bvh(one, kept);
@@ -206,7 +202,7 @@ TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
         else
             EXPECT_EQ(kept, input.kept);
         for (const unsigned threads : {2U, 3U, 8U}) {
-            const Bvh many = build_bvh(input.triangles, input.core, kMaxLeafTriangles, threads);
+            const Bvh many = build(input.triangles, input.core, kMaxLeafTriangles, threads);
             EXPECT_TRUE(have_equal_bytes(one.nodes, many.nodes)) << threads;
             EXPECT_TRUE(have_equal_bytes(one.triangles, many.triangles)) << threads;
             EXPECT_EQ(one.dropped, many.dropped);
@@ -219,7 +215,7 @@ TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
 TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
     for (const BvhBuildInput& input : list_bvh_build_inputs()) {
         SCOPED_TRACE(input.name);
-        const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 3);
+        const Bvh bvh = build(input.triangles, input.core, kMaxLeafTriangles, 3);
         std::vector<char> seen(input.triangles.size());
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
             const std::uint32_t number = unpack_number(bvh.triangles[i + 1].w);

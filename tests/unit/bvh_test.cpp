@@ -44,17 +44,17 @@ std::vector<Triangle> make_divided_octahedron(int levels, float scale = 1, vec3 
 
 TEST(Bvh, BoxOutsideTheCoreGrowsByTwiceTheRoundingErrorOfItsDistance) {
     const BoundingBox core{vec3(-1), vec3(3)}; // its middle is (1, 1, 1)
-    EXPECT_EQ(compute_box_padding({vec3(-1), vec3(3)}, core), 0);
+    EXPECT_EQ(box_padding({vec3(-1), vec3(3)}, core), 0);
     const float gamma = f32::rounding_error_gamma_bound(16);
     // The largest distances from the middle along an axis are 6 - 1 and 1 - (-9).
-    EXPECT_FLOAT_EQ(compute_box_padding({{0, 0, 2}, {1, 1, 6}}, core), 2 * gamma * 5);
-    EXPECT_FLOAT_EQ(compute_box_padding({{0, -9, 2}, {1, 1, 6}}, core), 2 * gamma * 10);
+    EXPECT_FLOAT_EQ(box_padding({{0, 0, 2}, {1, 1, 6}}, core), 2 * gamma * 5);
+    EXPECT_FLOAT_EQ(box_padding({{0, -9, 2}, {1, 1, 6}}, core), 2 * gamma * 10);
 }
 
 TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
     for (std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 100, 5000}) {
         SCOPED_TRACE(count);
-        const Bvh bvh = build_bvh(make_random_triangles(count, 1));
+        const Bvh bvh = build(make_random_triangles(count, 1));
         expect_valid_bvh(bvh, count);
         EXPECT_EQ(bvh.dropped, 0u);
     }
@@ -77,13 +77,12 @@ TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
             triangles[7919 * i % kTriangleCount].flags = kCastsNoShadowFlag;
         for (std::size_t i = 3; i < kTriangleCount; i += 1000)
             if (triangles[i].flags == 0) triangles[i].b.x = test::kFloatInfinity;
-        const Bvh bvh = build_bvh(triangles, {}, kMaxLeafTriangles, 1);
+        const Bvh bvh = build(triangles, {}, kMaxLeafTriangles, 1);
         const std::size_t stored = kTriangleCount - bvh.dropped,
                           casters = stored - std::min(shadowless, stored);
         expect_valid_bvh(bvh, stored);
-        EXPECT_TRUE(
-            have_equal_bytes(bvh.nodes, build_bvh(triangles, {}, kMaxLeafTriangles, 3).nodes));
-        const bool is_apart = shadowless > 0 && shadowless <= kMaxShadowlessTriangleSubtreeSize;
+        EXPECT_TRUE(have_equal_bytes(bvh.nodes, build(triangles, {}, kMaxLeafTriangles, 3).nodes));
+        const bool is_apart = shadowless > 0 && shadowless <= kMaxShadowless;
         const std::uint32_t first = float_to_bits(bvh.nodes[3].x),
                             second = float_to_bits(bvh.nodes[3].y);
         EXPECT_EQ(first, is_apart ? float_to_bits(bvh.nodes[4].w) : f32::kBvhRoot);
@@ -96,21 +95,20 @@ TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
 }
 
 TEST(Bvh, RaysMissAnEmptyTree) {
-    const Bvh bvh = build_bvh({});
+    const Bvh bvh = build({});
     EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(1)}, test::kFloatInfinity));
     EXPECT_FALSE(has_any_hit<float>(bvh, {vec3(0), vec3(1)}, test::kFloatInfinity));
 }
 
 TEST(Bvh, EqualInputsGiveEqualBytes) {
-    const Bvh a = build_bvh(make_random_triangles(3000, 2)),
-              b = build_bvh(make_random_triangles(3000, 2));
+    const Bvh a = build(make_random_triangles(3000, 2)), b = build(make_random_triangles(3000, 2));
     EXPECT_TRUE(have_equal_bytes(a.nodes, b.nodes));
     EXPECT_TRUE(have_equal_bytes(a.triangles, b.triangles));
 }
 
 TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
     const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSidedFlag}; // the lamp faces +z
-    const Bvh bvh = build_bvh(std::vector{lamp});
+    const Bvh bvh = build(std::vector{lamp});
     const auto meets = [&](double from, std::uint32_t skipped) {
         const dvec3 origin(0, 0, from), direction(0, 0, 1 - from);
         const bool in_double = find_closest_hit<double>(bvh, {origin, direction, 0},
@@ -119,8 +117,7 @@ TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
         const Ray<float> ray{vec3(origin), vec3(direction), 0};
         EXPECT_EQ(find_closest_hit<float>(bvh, ray, test::kFloatInfinity, skipped).has_value(),
                   in_double);
-        EXPECT_EQ(find_closest_hit_by_brute_force<float>(bvh, ray, test::kFloatInfinity, skipped)
-                      .has_value(),
+        EXPECT_EQ(brute_force_hit<float>(bvh, ray, test::kFloatInfinity, skipped).has_value(),
                   in_double);
         return in_double;
     };
@@ -133,7 +130,7 @@ TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
 TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
     const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHiddenFromCameraFlag};
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
-    const Bvh bvh = build_bvh(std::vector{far, near});
+    const Bvh bvh = build(std::vector{far, near});
     const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
     const auto first = find_closest_hit<float>(bvh, ray, test::kFloatInfinity);
     ASSERT_TRUE(first);
@@ -155,7 +152,7 @@ TEST(Bvh, NonFiniteTrianglesAreDroppedAndCounted) {
     triangles[10].b.y = test::kFloatNan;
     triangles[20].c.x = test::kFloatInfinity;
     triangles[99].a.z = -test::kFloatInfinity;
-    const Bvh bvh = build_bvh(triangles);
+    const Bvh bvh = build(triangles);
     EXPECT_EQ(bvh.dropped, 3u);
     expect_valid_bvh(bvh, 97);
 }
@@ -174,7 +171,7 @@ TEST(Bvh, BuildSurvivesCornersOfRandomBits) {
                 }
             finite += good ? 1 : 0;
         }
-        const Bvh bvh = build_bvh(triangles);
+        const Bvh bvh = build(triangles);
         EXPECT_EQ(bvh.dropped, triangles.size() - finite);
         expect_valid_bvh(bvh, finite);
         find_closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kFloatInfinity);
@@ -187,16 +184,16 @@ TEST(Bvh, LowestNumberWinsAmongCoincidentTriangles) {
         copies[i].object = static_cast<std::uint32_t>(copies.size() -
                                                       i); // distinct objects keep all copies
     const auto start = std::chrono::steady_clock::now();
-    const Bvh bvh = build_bvh(copies);
+    const Bvh bvh = build(copies);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     EXPECT_LT(time.count(), 5);
     expect_valid_bvh(bvh, copies.size());
     const auto hit = find_closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kFloatInfinity);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
-    BvhTraversalCounters steps;
+    TraversalCounters steps;
     EXPECT_TRUE(has_any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kFloatInfinity, 0, &steps));
-    EXPECT_LE(steps.count_traversal_steps_total(), kMaxTreeDepth + kMaxLeafTriangles);
+    EXPECT_LE(steps.total(), kMaxTreeDepth + kMaxLeafTriangles);
 }
 
 TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
@@ -213,7 +210,7 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
         if (i / 8 % 2 == 0) t.a.z = t.b.z = t.c.z = 2;
         triangles.push_back(t);
     }
-    const Bvh bvh = build_bvh(triangles);
+    const Bvh bvh = build(triangles);
     expect_valid_bvh(bvh, 16);
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
@@ -221,14 +218,14 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
         EXPECT_LT(unpack_number(bvh.triangles[3 * i + 1].w), 16u)
             << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeafTriangles, triangles.front());
-    EXPECT_EQ(build_bvh(few).copies, 0u) << "a leaf has room for them";
+    EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
 }
 
 TEST(Bvh, LowestNumberWinsAmongCopiesInDifferentLeaves) {
     std::vector<Triangle> triangles = make_divided_octahedron(4);
     const std::vector<Triangle> original = triangles;
     triangles.insert(triangles.end(), original.begin(), original.end());
-    const Bvh bvh = build_bvh(triangles);
+    const Bvh bvh = build(triangles);
     test::RandomNumbers random(5);
     for (int i = 0; i < 2000; ++i) {
         const auto hit = find_closest_hit<float>(
@@ -247,12 +244,12 @@ TEST(Bvh, DepthIsBoundedForGeometricallyShrinkingTriangles) {
         const float x = std::ldexp(1.0f, i / 8 - 125) * (1 + 0.1f * static_cast<float>(i % 8));
         triangles.push_back({{x, 0, 0}, {1.1f * x, 0, 0}, {x, 0.1f * x, 0}});
     }
-    expect_valid_bvh(build_bvh(triangles), triangles.size());
+    expect_valid_bvh(build(triangles), triangles.size());
 }
 
 template <typename Real>
 void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int rays, unsigned seed) {
-    const Bvh bvh = build_bvh(triangles);
+    const Bvh bvh = build(triangles);
     test::RandomNumbers random(seed);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
@@ -268,7 +265,7 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
         const Real t_max = i % 2 == 0 ? Real(test::kFloatInfinity)
                                       : Real(random.random_number_between(0, 1.5f));
         const auto tree = find_closest_hit<Real>(bvh, ray, t_max);
-        const auto all = find_closest_hit_by_brute_force<Real>(bvh, ray, t_max);
+        const auto all = brute_force_hit<Real>(bvh, ray, t_max);
         ASSERT_EQ(tree, all) << "ray " << i;
         ASSERT_EQ(has_any_hit<Real>(bvh, ray, t_max), all.has_value()) << "ray " << i;
         hits += all ? 1 : 0;
@@ -288,22 +285,19 @@ TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
     for (std::size_t i = 0; i < 90; ++i) triangles[5 * i].flags = kCastsNoShadowFlag;
     std::vector<Triangle> casters = triangles;
     std::erase_if(casters, [](const Triangle& t) { return t.flags != 0; });
-    const Bvh bvh = build_bvh(triangles), only_casters = build_bvh(casters);
+    const Bvh bvh = build(triangles), only_casters = build(casters);
     test::RandomNumbers random(17);
     std::size_t blocked = 0;
     for (int i = 0; i < 5000; ++i) {
         const Ray<float> ray{2.0f * random.random_point_in_cube(), random.random_unit_direction()};
-        BvhTraversalCounters steps, steps_of_casters;
+        TraversalCounters steps, steps_of_casters;
         const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kCastsNoShadowFlag, &steps);
         ASSERT_EQ(is_blocked,
                   has_any_hit<float>(only_casters, ray, 2, kCastsNoShadowFlag, &steps_of_casters));
-        ASSERT_TRUE(is_blocked || steps.count_traversal_steps_total() ==
-                                      steps_of_casters.count_traversal_steps_total())
-            << "the same tree";
+        ASSERT_TRUE(is_blocked || steps.total() == steps_of_casters.total()) << "the same tree";
         for (const std::uint32_t skipped : {0u, kCastsNoShadowFlag})
-            ASSERT_EQ(
-                find_closest_hit<float>(bvh, ray, test::kFloatInfinity, skipped),
-                find_closest_hit_by_brute_force<float>(bvh, ray, test::kFloatInfinity, skipped));
+            ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kFloatInfinity, skipped),
+                      brute_force_hit<float>(bvh, ray, test::kFloatInfinity, skipped));
         blocked += is_blocked ? 1 : 0;
     }
     EXPECT_GT(blocked, 100u);
@@ -325,10 +319,9 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
                                                  -random.random_number_between(0, 1), 0);
         const vec3 target(edge.x - length * random.random_number_between(0, 1e-7f), edge.y,
                           random.random_number_between(1, 3));
-        const Bvh bvh = build_bvh(std::span(&t, 1));
+        const Bvh bvh = build(std::span(&t, 1));
         const Ray<float> ray{origin, target - origin};
-        const auto expected = find_closest_hit_by_brute_force<float>(bvh, ray,
-                                                                     test::kFloatInfinity);
+        const auto expected = brute_force_hit<float>(bvh, ray, test::kFloatInfinity);
         ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kFloatInfinity), expected) << i;
         hits += expected ? 1 : 0;
     }
@@ -336,7 +329,7 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
 }
 
 TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
-    const Bvh bvh = build_bvh(make_divided_octahedron(4));
+    const Bvh bvh = build(make_divided_octahedron(4));
     test::RandomNumbers random(10);
     for (int i = 0; i < 20000; ++i) {
         const vec3 origin = 0.5f * random.random_point_in_cube(),
@@ -356,7 +349,7 @@ TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
 /// at a point of a random edge.
 int count_rays_leaking_from_mesh(float scale, vec3 offset, int rays, unsigned seed) {
     const std::vector<Triangle> triangles = make_divided_octahedron(4, scale, offset);
-    const Bvh bvh = build_bvh(triangles);
+    const Bvh bvh = build(triangles);
     test::RandomNumbers random(seed);
     int result = 0;
     for (int i = 0; i < rays; ++i) {
@@ -379,7 +372,7 @@ TEST(ClosestHit, RaysFromInsideAClosedMeshAlwaysHit) {
 
 TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
     const std::vector<Triangle> triangles = make_divided_octahedron(3);
-    const Bvh bvh = build_bvh(triangles);
+    const Bvh bvh = build(triangles);
     for (const Triangle& t : triangles)
         for (int axis = 0; axis < 3; ++axis)
             for (float sign : {-1.0f, 1.0f}) {
@@ -394,7 +387,7 @@ TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
 }
 
 TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
-    const Bvh bvh = build_bvh(make_divided_octahedron(4));
+    const Bvh bvh = build(make_divided_octahedron(4));
     test::RandomNumbers random(15);
     for (float bad : {test::kFloatNan, test::kFloatInfinity, -test::kFloatInfinity})
         for (int k = 0; k < 7; ++k) {
@@ -407,11 +400,11 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
             else
                 t_max = bad;
             if (k == 6 && bad > 0) continue; // t_max = +infinity is valid
-            BvhTraversalCounters steps;
+            TraversalCounters steps;
             EXPECT_FALSE(find_closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
             EXPECT_FALSE(has_any_hit<float>(bvh, {origin, direction}, t_max));
-            EXPECT_FALSE(find_closest_hit_by_brute_force<float>(bvh, {origin, direction}, t_max));
-            EXPECT_EQ(steps.count_traversal_steps_total(), 0u);
+            EXPECT_FALSE(brute_force_hit<float>(bvh, {origin, direction}, t_max));
+            EXPECT_EQ(steps.total(), 0u);
         }
     EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kFloatInfinity))
         << "no direction";
@@ -420,12 +413,12 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
 
 TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
     const std::vector<Triangle> triangles = make_random_triangles(500, 16);
-    const Bvh one = build_bvh(triangles);
+    const Bvh one = build(triangles);
     for (int k : {-20, -7, 13, 20}) {
         const float s = std::ldexp(1.0f, k);
         std::vector<Triangle> scaled = triangles;
         for (Triangle& t : scaled) t.a *= s, t.b *= s, t.c *= s;
-        const Bvh other = build_bvh(scaled);
+        const Bvh other = build(scaled);
         test::RandomNumbers random(17);
         for (int i = 0; i < 2000; ++i) {
             const vec3 origin = 2.0f * random.random_point_in_cube(),
@@ -453,7 +446,7 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
         Triangle t;
         for (vec3* corner : {&t.a, &t.b, &t.c})
             for (int k = 0; k < 3; ++k) (*corner)[k] = wide();
-        const Bvh bvh = build_bvh(std::span(&t, 1));
+        const Bvh bvh = build(std::span(&t, 1));
         for (int k = 0; k < 100; ++k) {
             const float s = std::sqrt(random.random_number_between(0, 1)),
                         r = random.random_number_between(0, 1);
@@ -474,7 +467,7 @@ TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
     for (float scale : {1e-3f, 1.0f, 1e3f}) {
         const std::vector<Triangle> triangles = make_divided_octahedron(3, scale,
                                                                         vec3(2, 3, 5) * scale);
-        const Bvh bvh = build_bvh(triangles);
+        const Bvh bvh = build(triangles);
         test::RandomNumbers random(20);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const auto& [a, b, c, object, flags] = triangles[i];
@@ -497,10 +490,10 @@ TEST(Refit, RefitWithoutMovementChangesNothing) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = make_random_triangles(500, 3);
         triangles[7].b.y = test::kFloatNan;
-        const Bvh built = build_bvh(triangles, core);
+        const Bvh built = build(triangles, core);
         Bvh refitted = built;
         triangles[7] = triangles[8]; // triangle 7 was dropped at build, so refit ignores it
-        refit_bvh(refitted, triangles, core);
+        refit(refitted, triangles, core);
         EXPECT_TRUE(have_equal_bytes(built.nodes, refitted.nodes));
         EXPECT_TRUE(have_equal_bytes(built.triangles, refitted.triangles));
     }
@@ -515,15 +508,15 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
     for (const Triangle& t : make_random_triangles(400, 4)) triangles.push_back(t);
     for (std::size_t i = 0; i < 50; ++i)
         triangles.push_back(triangles[room + i]); // coincident copies
-    Bvh refitted = build_bvh(triangles);
+    Bvh refitted = build(triangles);
     std::size_t found = 0;
     for (int step = 0; step < 6; ++step) {
         const vec3 move = random.random_point_in_cube();
         for (std::size_t i = 0; i < room; ++i)
             for (vec3* corner : {&triangles[i].a, &triangles[i].b, &triangles[i].c})
                 *corner += move;
-        refit_bvh(refitted, triangles);
-        const Bvh rebuilt = build_bvh(triangles);
+        refit(refitted, triangles);
+        const Bvh rebuilt = build(triangles);
         for (int k = 0; k < 3000; ++k) {
             const Triangle& aim = triangles[random.random_integer_below(triangles.size())];
             const vec3 origin = 2.0f * random.random_point_in_cube();
@@ -558,53 +551,52 @@ TEST(Refit, PartialRefitEqualsFullRefit) {
         std::vector<Triangle> triangles = make_random_triangles(500, 6);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             triangles[i].object = i >= 80 && i < 150 ? 1 : 0;
-        Bvh few = build_bvh(triangles, core), all = few;
-        const ChangedBvhRegion reach = find_bvh_region_to_refit(few, std::vector<char>{0, 1});
+        Bvh few = build(triangles, core), all = few;
+        const RefitRegion reach = find_refit_region(few, std::vector<char>{0, 1});
         EXPECT_LT(reach.boxes.size(), count_nodes(few)) << "half of them";
         test::RandomNumbers random(23);
         for (int step = 0; step < 5; ++step) {
             for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.random_point_in_cube();
             triangles[90].a =
                 -triangles[90].a; // a zero that changes its sign counts as a move, too
-            const auto run = refit_bvh(few, triangles, core, &reach);
+            const auto run = refit(few, triangles, core, &reach);
             EXPECT_EQ(run, find_changed_range(all, few));
             std::vector<Triangle> elsewhere = triangles;
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
-            refit_bvh(all, elsewhere, {vec3(-9), vec3(9)});
-            refit_bvh(all, triangles, core);
+            refit(all, elsewhere, {vec3(-9), vec3(9)});
+            refit(all, triangles, core);
             ASSERT_TRUE(have_equal_bytes(few.nodes, all.nodes)) << step;
             ASSERT_TRUE(have_equal_bytes(few.triangles, all.triangles)) << step;
             for (const Bvh* tree : {&few, &all})
-                EXPECT_NEAR(tree->cost, compute_sah_cost(*tree), 1e-12 * compute_sah_cost(*tree))
-                    << step;
+                EXPECT_NEAR(tree->cost, sah_cost(*tree), 1e-12 * sah_cost(*tree)) << step;
         }
     }
 }
 
 TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
     std::vector<Triangle> triangles = make_random_triangles(500, 5);
-    Bvh tree = build_bvh(triangles);
-    const double before = compute_sah_cost(tree);
+    Bvh tree = build(triangles);
+    const double before = sah_cost(tree);
     test::RandomNumbers random(22);
     for (Triangle& t : triangles) {
         const vec3 move = 2.0f * random.random_point_in_cube();
         t.a += move, t.b += move, t.c += move;
     }
-    refit_bvh(tree, triangles);
-    EXPECT_GT(compute_sah_cost(tree), 2 * before);
-    EXPECT_LT(compute_sah_cost(build_bvh(triangles)), .5 * compute_sah_cost(tree));
+    refit(tree, triangles);
+    EXPECT_GT(sah_cost(tree), 2 * before);
+    EXPECT_LT(sah_cost(build(triangles)), .5 * sah_cost(tree));
 }
 
 TEST(ClosestHit, RaysVisitFewNodes) {
-    const Bvh bvh = build_bvh(make_divided_octahedron(5)); // the ball has 8192 triangles
+    const Bvh bvh = build(make_divided_octahedron(5)); // the ball has 8192 triangles
     test::RandomNumbers random(18);
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
-        BvhTraversalCounters steps;
+        TraversalCounters steps;
         find_closest_hit<float>(
             bvh, {0.5f * random.random_point_in_cube(), random.random_unit_direction()},
             test::kFloatInfinity, 0, &steps);
-        total += steps.count_traversal_steps_total();
+        total += steps.total();
     }
     EXPECT_LT(total / 1000, 60u);
 }

@@ -32,7 +32,7 @@ std::size_t count_steps_past_copies(std::size_t count) {
     const render::FrameGeometry geometry = render::make_frame_geometry(
         scene, render::make_scene_units(scene));
     const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
-    bvh::BvhTraversalCounters steps;
+    bvh::TraversalCounters steps;
     int hits = 0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
@@ -47,7 +47,7 @@ std::size_t count_steps_past_copies(std::size_t count) {
             EXPECT_EQ(hit->object, 0u) << "the first of them is seen";
         }
     EXPECT_GT(hits, 100);
-    return steps.count_traversal_steps_total();
+    return steps.total();
 }
 
 TEST(CopiesInOnePlace, ManyCopiesCostARayNoMoreStepsThanFewCopies) {
@@ -63,11 +63,10 @@ TEST(CopiesInOnePlace, CopiesOfMaskedSurfacesAreKept) {
     for (std::uint32_t i = 0; i < 40; ++i)
         triangles.push_back(
             {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kAlphaMaskedFlag : 0});
-    const bvh::Bvh tree = bvh::build_bvh(triangles, {},
-                                         bvh::DuplicateTriangleSearchScope::across_objects);
+    const bvh::Bvh tree = bvh::build(triangles, {}, bvh::CopyScope::across_objects);
     // Ten masked objects keep one copy each, and the other ten objects keep one copy together.
     EXPECT_EQ(bvh::count_triangles(tree), 11u);
-    EXPECT_EQ(bvh::count_triangles(bvh::build_bvh(triangles)), 20u);
+    EXPECT_EQ(bvh::count_triangles(bvh::build(triangles)), 20u);
 }
 
 } // namespace

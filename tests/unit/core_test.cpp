@@ -218,10 +218,10 @@ TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
                                                                     render::make_scene_units(room)),
                                 geometry = render::make_frame_geometry(
                                     scene, render::make_scene_units(scene));
-    const bvh::Bvh alone = bvh::build_bvh(list_bvh_triangles(plain), plain.core),
-                   with = bvh::build_bvh(list_bvh_triangles(geometry), geometry.core);
+    const bvh::Bvh alone = bvh::build(list_bvh_triangles(plain), plain.core),
+                   with = bvh::build(list_bvh_triangles(geometry), geometry.core);
     test::RandomNumbers random(3);
-    bvh::BvhTraversalCounters steps_alone, steps_with;
+    bvh::TraversalCounters steps_alone, steps_with;
     for (int i = 0; i < 2000; ++i) {
         const f32::Ray ray{.4f * random.random_point_in_cube(), random.random_unit_direction(), 0};
         const auto wanted = bvh::find_closest_hit<float>(alone, ray, 1e30f, 0, &steps_alone),
@@ -229,8 +229,7 @@ TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
         ASSERT_EQ(found.has_value(), wanted.has_value());
         ASSERT_EQ(found ? found->triangle : 0, wanted ? wanted->triangle : 0);
     }
-    EXPECT_LE(steps_with.count_traversal_steps_total(),
-              steps_alone.count_traversal_steps_total() * 11 / 10);
+    EXPECT_LE(steps_with.total(), steps_alone.total() * 11 / 10);
 
     const std::vector<bvh::Triangle> all = list_bvh_triangles(geometry);
     const bvh::Triangle& stray = all.back();

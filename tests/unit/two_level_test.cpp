@@ -28,9 +28,8 @@ struct TwoLevelBvhTest {
                    .centre = dvec3(numbers.random_point_in_cube()) +
                              1e-9 * dvec3(numbers.random_point_in_cube()),
                    .shift = 100},
-          whole(
-              assemble_two_level_bvh(build_bvh({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
-          place(detail::read_instance_ray_transform<float>(whole, index_of_instance_record())) {}
+          whole(assemble_two_level(build({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
+          place(detail::read_placement<float>(whole, index_of_instance_record())) {}
     std::uint32_t index_of_instance_record() const {
         return static_cast<std::uint32_t>(count_nodes(whole)) - 1 - f32::kBvhNodesPerInstance;
     }
@@ -43,7 +42,7 @@ struct TwoLevelBvhTest {
 /// that hits nothing is a leak.
 TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
     const std::vector<Triangle> triangles = make_two_level_ball_triangles(3);
-    const Bvh tree = build_bvh(triangles);
+    const Bvh tree = build(triangles);
     test::RandomNumbers numbers(31);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelBvhTest alone(tree, numbers);
@@ -68,7 +67,7 @@ TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
 TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
     std::size_t met = 0;
     const std::vector<Triangle> triangles = make_two_level_ball_triangles(3);
-    const Bvh tree = build_bvh(triangles);
+    const Bvh tree = build(triangles);
     test::RandomNumbers numbers(32);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelBvhTest alone(tree, numbers);
@@ -115,7 +114,7 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
 TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
     test::RandomNumbers numbers(33);
     const std::vector<Triangle> shape = make_two_level_ball_triangles(2);
-    const Bvh tree = build_bvh(shape);
+    const Bvh tree = build(shape);
     std::vector<Triangle> room, all;
     for (int i = 0; i < 40; ++i) {
         const vec3 a = 2.0f * numbers.random_point_in_cube();
@@ -136,10 +135,9 @@ TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
             all.push_back({put(t.a), put(t.b), put(t.c), k + 1, instances[k].flags});
         }
     }
-    const Bvh flat = build_bvh(room), one = build_bvh(all),
-              two = assemble_two_level_bvh(flat, instances);
+    const Bvh flat = build(room), one = build(all), two = assemble_two_level(flat, instances);
     std::vector<BvhInstance> backwards(instances.rbegin(), instances.rend());
-    const Bvh other = assemble_two_level_bvh(flat, backwards);
+    const Bvh other = assemble_two_level(flat, backwards);
     std::size_t found = 0, apart = 0;
     for (int i = 0; i < 20000; ++i) {
         const f32::Ray ray{3.0f * numbers.random_point_in_cube(), numbers.random_unit_direction(),
@@ -195,8 +193,7 @@ TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
 }
 
 TEST(TwoLevel, TreeWithoutInstancesStaysFlat) {
-    const Bvh flat = build_bvh(make_two_level_ball_triangles(1)),
-              same = assemble_two_level_bvh(flat, {});
+    const Bvh flat = build(make_two_level_ball_triangles(1)), same = assemble_two_level(flat, {});
     EXPECT_EQ(same.nodes.size(), flat.nodes.size());
     EXPECT_EQ(same.triangles, flat.triangles);
 }
@@ -206,7 +203,7 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
     for (int i = 0; i < 1000; ++i) {
         const dvec3 v = dvec3(numbers.random_point_in_cube()) +
                         1e-8 * dvec3(numbers.random_point_in_cube());
-        const vec3 low = double_to_float_rounding_error(v);
+        const vec3 low = float_rounding_error(v);
         for (int k = 0; k < 3; ++k) {
             const volatile float high = static_cast<float>(v[k]);
             EXPECT_NEAR(double{high} + double{low[k]}, v[k], 1e-15);
@@ -215,10 +212,10 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
 }
 
 TEST(TwoLevel, StretchOfKnownMatricesIsInBounds) {
-    EXPECT_EQ(max_matrix_rounding_amplification(dmat3(.25)), 1);
-    EXPECT_LE(max_matrix_rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
-    EXPECT_GT(max_matrix_rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
-    EXPECT_EQ(max_matrix_rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(rounding_amplification(dmat3(.25)), 1);
+    EXPECT_LE(rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
+    EXPECT_GT(rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
+    EXPECT_EQ(rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
 }
 
 } // namespace
