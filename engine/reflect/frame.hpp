@@ -9,7 +9,7 @@ namespace catoptric::reflect {
 /// Input of add_frame_passes(): the work that the frame may leave out, and the captures of the
 /// previous frame.
 struct PreviousCaptureHistory {
-    const require::RequiredWorkModel& model;
+    const require::WorkModel& model;
     /// TechniqueOutputs::kept of the previous frame; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
     /// Buffers for comparing captures with those of the previous frame; may be null.
@@ -17,7 +17,7 @@ struct PreviousCaptureHistory {
     std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };
 /// The model that culls no work, so that all captures are drawn.
-inline const require::RequiredWorkModel kDrawEverythingModel;
+inline const require::WorkModel kDrawEverythingModel;
 
 /// Declares the passes of one frame: all that the mirrors' techniques need. If all mirrors share
 /// one technique, the passes are those of this technique.

@@ -199,7 +199,7 @@ TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
     return assignment;
 }
 
-void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
+void add_capture_needs_of_plan(require::WorkModelInput& question,
                                const std::vector<TechniquePlan>& plans) {
     std::optional<std::uint32_t> coarsest;
     for (const TechniquePlan& plan : plans)

@@ -40,7 +40,7 @@ struct TechniquePlan {
 };
 
 /// Name of the technique `auto`, which chooses a plan for each scene
-/// (require::suggest_technique_plan).
+/// (require::suggest_plan).
 inline constexpr std::string_view kAutoPlanName = "auto";
 
 /// Reads "name[:knob=value,...]", or rules "PATTERN=name[:knob=value,...] ..." separated by blanks,
@@ -72,7 +72,7 @@ TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
 
 /// Adds to the model's input the needs of the plan's techniques that do not depend on visibility:
 /// whole cubes, captures of all mirrors, and the edge of the coarsest shadow map.
-void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
+void add_capture_needs_of_plan(require::WorkModelInput& question,
                                const std::vector<TechniquePlan>& plans);
 
 /// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The

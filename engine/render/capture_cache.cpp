@@ -18,7 +18,7 @@ constexpr std::array<const char*, 3> kCaptureImageSetNames{"a", "b", "aside"};
 /// Leaves out the captures of mirrors that need none. If no capture would remain, all captures
 /// stay.
 std::vector<CaptureOptions> remove_unneeded_captures(const std::vector<CaptureOptions>& options,
-                                                     const require::RequiredWorkModel& model) {
+                                                     const require::WorkModel& model) {
     std::vector<CaptureOptions> required = options;
     for (std::size_t mirror = 0; mirror < options.size(); ++mirror)
         if (!model.mirrors[mirror].is_captured) required[mirror].face = 0;
@@ -83,7 +83,7 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
             const CaptureWorkOfFrame& work = feeding.work;
             return is_made(face) &&
                    (work.work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::keep ||
-                    !work.drawn_face_part(mirror, face).is_whole_face());
+                    !work.drawn_face_part(mirror, face).is_whole());
         };
         for_each_consecutive_face_range(is_copied, [&](std::uint32_t first, std::uint32_t end) {
             for_each_cube_image_pair(
@@ -177,7 +177,7 @@ bool decide_redraws(const CaptureUpdateDecider& decider, const std::vector<Captu
 FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
                                             const std::string& name,
                                             const std::vector<CaptureOptions>& options,
-                                            const require::RequiredWorkModel& model,
+                                            const require::WorkModel& model,
                                             const PreviousCaptures& sequel) {
     const auto& [before, comparisons, most] = sequel;
     check(

@@ -26,7 +26,7 @@ struct CachedCaptureFace {
     /// Content hash of all surfaces and lights that the face shows, except mirrors and the moving
     /// objects in `pieces`.
     std::uint64_t settings = 0;
-    std::shared_ptr<const require::MovingObjectFaceParts>
+    std::shared_ptr<const require::MovingParts>
         pieces; ///< parts of moving objects that the faces showed when `content_hash` was made
     bool operator==(const CachedCaptureFace&) const = default;
 };
@@ -88,12 +88,12 @@ struct CaptureWorkOfFrame {
     std::vector<std::array<CaptureFaceUpdateKind, 6>> faces;
     /// For each mirror: the part of each face that is redrawn. Outside the part, the texels equal
     /// those of the frame before.
-    std::vector<std::array<require::CubeFacePart, 6>> parts;
+    std::vector<std::array<require::FacePart, 6>> parts;
     CaptureFaceUpdateKind work_of_capture_face(std::uint32_t mirror, std::uint32_t face) const {
         return faces.empty() ? CaptureFaceUpdateKind::draw : faces[mirror][face];
     }
-    require::CubeFacePart drawn_face_part(std::uint32_t mirror, std::uint32_t face) const {
-        return parts.empty() ? require::CubeFacePart() : parts[mirror][face];
+    require::FacePart drawn_face_part(std::uint32_t mirror, std::uint32_t face) const {
+        return parts.empty() ? require::FacePart() : parts[mirror][face];
     }
     bool is_face_drawn(std::uint32_t mirror, std::uint32_t face) const {
         return work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::draw ||
@@ -166,7 +166,7 @@ bool must_read_face_comparisons(const CaptureCache& captures, std::uint32_t most
 FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
                                             const std::string& name,
                                             const std::vector<CaptureOptions>& options,
-                                            const require::RequiredWorkModel& model,
+                                            const require::WorkModel& model,
                                             const PreviousCaptures& sequel);
 
 /// Declares the pass that compares captures with those of the frame before. Call it after the

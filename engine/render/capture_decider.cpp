@@ -15,8 +15,7 @@ constexpr std::uint64_t kClearedCaptureFaceHash = 1; // `drawing` of a face that
 
 } // namespace
 
-CaptureUpdateDecider::CaptureUpdateDecider(const GpuScene& scene,
-                                           const require::RequiredWorkModel& model,
+CaptureUpdateDecider::CaptureUpdateDecider(const GpuScene& scene, const require::WorkModel& model,
                                            const std::vector<CaptureOptions>& layout,
                                            const CaptureCache* before, bool compares)
     : gpu_scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
@@ -123,7 +122,7 @@ CaptureUpdateDecider::decide_capture_face_work(std::uint32_t mirror, std::uint32
     return shows_same && compares_ ? CaptureFaceUpdateKind::compare : CaptureFaceUpdateKind::draw;
 }
 
-require::CubeFacePart
+require::FacePart
 CaptureUpdateDecider::changed_part_of_capture_face(std::uint32_t mirror, std::uint32_t face,
                                                    const std::vector<std::uint32_t>& seen,
                                                    const CachedCaptureFace& now) const {
@@ -132,19 +131,19 @@ CaptureUpdateDecider::changed_part_of_capture_face(std::uint32_t mirror, std::ui
     if (before.content_hash == 0 || before.is_behind || before.settings != now.settings ||
         !before.pieces || !now.pieces)
         return {};
-    require::CubeFacePart part = require::find_changed_face_part(before.pieces->faces[face],
-                                                                 now.pieces->faces[face]);
+    require::FacePart part = require::find_changed_part(before.pieces->faces[face],
+                                                        now.pieces->faces[face]);
     const shared::View& view =
         gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face];
     // All mirrors that the capture shows are checked, because a mirror that only moved looks
     // different before its own capture changes.
     for (const std::uint32_t other : seen)
-        part = unite_face_parts(
+        part = unite(
             part,
             face_part_showing_box(
                 view, static_cast<int>(face),
                 gpu_scene_.list_draw_ranges()[gpu_scene_.object_index_of_mirror(other)].bounds));
-    return part.is_empty() ? require::CubeFacePart() : part;
+    return part.is_empty() ? require::FacePart() : part;
 }
 
 std::uint64_t

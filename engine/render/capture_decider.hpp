@@ -15,7 +15,7 @@ public:
     /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
     /// there are none. All references must outlive this object. `compares`: captures that may have
     /// changed are compared.
-    CaptureUpdateDecider(const GpuScene& scene, const require::RequiredWorkModel& model,
+    CaptureUpdateDecider(const GpuScene& scene, const require::WorkModel& model,
                          const std::vector<CaptureOptions>& layout, const CaptureCache* before,
                          bool compares);
 
@@ -44,16 +44,16 @@ private:
                                                    const std::vector<std::uint32_t>& seen,
                                                    CachedCaptureFace& now) const;
     /// Returns the part of a drawn face that may differ from its old contents.
-    require::CubeFacePart changed_part_of_capture_face(std::uint32_t mirror, std::uint32_t face,
-                                                       const std::vector<std::uint32_t>& seen,
-                                                       const CachedCaptureFace& now) const;
+    require::FacePart changed_part_of_capture_face(std::uint32_t mirror, std::uint32_t face,
+                                                   const std::vector<std::uint32_t>& seen,
+                                                   const CachedCaptureFace& now) const;
     /// Returns the number of a face's picture, from the content hash and the captures that the face
     /// shows.
     std::uint64_t drawing_number_of_capture_face(std::uint64_t content_hash,
                                                  const std::vector<std::uint32_t>& seen) const;
 
     const GpuScene& gpu_scene_;
-    const require::RequiredWorkModel& model_;
+    const require::WorkModel& model_;
     const std::vector<CaptureOptions>& layout_;
     const CaptureCache* before_;
     bool compares_;

@@ -48,12 +48,11 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
 
 /// Returns whether the part of the face may show the object.
 bool may_capture_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
-                                  const require::CubeFacePart& part, std::size_t object) {
-    return part.is_whole_face() ||
-           !intersect_face_parts(
-                part, face_part_showing_box(
-                          scene.list_views()[scene.capture_view_index(mirror) + face],
-                          static_cast<int>(face), scene.list_draw_ranges()[object].bounds))
+                                  const require::FacePart& part, std::size_t object) {
+    return part.is_whole() ||
+           !intersect(part, face_part_showing_box(
+                                scene.list_views()[scene.capture_view_index(mirror) + face],
+                                static_cast<int>(face), scene.list_draw_ranges()[object].bounds))
                 .is_empty();
 }
 
@@ -73,14 +72,14 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                       const CaptureFaceRange& faces, const std::string& pass_name,
                       const CubeCaptureArray& cubes,
                       const std::shared_ptr<const ShaderOfEachMirror>& looks,
-                      std::optional<ImageHandle> peeled, const require::CubeFacePart& changing) {
+                      std::optional<ImageHandle> peeled, const require::FacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
     const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f, options.face,
                                                options.face, faces.count, faces.count == 6});
     graph::PassBuilder pass = graph.add_pass(name, PassPurpose::scene);
     declare_shader_reads(pass, options.lighting, *looks);
     if (peeled) pass.reads(*peeled, ResourceUse::sampled);
-    const require::CubeFacePart part = grow_face_part_to_texels(changing, options.face);
+    const require::FacePart part = grow_face_part_to_texels(changing, options.face);
     declare_cube_writes(pass, options, cubes, face_part_to_pixel_area(part, options.face));
     SceneDrawSettings drawing{.first_view = inputs.scene.capture_view_index(faces.owner) +
                                             faces.first,
@@ -152,7 +151,7 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
         const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                               std::uint32_t first, std::uint32_t end) {
             const CaptureFaceRange faces{mirror, first, end - first};
-            const require::CubeFacePart changing = work.drawn_face_part(mirror, first);
+            const require::FacePart changing = work.drawn_face_part(mirror, first);
             const CubeCaptureArray part = select_cube_layers(cubes, first_layer + first,
                                                              faces.count);
             const CubeCaptureArray front{part.face, part.colour, part.distance,
@@ -175,11 +174,11 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
         for_each_consecutive_face_range(
             [&](std::uint32_t face) {
                 return work.is_face_drawn(mirror, face) &&
-                       work.drawn_face_part(mirror, face).is_whole_face();
+                       work.drawn_face_part(mirror, face).is_whole();
             },
             draw);
         for (std::uint32_t face = 0; face < 6; ++face)
-            if (!work.drawn_face_part(mirror, face).is_whole_face()) draw(face, face + 1);
+            if (!work.drawn_face_part(mirror, face).is_whole()) draw(face, face + 1);
         for_each_consecutive_face_range(
             [&](std::uint32_t face) {
                 return work.work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::clear;

@@ -2,9 +2,8 @@
 
 namespace catoptric::render {
 
-require::CubeFacePart grow_face_part_to_texels(const require::CubeFacePart& part,
-                                               std::uint32_t edge) {
-    if (part.is_whole_face()) return part;
+require::FacePart grow_face_part_to_texels(const require::FacePart& part, std::uint32_t edge) {
+    if (part.is_whole()) return part;
     const double size = edge;
     const auto texel = [&](const dvec2& place) { return (place * .5 + .5) * size; };
     const dvec2 first = max(floor(texel(part.low)) - 1., dvec2(0)),
@@ -12,9 +11,9 @@ require::CubeFacePart grow_face_part_to_texels(const require::CubeFacePart& part
     return {first / size * 2. - 1., end / size * 2. - 1.};
 }
 
-std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::CubeFacePart& part,
+std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::FacePart& part,
                                                              std::uint32_t edge) {
-    if (part.is_whole_face()) return {};
+    if (part.is_whole()) return {};
     const auto texel = [&](const dvec2& place) {
         return uvec2(round((place * .5 + .5) * static_cast<double>(edge)));
     };
@@ -22,8 +21,8 @@ std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::Cube
     return graph::PixelRectangle{first.x, first.y, size.x, size.y};
 }
 
-require::CubeFacePart face_part_showing_box(const shared::View& view, int face,
-                                            const Bounds<float>& box) {
+require::FacePart face_part_showing_box(const shared::View& view, int face,
+                                        const Bounds<float>& box) {
     const dvec3 centre(view.eye);
     return require::face_part_containing(face, {dvec3(box.lo) - centre, dvec3(box.hi) - centre});
 }

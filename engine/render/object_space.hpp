@@ -34,7 +34,7 @@ std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene);
 /// Returns whether a copy may share its mesh in its present state.
 bool may_object_share_mesh(const scene::Scene& now, const scene::Object& object);
 
-/// Returns whether the object is smaller than kSmallObjectSizeToDistanceRatio of its distance from
+/// Returns whether the object is smaller than kSmallObjectRatio of its distance from
 /// the origin. Costs O(triangles).
 bool is_object_small_for_its_distance(const scene::Scene& now, const scene::Object& object,
                                       const SceneUnitTransform& space);

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t kReferenceBounces = 16;
 /// needs no map gets none.
 std::optional<graph::ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
                                                     std::uint32_t edge,
-                                                    const require::RequiredWorkModel& model = {},
+                                                    const require::WorkModel& model = {},
                                                     const std::string& suffix = "");
 
 /// Declares one pass for each light, which draws the optical depth of the glass between the light

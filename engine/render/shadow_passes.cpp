@@ -19,7 +19,7 @@ using graph::ResourceUse;
 
 /// Returns the content hash of everything that a face of a light's shadow map may show, and of the
 /// face's view.
-std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::RequiredWorkModel& model,
+std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::WorkModel& model,
                                    std::uint32_t light, std::uint32_t face) {
     const require::LightRequirements& needs = model.lights[light];
     ContentHash content_hash;
@@ -61,8 +61,7 @@ void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t l
 } // namespace
 
 std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
-                                             std::uint32_t edge,
-                                             const require::RequiredWorkModel& model,
+                                             std::uint32_t edge, const require::WorkModel& model,
                                              const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;

@@ -39,7 +39,7 @@ bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& or
     const double size = largest_component(box.extent()),
                  distance = largest_component(
                      glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
-    return size > 0 && size < kSmallObjectSizeToDistanceRatio * distance;
+    return size > 0 && size < kSmallObjectRatio * distance;
 }
 
 SceneUnitTransform make_scene_units(const scene::Scene& scene) {

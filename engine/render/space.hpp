@@ -25,7 +25,7 @@ struct SceneUnitTransform {
 
 /// An object smaller than this fraction of its distance from the origin loses half of a float's
 /// digits.
-inline constexpr double kSmallObjectSizeToDistanceRatio = 0x1p-12;
+inline constexpr double kSmallObjectRatio = 0x1p-12;
 
 /// Returns whether the box is small in that sense; world units. The distance is that of its
 /// farthest corner. Empty boxes and points are not small.

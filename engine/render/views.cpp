@@ -39,7 +39,7 @@ glm::mat3 make_turned_cube_axes(vec3 forward) {
 struct AxisDepthRange {
     double low = 0, high = 0;
 };
-AxisDepthRange project_box_on_axis(const dvec3& axis, const Bounds<float>& box) {
+AxisDepthRange project_box(const dvec3& axis, const Bounds<float>& box) {
     if (box.empty()) return {};
     const dvec3 middle(box.centre()), half(dvec3(box.extent()) / 2.0);
     const double at = dot(axis, middle), reach = dot(abs(axis), half);
@@ -48,7 +48,7 @@ AxisDepthRange project_box_on_axis(const dvec3& axis, const Bounds<float>& box) 
 
 /// Returns where all geometry begins and ends along an axis, with a margin.
 AxisDepthRange geometry_depth_range_along(const dvec3& forward, const Bounds<float>& everything) {
-    const auto [low, high] = project_box_on_axis(forward, everything);
+    const auto [low, high] = project_box(forward, everything);
     const double room = kDepthRangeMargin * std::max(high - low, 1.0);
     return {low - room, high + room};
 }
@@ -147,7 +147,7 @@ std::array<shared::View, 2> make_directional_light_views(vec3 forward, const Bou
     const Bounds<float>& middle = core.empty() ? everything : core;
     dvec3 eye = middle.empty() ? dvec3(0) : dvec3(middle.centre());
     const auto half_of = [&](const dvec3& axis, const Bounds<float>& box) {
-        const auto [low, high] = project_box_on_axis(axis, box);
+        const auto [low, high] = project_box(axis, box);
         const double at = dot(axis, eye);
         return std::max({high - at, at - low, 1e-6}) * (1 + kDepthRangeMargin);
     };

@@ -11,9 +11,9 @@ namespace catoptric::require {
 
 /// Objects up to this size may be stored in object space on the device. The size is a part of the
 /// object's largest possible distance from the scene's origin
-/// (render::kSmallObjectSizeToDistanceRatio). Shaders contain the code for object space only if
+/// (render::kSmallObjectRatio). Shaders contain the code for object space only if
 /// some object needs it. The first such object therefore changes the shaders of all objects.
-inline constexpr double kSmallObjectSizeToDistanceRatio = 0x1p-12;
+inline constexpr double kSmallObjectRatio = 0x1p-12;
 /// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
 /// falls.
 inline constexpr std::size_t kMaxShadowReceiverTests = 1 << 17;
@@ -34,28 +34,25 @@ inline constexpr std::size_t kMaxShadowReceiverTests = 1 << 17;
 /// tested.
 class ContentHashes {
 public:
-    /// Takes over an instant, after VisibilityScene::move_to_instant. O(movers * (lights * objects
+    /// Takes over an instant, after VisibilityScene::update. O(movers * (lights * objects
     /// + walls)).
-    void move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge,
-                         bool has_soft_shadows);
+    void update(const VisibilityScene& world, std::uint32_t shadow_edge, bool has_soft_shadows);
     /// Content hashes of the six faces of a mirror's capture.
-    struct CaptureFaceHashes {
+    struct FaceHashes {
         std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
-        std::shared_ptr<const MovingObjectFaceParts> pieces;
+        std::shared_ptr<const MovingParts> pieces;
     };
     /// Returns the content hashes of the six faces of a mirror's capture (MirrorRequirements).
     /// Takes O(movers + receivers of shadows), or O(1) if nothing has changed since the last call.
-    const CaptureFaceHashes& content_hashes_of_mirror_faces(const VisibilityScene& world,
-                                                            std::size_t mirror);
+    const FaceHashes& face_hashes(const VisibilityScene& world, std::size_t mirror);
     /// Returns the movers that cast shadows.
-    std::vector<ShadowCaster> list_shadow_casters(const VisibilityScene& world) const;
+    std::vector<ShadowCaster> shadow_casters(const VisibilityScene& world) const;
 
 private:
-    void combine_capture_face_hashes(const VisibilityScene& world, CaptureFaceHashes& faces,
-                                     std::size_t mirror) const;
+    void combine_hashes(const VisibilityScene& world, FaceHashes& faces, std::size_t mirror) const;
 
-    std::vector<CaptureFaceHashes> mirrors_;
+    std::vector<FaceHashes> mirrors_;
     std::vector<ShadowReceiver> landings_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
     std::uint64_t all_ = 0;     ///< content hash of the whole scene

@@ -11,14 +11,14 @@ namespace catoptric::require {
 
 namespace {
 
-using NumberedItemList = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
+using ItemNumbers = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
 
 /// Returns `one` with its number and name, or the plural with several numbers.
-std::string format_numbered_items(const std::string& one, const NumberedItemList& numbers,
-                                  const std::string& name) {
+std::string format_items(const std::string& one, const ItemNumbers& numbers,
+                         const std::string& name) {
     if (numbers.size() == 1)
-        return one + " " + format_number_ranges(numbers) + (name.empty() ? "" : " " + name);
-    return one + "s " + format_number_ranges(numbers);
+        return one + " " + format_ranges(numbers) + (name.empty() ? "" : " " + name);
+    return one + "s " + format_ranges(numbers);
 }
 
 std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
@@ -26,20 +26,19 @@ std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
 }
 
 /// Returns the reason why mirrors are invisible, as text. `seen`: number of visible mirrors.
-std::string describe_why_unseen(const UnseenMirrorReason& unseen, std::size_t seen, bool is_one,
-                                const scene::Scene& scene) {
+std::string explain_unseen(const UnseenReason& unseen, std::size_t seen, bool is_one,
+                           const scene::Scene& scene) {
     const std::string they = is_one ? "it" : "they", them = is_one ? "it" : "them";
     std::string why;
     switch (unseen.why) {
-    case UnseenMirrorReason::UnseenMirrorCause::empty:
-        return they + (is_one ? " has" : " have") + " no triangle";
-    case UnseenMirrorReason::UnseenMirrorCause::outside:
+    case UnseenReason::Cause::empty: return they + (is_one ? " has" : " have") + " no triangle";
+    case UnseenReason::Cause::outside:
         why = they + (is_one ? " is" : " are") + " not in the camera's picture";
         break;
-    case UnseenMirrorReason::UnseenMirrorCause::hidden_from_camera:
+    case UnseenReason::Cause::hidden_from_camera:
         why = "the scene hides " + them + " from camera rays";
         break;
-    case UnseenMirrorReason::UnseenMirrorCause::hidden:
+    case UnseenReason::Cause::hidden:
         why = quote_object_name(scene, unseen.wall) + " hides " + them + " from the camera";
         break;
     }
@@ -49,12 +48,12 @@ std::string describe_why_unseen(const UnseenMirrorReason& unseen, std::size_t se
            " mirrors that are seen";
 }
 
-void add_unseen_mirrors(std::vector<CulledWork>& all, const RequiredWorkModel& model,
+void add_unseen_mirrors(std::vector<CulledWork>& all, const WorkModel& model,
                         const VisibilityFindings& findings, const scene::Scene& scene,
                         const std::vector<std::size_t>& mirrors) {
     const auto seen = static_cast<std::size_t>(
         std::ranges::count_if(model.mirrors, &MirrorRequirements::is_seen));
-    std::map<std::pair<UnseenMirrorReason::UnseenMirrorCause, std::size_t>, NumberedItemList> alike;
+    std::map<std::pair<UnseenReason::Cause, std::size_t>, ItemNumbers> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (!model.mirrors[i].is_captured && findings.camera[i])
             alike[{findings.camera[i]->why, findings.camera[i]->wall}].push_back(i + 1);
@@ -63,54 +62,52 @@ void add_unseen_mirrors(std::vector<CulledWork>& all, const RequiredWorkModel& m
         const std::string count = std::to_string(numbers.size());
         all.push_back(
             {.what = (is_one ? "the capture of " : "the captures of ") +
-                     format_numbered_items("mirror", numbers,
-                                           quote_object_name(scene, mirrors[numbers[0] - 1])),
-             .why = describe_why_unseen({reason.first, reason.second}, seen, is_one, scene),
+                     format_items("mirror", numbers,
+                                  quote_object_name(scene, mirrors[numbers[0] - 1])),
+             .why = explain_unseen({reason.first, reason.second}, seen, is_one, scene),
              .saves = is_one ? "the six faces of a capture, each time that it would be drawn again"
                              : "the six faces of each of " + count +
                                    " captures, each time that they would be drawn again"});
     }
 }
 
-void add_culled_faces(std::vector<CulledWork>& all, const RequiredWorkModel& model,
+void add_culled_faces(std::vector<CulledWork>& all, const WorkModel& model,
                       const scene::Scene& scene, const std::vector<std::size_t>& mirrors) {
-    std::map<CubeFaceBits, NumberedItemList> alike;
+    std::map<FaceBits, ItemNumbers> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
-        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllCubeFaceBits)
+        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaces)
             alike[model.mirrors[i].faces].push_back(i + 1);
     for (const auto& [faces, numbers] : alike) {
-        const auto without = static_cast<CubeFaceBits>(kAllCubeFaceBits & ~faces);
+        const auto without = static_cast<FaceBits>(kAllFaces & ~faces);
         const int count = std::popcount(without);
         const bool is_one = numbers.size() == 1;
-        all.push_back(
-            {.what = std::string(count == 1 ? "face " : "faces ") + list_cube_face_names(without) +
-                     (is_one ? " of the capture of " : " of the captures of ") +
-                     format_numbered_items("mirror", numbers,
-                                           quote_object_name(scene, mirrors[numbers[0] - 1])),
-             .why = is_one ? "it is flat, all who look at it stand on one side, and what "
-                             "they see in it lies on that side, too"
-                           : "they are flat, all who look at each stand on one side, and "
-                             "what they see in it lies on that side, too",
-             .saves = std::to_string(count) + " of " + (is_one ? "six" : "each six") +
-                      " faces, each time that they would be drawn again"});
+        all.push_back({.what = std::string(count == 1 ? "face " : "faces ") + face_names(without) +
+                               (is_one ? " of the capture of " : " of the captures of ") +
+                               format_items("mirror", numbers,
+                                            quote_object_name(scene, mirrors[numbers[0] - 1])),
+                       .why = is_one ? "it is flat, all who look at it stand on one side, and what "
+                                       "they see in it lies on that side, too"
+                                     : "they are flat, all who look at each stand on one side, and "
+                                       "what they see in it lies on that side, too",
+                       .saves = std::to_string(count) + " of " + (is_one ? "six" : "each six") +
+                                " faces, each time that they would be drawn again"});
     }
 }
 
-void add_culled_shadow_maps(std::vector<CulledWork>& all, const RequiredWorkModel& model,
-                            const scene::Scene& scene) {
+void add_culled_maps(std::vector<CulledWork>& all, const WorkModel& model,
+                     const scene::Scene& scene) {
     for (std::size_t i = 0; i < model.lights.size(); ++i)
         if (!model.lights[i].has_map)
-            all.push_back(
-                {.what = "the shadow map of " +
-                         format_numbered_items("light", {i + 1},
-                                               quote_light_name(scene, i, model.lights.size())),
-                 .why = "nothing that is seen lies within its range and in front of it",
-                 .saves = "its map, each time that it would be drawn again"});
+            all.push_back({.what = "the shadow map of " +
+                                   format_items("light", {i + 1},
+                                                quote_light_name(scene, i, model.lights.size())),
+                           .why = "nothing that is seen lies within its range and in front of it",
+                           .saves = "its map, each time that it would be drawn again"});
 }
 
 } // namespace
 
-void set_visibility_findings_key(VisibilityFindings& findings, const RequiredWorkModel& model) {
+void set_key(VisibilityFindings& findings, const WorkModel& model) {
     findings.key.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
         const MirrorRequirements& needs = model.mirrors[i];
@@ -124,7 +121,7 @@ void set_visibility_findings_key(VisibilityFindings& findings, const RequiredWor
         findings.key.push_back(needs.has_map ? 1 : 0);
 }
 
-std::string format_number_ranges(const std::vector<std::size_t>& numbers) {
+std::string format_ranges(const std::vector<std::size_t>& numbers) {
     std::string text;
     for (std::size_t i = 0; i < numbers.size();) {
         std::size_t last = i;
@@ -136,14 +133,13 @@ std::string format_number_ranges(const std::vector<std::size_t>& numbers) {
     return text;
 }
 
-std::vector<CulledWork> list_culled_work(const RequiredWorkModel& model,
-                                         const VisibilityFindings& findings,
+std::vector<CulledWork> find_culled_work(const WorkModel& model, const VisibilityFindings& findings,
                                          const scene::Scene& scene) {
     std::vector<CulledWork> all;
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     add_unseen_mirrors(all, model, findings, scene, mirrors);
     add_culled_faces(all, model, scene, mirrors);
-    add_culled_shadow_maps(all, model, scene);
+    add_culled_maps(all, model, scene);
     return all;
 }
 
@@ -157,7 +153,7 @@ std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::
     return names.size() == count ? names[light] : "";
 }
 
-std::string list_cube_face_names(CubeFaceBits faces) {
+std::string face_names(FaceBits faces) {
     constexpr const char* kFaceNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
     std::string text;
     for (std::size_t face = 0; face < 6; ++face)

@@ -3,7 +3,7 @@
 
 namespace catoptric::require {
 
-RequiredWorkModel make_everything_model(const RequiredWorkModelInput& question) {
+WorkModel make_everything_model(const WorkModelInput& question) {
     return {.is_everything = true,
             .mirrors = std::vector<MirrorRequirements>(scene::mirrors(question.now).size()),
             .lights = std::vector<LightRequirements>(scene::list_lights(question.now).size()),

@@ -17,7 +17,7 @@ namespace catoptric::require {
 
 /// Input of a model: the scene at one instant, the camera, the picture's size and the settings that
 /// decide what the picture requires.
-struct RequiredWorkModelInput {
+struct WorkModelInput {
     const scene::Scene& now; ///< the scene at the instant (scene::scene_at)
     const scene::Camera& camera;
     uvec2 size{512, 512};
@@ -33,26 +33,26 @@ struct RequiredWorkModelInput {
 };
 
 /// Six bits, one per face of a capture, in the order of render::make_cube_views.
-using CubeFaceBits = std::uint8_t;
-struct MovingObjectFaceParts; // parts of a capture's faces that movers change
-inline constexpr CubeFaceBits kAllCubeFaceBits = 0x3f;
+using FaceBits = std::uint8_t;
+struct MovingParts; // parts of a capture's faces that movers change
+inline constexpr FaceBits kAllFaces = 0x3f;
 
 struct MirrorRequirements {
     bool is_seen = true; ///< whether the camera or a visible mirror sees the mirror
     /// The mirror in which this mirror is seen; none: the camera sees it, or nothing does.
     MirrorId seen_in;
     /// Whether the mirror's capture may be read: by searches of the mirror's own pixels, by rays
-    /// continued from other mirrors, or by any search with RequiredWorkModelInput::asks_all.
+    /// continued from other mirrors, or by any search with WorkModelInput::asks_all.
     bool is_captured = true;
     /// Faces of its capture that hold directions which may be read.
-    CubeFaceBits faces = kAllCubeFaceBits;
+    FaceBits faces = kAllFaces;
     /// For each face of the capture, a content hash of the shown surfaces and of their lighting,
     /// except reflections in mirrors. The bytes of a face stay the same while this hash, the view
     /// of the face and the views of the shadow maps stay the same.
     std::array<std::uint64_t, 6> content_hashes{};
     /// Content hashes of the same data without the movers and shadows that `pieces` lists.
     std::array<std::uint64_t, 6> settings{};
-    std::shared_ptr<const MovingObjectFaceParts> pieces; ///< null: movers are not listed one by one
+    std::shared_ptr<const MovingParts> pieces; ///< null: movers are not listed one by one
     std::vector<std::uint32_t>
         /// The other mirrors that its capture shows, numbered from 0, in ascending order.
         sees;
@@ -73,7 +73,7 @@ struct ShadowCaster {
 
 using catoptric::CulledWork;
 
-struct RequiredWorkModel {
+struct WorkModel {
     bool is_everything = true;
     std::vector<MirrorRequirements> mirrors; ///< entry n-1 belongs to mirror n
     std::vector<LightRequirements> lights;   ///< lights in the order of scene::list_lights
@@ -82,28 +82,28 @@ struct RequiredWorkModel {
 };
 
 /// Returns the model that culls no work and keeps no captures.
-RequiredWorkModel make_everything_model(const RequiredWorkModelInput& question);
+WorkModel make_everything_model(const WorkModelInput& question);
 /// Returns the model with only the work that the picture requires. All faces have one content hash
 /// that covers the whole scene, because a single picture does not tell which objects move.
-/// O(vertices). Use RequiredWorkModelBuilder for many pictures of one scene.
-RequiredWorkModel make_required_model(const RequiredWorkModelInput& question);
+/// O(vertices). Use WorkModelBuilder for many pictures of one scene.
+WorkModel make_required_model(const WorkModelInput& question);
 
 /// Computes the models of successive pictures of one scene whose meshes stay the same. Content
 /// hashes tell which captures show an object that moved. Equal hashes stand for equal bytes only
 /// within one object of this class.
-class RequiredWorkModelBuilder {
+class WorkModelBuilder {
 public:
     /// Takes the scene as loaded: every object in its place at rest, and the list of motions.
     /// O(vertices + texels of images).
-    explicit RequiredWorkModelBuilder(const scene::Scene& rest);
-    ~RequiredWorkModelBuilder();
-    RequiredWorkModelBuilder(RequiredWorkModelBuilder&&) noexcept;
-    RequiredWorkModelBuilder& operator=(RequiredWorkModelBuilder&&) noexcept;
+    explicit WorkModelBuilder(const scene::Scene& rest);
+    ~WorkModelBuilder();
+    WorkModelBuilder(WorkModelBuilder&&) noexcept;
+    WorkModelBuilder& operator=(WorkModelBuilder&&) noexcept;
 
     /// Returns the model of a picture. The reference is valid until the next call. O(objects) if
     /// nothing has changed; else also mirrors * (walls + movers + their shadows). Figures are in
     /// docs/require.md.
-    const RequiredWorkModel& make_work_model_for_request(const RequiredWorkModelInput& question);
+    const WorkModel& model(const WorkModelInput& question);
 
 private:
     struct Impl;
@@ -112,6 +112,6 @@ private:
 
 /// Returns the model as text: a line for each mirror and light, then the culled work with its
 /// reasons. `scene` supplies the names.
-std::string describe_model(const RequiredWorkModel& model, const scene::Scene& scene);
+std::string describe_model(const WorkModel& model, const scene::Scene& scene);
 
 } // namespace catoptric::require

@@ -18,23 +18,21 @@ namespace catoptric::require {
 namespace {
 
 /// The scene's triangles relative to the eye, with the normals of their corners.
-class MirrorPathTracer {
+class PathTracer {
 public:
-    explicit MirrorPathTracer(const RequiredWorkModelInput& question)
-        : mirror_number_of_object_(question.now.objects.size(), 0) {
+    explicit PathTracer(const WorkModelInput& question)
+        : mirror_numbers_(question.now.objects.size(), 0) {
         const scene::Scene& now = question.now;
         std::uint32_t mirrors = 0;
-        for (const std::size_t object : scene::mirrors(now))
-            mirror_number_of_object_[object] = ++mirrors;
+        for (const std::size_t object : scene::mirrors(now)) mirror_numbers_[object] = ++mirrors;
         for (const dvec3& centre : scene::capture_centres(now))
             centres_.emplace_back(centre - question.camera.eye);
         std::vector<bvh::Triangle> triangles;
-        for (std::size_t i = 0; i < now.objects.size(); ++i)
-            add_triangles_of_object(question, i, triangles);
+        for (std::size_t i = 0; i < now.objects.size(); ++i) add_object(question, i, triangles);
         tree_ = bvh::build(triangles, {}, bvh::CopyScope::across_objects);
     }
 
-    struct TracedMirrorPath {
+    struct TracedPath {
         std::vector<std::uint32_t> mirrors; ///< in the order in which the ray meets them, from 0
         std::vector<bool>
             /// For each mirror on the path, whether its capture does not show what the ray meets
@@ -48,21 +46,21 @@ public:
     /// Follows a ray from mirror to mirror, and then through other surfaces that reflect sharply.
     /// Rays that leave rough surfaces are followed if `follows_rough` is true, as if these
     /// reflected sharply.
-    TracedMirrorPath follow_ray_through_mirrors(f32::Ray ray, bool follows_rough) const {
-        TracedMirrorPath path;
+    TracedPath follow(f32::Ray ray, bool follows_rough) const {
+        TracedPath path;
         auto hit = find_hit(ray, bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, path);
-        while (hit && mirror_number_of_object_[hit->object] > 0 &&
+        while (hit && mirror_numbers_[hit->object] > 0 &&
                path.mirrors.size() < kMaxMirrorsPerPath) {
-            const std::uint32_t mirror = mirror_number_of_object_[hit->object] - 1;
+            const std::uint32_t mirror = mirror_numbers_[hit->object] - 1;
             path.mirrors.push_back(mirror);
             ray = reflect_ray(ray, *hit);
             hit = find_hit(ray, bvh::kOneSidedFlag, path);
-            path.is_hidden.push_back(!does_capture_show_hit(mirror, ray, hit));
+            path.is_hidden.push_back(!does_capture_show(mirror, ray, hit));
         }
         path.sharp = path.mirrors.size();
         bool is_sharp = true;
         while (hit && path.nodes.size() <= kMaxMirrorsPerPath) {
-            const SurfaceReflection kind = reflection_of_object_[hit->object];
+            const SurfaceReflection kind = reflections_[hit->object];
             is_sharp = is_sharp && kind == SurfaceReflection::sharp;
             if (kind == SurfaceReflection::none || (!is_sharp && !follows_rough)) break;
             ray = reflect_ray(ray, *hit);
@@ -85,21 +83,21 @@ private:
     }
 
     std::optional<bvh::RayHit<float>> find_hit(const f32::Ray& ray, std::uint32_t skipped,
-                                               TracedMirrorPath& path) const {
+                                               TracedPath& path) const {
         bvh::TraversalCounters steps;
         auto hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, skipped, &steps);
         path.nodes.push_back(steps.nodes);
         return hit;
     }
 
-    void add_triangles_of_object(const RequiredWorkModelInput& question, std::size_t index,
-                                 std::vector<bvh::Triangle>& triangles) {
+    void add_object(const WorkModelInput& question, std::size_t index,
+                    std::vector<bvh::Triangle>& triangles) {
         const scene::Object& object = question.now.objects[index];
         const scene::Mesh& mesh = question.now.meshes[object.mesh];
         const scene::Material& material = question.now.materials[object.material];
-        const bool is_mirror = mirror_number_of_object_[index] > 0;
+        const bool is_mirror = mirror_numbers_[index] > 0;
         const SurfaceReflection reflection = find_reflection(material, is_mirror);
-        reflection_of_object_.push_back(reflection);
+        reflections_.push_back(reflection);
         const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
                                     (!is_mirror && scene::is_one_sided(material)
                                          ? bvh::kOneSidedFlag
@@ -134,12 +132,12 @@ private:
 
     /// Returns whether the mirror's capture shows the point that the ray met. Also returns true if
     /// the ray met nothing. A capture does not show its own mirror.
-    bool does_capture_show_hit(std::uint32_t mirror, const f32::Ray& ray,
-                               const std::optional<bvh::RayHit<float>>& met) const {
+    bool does_capture_show(std::uint32_t mirror, const f32::Ray& ray,
+                           const std::optional<bvh::RayHit<float>>& met) const {
         constexpr int kMaxOwnTriangles =
             64; // most of the mirror's own triangles that the ray passes
         constexpr float kShortenedRayFactor = 1 - 0x1p-10f;
-        if (met && mirror_number_of_object_[met->object] == mirror + 1) return false;
+        if (met && mirror_numbers_[met->object] == mirror + 1) return false;
         const vec3 centre = centres_[mirror],
                    way = met ? ray.origin + met->t * ray.direction - centre : ray.direction;
         float left = met ? length(way) * kShortenedRayFactor : kUnlimitedDistance;
@@ -147,7 +145,7 @@ private:
         for (int i = 0; i < kMaxOwnTriangles; ++i) {
             const auto hit = bvh::find_closest_hit<float>(tree_, from, left, bvh::kOneSidedFlag);
             if (!hit) return true;
-            if (mirror_number_of_object_[hit->object] != mirror + 1) return false;
+            if (mirror_numbers_[hit->object] != mirror + 1) return false;
             from.origin += hit->t * from.direction;
             from.leaves = hit->triangle + 1;
             if (met) left -= hit->t;
@@ -158,15 +156,15 @@ private:
     static constexpr float kUnlimitedDistance = std::numeric_limits<float>::max();
     std::vector<vec3> centres_; ///< centres of the mirrors' captures
     std::vector<std::uint32_t>
-        mirror_number_of_object_; ///< mirror number of each object, from 1; 0: no mirror
-    std::vector<SurfaceReflection> reflection_of_object_;
+        mirror_numbers_; ///< mirror number of each object, from 1; 0: no mirror
+    std::vector<SurfaceReflection> reflections_;
     std::vector<vec3> normals_; ///< three per triangle, up to the last reflecting triangle
     bvh::Bvh tree_;
 };
 
 /// Returns the size of the picture, or of a grid of the same shape with at most kMaxMirrorPaths
 /// cells.
-uvec2 choose_path_ray_grid(uvec2 size) {
+uvec2 choose_ray_grid(uvec2 size) {
     const double pixels = 1.0 * size.x * size.y,
                  scale = std::min(1.0, std::sqrt(static_cast<double>(kMaxMirrorPaths) / pixels));
     return max(uvec2(1), uvec2(dvec2(size) * scale));
@@ -176,9 +174,9 @@ uvec2 choose_path_ray_grid(uvec2 size) {
 class RaySums {
 public:
     /// `step`: pixels from one path to the next. A group then has fewer paths.
-    RaySums(MirrorPathCounts& paths, double step)
+    RaySums(PathCounts& paths, double step)
         : paths_(paths),
-          paths_of_group_(static_cast<std::uint32_t>(std::max(1.0, kLanesOfRays / step))) {}
+          group_paths_(static_cast<std::uint32_t>(std::max(1.0, kLanesOfRays / step))) {}
 
     /// Adds the rays of the next pixel: the camera's, those that leave surfaces sharply, and those
     /// that leave rough surfaces, which stand for kRowsPerRoughRow rows.
@@ -191,10 +189,10 @@ public:
             counts.nodes += weight * static_cast<double>(nodes[i]);
             if (!is_rough) most_nodes_.at(i) = std::max(most_nodes_.at(i), nodes[i]);
         }
-        if (++count_ == paths_of_group_) end_group();
+        if (++count_ == group_paths_) end_group();
     }
     void end_group() {
-        const double groups = 1.0 * paths_of_group_ / kLanesOfRays; // that this group stands for
+        const double groups = 1.0 * group_paths_ / kLanesOfRays; // that this group stands for
         for (std::size_t i = 0; i < most_nodes_.size(); ++i)
             (i > 0 ? paths_.sharp : paths_.camera).node_lanes += groups * static_cast<double>(
                                                                               most_nodes_[i]);
@@ -203,31 +201,31 @@ public:
     }
 
 private:
-    MirrorPathCounts& paths_;
+    PathCounts& paths_;
     std::array<std::size_t, kMaxMirrorsPerPath + 1> most_nodes_{}; ///< of each ray in the group
-    std::uint32_t paths_of_group_ = kLanesOfRays, count_ = 0;
+    std::uint32_t group_paths_ = kLanesOfRays, count_ = 0;
 };
 
 } // namespace
 
-std::size_t MirrorPathCounts::count_paths_on_mirrors() const {
+std::size_t PathCounts::on_mirrors() const {
     return std::accumulate(first.begin(), first.end(), std::size_t{0});
 }
 
-MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question) {
+PathCounts trace_paths(const WorkModelInput& question) {
     const scene::Camera& camera = question.camera;
     const std::size_t mirrors = scene::mirrors(question.now).size();
-    const MirrorPathTracer stage(question);
-    const uvec2 grid = choose_path_ray_grid(question.size);
+    const PathTracer stage(question);
+    const uvec2 grid = choose_ray_grid(question.size);
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
     const bool is_parallel = camera.orthographic_height > 0;
     const double half = is_parallel ? camera.orthographic_height / 2
                                     : std::tan(glm::radians(camera.vertical_fov_degrees) / 2),
                  aspect = 1.0 * question.size.x / question.size.y;
-    MirrorPathCounts paths{.first = std::vector<std::size_t>(mirrors),
-                           .reached = std::vector<std::size_t>(mirrors),
-                           .hidden = std::vector<std::size_t>(mirrors)};
+    PathCounts paths{.first = std::vector<std::size_t>(mirrors),
+                     .reached = std::vector<std::size_t>(mirrors),
+                     .hidden = std::vector<std::size_t>(mirrors)};
     RaySums sums(paths, 1.0 * question.size.x / grid.x);
     for (std::uint32_t y = 0; y < grid.y; ++y) {
         for (std::uint32_t x = 0; x < grid.x; ++x, ++paths.count) {
@@ -236,8 +234,7 @@ MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question) {
             const f32::Ray ray = is_parallel
                                      ? f32::Ray{vec3(aside), vec3(forward), 0}
                                      : f32::Ray{vec3(0), vec3(normalize(forward + aside)), 0};
-            auto [met, is_hidden, nodes,
-                  sharp] = stage.follow_ray_through_mirrors(ray, y % kRowsPerRoughRow == 0);
+            auto [met, is_hidden, nodes, sharp] = stage.follow(ray, y % kRowsPerRoughRow == 0);
             sums.add_path(nodes, sharp);
             if (met.empty()) continue;
             ++paths.first[met.front()];

@@ -29,7 +29,7 @@ struct WalkedRays {
 
 /// Statistics of rays from the eye through the centre of each pixel (or each cell of a grid),
 /// followed from mirror to mirror. Entry n-1 of a list belongs to mirror n.
-struct MirrorPathCounts {
+struct PathCounts {
     std::size_t count = 0; ///< number of rays
     /// Number of camera rays for each sequence of mirrors that rays meet, before they meet another
     /// surface. Mirrors are numbered from 0.
@@ -47,12 +47,11 @@ struct MirrorPathCounts {
     /// kRowsPerRoughRow is followed and counted as all.
     WalkedRays camera, sharp, rough;
 
-    std::size_t
-    count_paths_on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.
+    std::size_t on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.
 };
 
 /// Builds a BVH over all triangles (bvh::build) and follows at most kMaxMirrorPaths rays, in
 /// floats relative to the eye. Each reflection costs one more ray, from a capture's centre.
-MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question);
+PathCounts trace_paths(const WorkModelInput& question);
 
 } // namespace catoptric::require

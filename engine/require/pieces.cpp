@@ -15,7 +15,7 @@ constexpr double kUnboundedSlope = std::numeric_limits<double>::infinity();
 
 /// Finds the smallest slope s in [-1, 1] with aside <= s * ahead for all points. The result is 1 if
 /// no such s exists.
-class LeastSlopeOfMovingHull {
+class LeastSlope {
 public:
     void add_point(double aside, double ahead) {
         if (ahead > 0)
@@ -25,77 +25,72 @@ public:
         else if (aside > 0)
             most_ = -kUnboundedSlope;
     }
-    double least_slope_of_hull() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
+    double slope() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
     /// Returns whether the whole hull lies beyond the opposite edge of the face (slope -1), and is
     /// therefore not visible in the face.
-    bool is_hull_beyond_face() const { return least_ <= most_ && least_ < -1; }
+    bool is_beyond_face() const { return least_ <= most_ && least_ < -1; }
 
 private:
     double least_ = -kUnboundedSlope, most_ = kUnboundedSlope;
 };
 
-auto moving_face_part_sort_key(const MovingObjectFacePart& piece) {
-    const CubeFacePart& part = piece.part;
+auto sort_key(const MovingPart& piece) {
+    const FacePart& part = piece.part;
     return std::tuple(piece.content_hash, part.low.x, part.low.y, part.high.x, part.high.y);
 }
 
 } // namespace
 
-CubeFacePart intersect_face_parts(const CubeFacePart& a, const CubeFacePart& b) {
+FacePart intersect(const FacePart& a, const FacePart& b) {
     return {max(a.low, b.low), min(a.high, b.high)};
 }
 
-CubeFacePart unite_face_parts(const CubeFacePart& a, const CubeFacePart& b) {
+FacePart unite(const FacePart& a, const FacePart& b) {
     if (a.is_empty()) return b;
     if (b.is_empty()) return a;
     return {min(a.low, b.low), max(a.high, b.high)};
 }
 
-CubeFacePart face_part_containing(int face, std::span<const dvec3> places) {
+FacePart face_part_containing(int face, std::span<const dvec3> places) {
     const dvec3 right = f64::cube_direction(face, dvec3(1, 0, 0)),
                 down = f64::cube_direction(face, dvec3(0, 1, 0)),
                 forward = f64::cube_direction(face, dvec3(0, 0, 1));
-    std::array<LeastSlopeOfMovingHull, 4> slopes; // slopes to the right, left, down and up
+    std::array<LeastSlope, 4> slopes; // slopes to the right, left, down and up
     for (const dvec3& place : places) {
         const double ahead = dot(forward, place), x = dot(right, place), y = dot(down, place);
         slopes[0].add_point(x, ahead), slopes[1].add_point(-x, ahead);
         slopes[2].add_point(y, ahead), slopes[3].add_point(-y, ahead);
     }
-    if (std::ranges::any_of(slopes, &LeastSlopeOfMovingHull::is_hull_beyond_face))
-        return kEmptyFacePart;
-    return {dvec2(-slopes[1].least_slope_of_hull(), -slopes[3].least_slope_of_hull()),
-            dvec2(slopes[0].least_slope_of_hull(), slopes[2].least_slope_of_hull())};
+    if (std::ranges::any_of(slopes, &LeastSlope::is_beyond_face)) return kEmptyFacePart;
+    return {dvec2(-slopes[1].slope(), -slopes[3].slope()),
+            dvec2(slopes[0].slope(), slopes[2].slope())};
 }
 
-CubeFacePart face_part_containing(int face, const Bounds<double>& box) {
-    return face_part_containing(face, list_box_corners(box));
+FacePart face_part_containing(int face, const Bounds<double>& box) {
+    return face_part_containing(face, box_corners(box));
 }
 
-CubeFacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b) {
+FacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b) {
     std::array<dvec3, 16> corners;
-    std::ranges::copy(list_box_corners(b),
-                      std::ranges::copy(list_box_corners(a), corners.begin()).out);
+    std::ranges::copy(box_corners(b), std::ranges::copy(box_corners(a), corners.begin()).out);
     return face_part_containing(face, corners);
 }
 
-void MovingObjectFaceParts::sort_moving_face_pieces() {
-    for (std::vector<MovingObjectFacePart>& pieces : faces)
-        std::ranges::sort(pieces, {}, moving_face_part_sort_key);
+void MovingParts::sort() {
+    for (std::vector<MovingPart>& pieces : faces) std::ranges::sort(pieces, {}, sort_key);
 }
 
-CubeFacePart find_changed_face_part(std::span<const MovingObjectFacePart> before,
-                                    std::span<const MovingObjectFacePart> after) {
-    CubeFacePart part = kEmptyFacePart;
+FacePart find_changed_part(std::span<const MovingPart> before, std::span<const MovingPart> after) {
+    FacePart part = kEmptyFacePart;
     for (std::size_t i = 0, k = 0; i < before.size() || k < after.size();) {
         const bool ends = i == before.size() || k == after.size();
-        if (!ends && moving_face_part_sort_key(before[i]) == moving_face_part_sort_key(after[k])) {
+        if (!ends && sort_key(before[i]) == sort_key(after[k])) {
             ++i, ++k;
             continue;
         }
         const bool is_before = k == after.size() ||
-                               (i < before.size() && moving_face_part_sort_key(before[i]) <
-                                                         moving_face_part_sort_key(after[k]));
-        part = unite_face_parts(part, (is_before ? before[i++] : after[k++]).part);
+                               (i < before.size() && sort_key(before[i]) < sort_key(after[k]));
+        part = unite(part, (is_before ? before[i++] : after[k++]).part);
     }
     return part;
 }

@@ -11,8 +11,8 @@
 namespace catoptric::require {
 
 /// Facts about a picture's mirrors that the choice depends on.
-struct MirrorCostInputs {
-    MirrorPathCounts paths;
+struct CostInputs {
+    PathCounts paths;
     PictureCounts picture;
     std::vector<bool> is_flat, is_seen, is_glass, is_rough; ///< one entry per mirror
     double on_mirrors = 0; ///< paths whose first hit is a mirror; at least 1
@@ -20,20 +20,18 @@ struct MirrorCostInputs {
 
     std::size_t mirror_count() const { return is_flat.size(); }
     /// Returns how many pixels of the picture this number of paths stands for.
-    double estimate_pixels_of_mirror_paths(std::size_t paths_through) const {
+    double pixels(std::size_t paths_through) const {
         return picture.pixels_per_path * static_cast<double>(paths_through);
     }
 };
 
-MirrorCostInputs gather_mirror_cost_inputs(const RequiredWorkModelInput& question);
+CostInputs gather_cost_inputs(const WorkModelInput& question);
 
 /// Returns a candidate with rasterised mirrors. Flat mirrors get `planar` if `planes` is set.
 /// Hardly seen mirrors get small captures, and all others get searches.
-PlanCandidate make_captured_candidate(const MirrorCostInputs& known, const UnitCosts& costs,
-                                      bool planes);
+PlanCandidate make_captured_candidate(const CostInputs& known, const UnitCosts& costs, bool planes);
 /// Returns candidates that trace all mirrors, with and without a rasterised first hit. If a seen
 /// mirror is rough, each has one ray or four rays of the lobe.
-std::vector<PlanCandidate> make_traced_candidates(const MirrorCostInputs& known,
-                                                  const UnitCosts& costs);
+std::vector<PlanCandidate> make_traced_candidates(const CostInputs& known, const UnitCosts& costs);
 
 } // namespace catoptric::require

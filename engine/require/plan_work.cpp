@@ -52,7 +52,7 @@ bool has_varying_material(const scene::Scene& now, const scene::Object& object) 
 
 } // namespace
 
-PictureCounts count_picture(const RequiredWorkModelInput& question, const MirrorPathCounts& paths) {
+PictureCounts count_picture(const WorkModelInput& question, const PathCounts& paths) {
     PictureCounts picture{.pixels = 1.0 * question.size.x * question.size.y,
                           .triangles = static_cast<double>(scene::triangle_count(question.now)),
                           .objects = static_cast<double>(question.now.objects.size())};

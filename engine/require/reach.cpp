@@ -9,7 +9,7 @@
 
 namespace catoptric::require {
 
-dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh) {
+dvec3 find_flat_normal(const scene::Mesh& mesh) {
     const double least = std::cos(kMaxNormalDeviation / 2);
     dvec3 normal(0);
     const auto agrees = [&](const dvec3& other) {
@@ -29,27 +29,27 @@ dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh) {
     return normal;
 }
 
-CubeFaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& normal,
-                                         double margin, std::span<const Bounds<double>> viewers) {
-    const auto [low, high] = project_box_on_axis(normal, mirror);
+FaceBits needed_faces(const Bounds<double>& mirror, const dvec3& normal, double margin,
+                      std::span<const Bounds<double>> viewers) {
+    const auto [low, high] = project_box(normal, mirror);
     bool front = true, back = true;
     for (const Bounds<double>& viewer : viewers) {
-        const auto [viewer_low, viewer_high] = project_box_on_axis(normal, viewer);
+        const auto [viewer_low, viewer_high] = project_box(normal, viewer);
         // A viewer in the mirror's plane sees no part of the mirror's surface.
         if (viewer_low > low - margin && viewer_high < high + margin) continue;
         front = front && viewer_low > high;
         back = back && viewer_high < low;
     }
-    if (front == back) return kAllCubeFaceBits; // no viewer, or viewers on both sides
-    return cube_faces_in_front_of_plane(front ? normal : -normal, 2 * kMaxNormalDeviation);
+    if (front == back) return kAllFaces; // no viewer, or viewers on both sides
+    return faces_in_front(front ? normal : -normal, 2 * kMaxNormalDeviation);
 }
 
-bool may_light_reach_box(const scene::PointLight& light, const Bounds<double>& box, double margin) {
+bool may_light_reach(const scene::PointLight& light, const Bounds<double>& box, double margin) {
     if (light.directional) return true;
     const dvec3 nearest = glm::clamp(light.position, box.lo, box.hi);
     if (!(length(nearest - light.position) <= light.range + margin)) return false;
     return light.normal == dvec3(0) ||
-           project_box_on_axis(light.normal, box)[1] - dot(light.normal, light.position) > -margin;
+           project_box(light.normal, box)[1] - dot(light.normal, light.position) > -margin;
 }
 
 } // namespace catoptric::require

@@ -16,7 +16,7 @@ inline constexpr double kMaxNormalDeviation = .05;
 
 /// Returns the unit normal of a flat mesh in its own space; zero for other meshes. In a flat mesh,
 /// all facets and vertex normals point one way within kMaxNormalDeviation / 2. O(vertices).
-dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh);
+dvec3 find_flat_normal(const scene::Mesh& mesh);
 
 /// Returns the needed faces of the capture of a flat mirror. `normal` is in world space. `viewers`
 /// are the boxes of all possible viewers: the eye and other mirrors.
@@ -28,11 +28,11 @@ dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh);
 ///
 /// A viewer within `margin` of the plane sees nothing of the mirror, such as another panel on the
 /// same wall. If viewers lie on both sides, all faces are needed.
-CubeFaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& normal,
-                                         double margin, std::span<const Bounds<double>> viewers);
+FaceBits needed_faces(const Bounds<double>& mirror, const dvec3& normal, double margin,
+                      std::span<const Bounds<double>> viewers);
 
 /// Returns whether the light may shine on something in the box: within the light's range and, for a
 /// lamp, in front of the lamp.
-bool may_light_reach_box(const scene::PointLight& light, const Bounds<double>& box, double margin);
+bool may_light_reach(const scene::PointLight& light, const Bounds<double>& box, double margin);
 
 } // namespace catoptric::require

@@ -10,12 +10,12 @@
 
 namespace catoptric::require {
 
-struct RequiredWorkModelBuilder::Impl {
+struct WorkModelBuilder::Impl {
     VisibilityScene world;
     MirrorVisibility sight;
     ContentHashes content_hashes;
     VisibilityFindings findings;
-    RequiredWorkModel model;
+    WorkModel model;
     /// Visible mirrors whose view of other mirrors has not been tested yet.
     std::vector<std::size_t> waiting;
     std::vector<bool> listed; ///< whether MirrorRequirements::sees of the mirror is up to date
@@ -25,23 +25,22 @@ struct RequiredWorkModelBuilder::Impl {
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
     void find_visible_mirrors(const PictureFrustum& picture, const scene::Scene& now);
-    void find_capture_requirements(std::size_t mirror, bool asks_all);
-    CubeFaceBits needed_capture_faces_of_mirror(const PictureFrustum& picture, std::size_t mirror);
-    void find_lights_needing_shadow_maps(const PictureFrustum& picture);
+    void find_capture_needs(std::size_t mirror, bool asks_all);
+    FaceBits find_faces(const PictureFrustum& picture, std::size_t mirror);
+    void find_shadow_maps(const PictureFrustum& picture);
 };
 
 /// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
-void RequiredWorkModelBuilder::Impl::find_visible_mirrors(const PictureFrustum& picture,
-                                                          const scene::Scene& now) {
-    const std::size_t count = world.list_mirror_objects().size();
+void WorkModelBuilder::Impl::find_visible_mirrors(const PictureFrustum& picture,
+                                                  const scene::Scene& now) {
+    const std::size_t count = world.mirrors().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
     for (std::size_t i = 0; i < count; ++i) {
         MirrorRequirements& needs = model.mirrors[i];
-        findings.camera[i] = find_reason_hidden_from_camera(world, picture, i);
-        if (!findings.camera[i] && !may_picture_show_mirror(picture, world, i, now))
-            findings.camera[i] = UnseenMirrorReason{UnseenMirrorReason::UnseenMirrorCause::outside,
-                                                    0};
+        findings.camera[i] = find_unseen_reason(world, picture, i);
+        if (!findings.camera[i] && !may_picture_show(picture, world, i, now))
+            findings.camera[i] = UnseenReason{UnseenReason::Cause::outside, 0};
         needs.seen_in = {};
         needs.is_seen = !findings.camera[i];
         if (needs.is_seen) waiting.push_back(i);
@@ -49,8 +48,7 @@ void RequiredWorkModelBuilder::Impl::find_visible_mirrors(const PictureFrustum& 
     for (std::size_t next = 0; next < waiting.size() && waiting.size() < count; ++next)
         for (std::size_t i = 0; i < count; ++i) {
             MirrorRequirements& needs = model.mirrors[i];
-            if (needs.is_seen || !sight.may_light_path_reach_object(world, waiting[next], i))
-                continue;
+            if (needs.is_seen || !sight.may_reach(world, waiting[next], i)) continue;
             needs.is_seen = true;
             needs.seen_in = MirrorId::from_index(waiting[next]);
             waiting.push_back(i);
@@ -58,7 +56,7 @@ void RequiredWorkModelBuilder::Impl::find_visible_mirrors(const PictureFrustum& 
 }
 
 /// Finds what a mirror's capture shows, after find_visible_mirrors.
-void RequiredWorkModelBuilder::Impl::find_capture_requirements(std::size_t mirror, bool asks_all) {
+void WorkModelBuilder::Impl::find_capture_needs(std::size_t mirror, bool asks_all) {
     MirrorRequirements& needs = model.mirrors[mirror];
     needs.is_captured = needs.is_seen || asks_all;
     if (!needs.is_captured) {
@@ -68,94 +66,81 @@ void RequiredWorkModelBuilder::Impl::find_capture_requirements(std::size_t mirro
         needs.pieces = nullptr;
         return;
     }
-    const ContentHashes::CaptureFaceHashes& faces = content_hashes.content_hashes_of_mirror_faces(
-        world, mirror);
+    const ContentHashes::FaceHashes& faces = content_hashes.face_hashes(world, mirror);
     needs.content_hashes = faces.content_hashes, needs.settings = faces.settings,
     needs.pieces = faces.pieces;
-    if (listed[mirror] && !sight.has_visibility_changed(mirror)) return;
+    if (listed[mirror] && !sight.has_changed(mirror)) return;
     listed[mirror] = true;
     needs.sees.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
-        if (sight.may_capture_show_object(world, mirror, i))
-            needs.sees.push_back(static_cast<std::uint32_t>(i));
+        if (sight.may_show(world, mirror, i)) needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
 
-CubeFaceBits
-RequiredWorkModelBuilder::Impl::needed_capture_faces_of_mirror(const PictureFrustum& picture,
-                                                               std::size_t mirror) {
-    const VisibilityObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
-    const dvec3 flat = world.list_mesh_shapes()[thing.mesh].flat_normal;
-    if (flat == dvec3(0) || thing.is_glass || !model.mirrors[mirror].is_captured)
-        return kAllCubeFaceBits;
+FaceBits WorkModelBuilder::Impl::find_faces(const PictureFrustum& picture, std::size_t mirror) {
+    const VisibilityObject& thing = world.objects()[world.mirrors()[mirror]];
+    const dvec3 flat = world.mesh_shapes()[thing.mesh].flat_normal;
+    if (flat == dvec3(0) || thing.is_glass || !model.mirrors[mirror].is_captured) return kAllFaces;
     // The filter of a rough mirror's levels reads texels on both sides of the mirror's plane.
-    if (thing.has_lobe) return kAllCubeFaceBits;
+    if (thing.has_lobe) return kAllFaces;
     viewers.clear();
     // For an orthographic camera all faces are kept, because its rays start in a plane and not at
     // one eye point.
-    if (!findings.camera[mirror] && picture.is_orthographic()) return kAllCubeFaceBits;
-    if (!findings.camera[mirror])
-        viewers.push_back({picture.eye_position(), picture.eye_position()});
+    if (!findings.camera[mirror] && picture.is_orthographic()) return kAllFaces;
+    if (!findings.camera[mirror]) viewers.push_back({picture.eye(), picture.eye()});
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
-        if (model.mirrors[i].is_captured && sight.may_light_path_reach_object(world, i, mirror))
-            viewers.push_back(world.list_objects()[world.list_mirror_objects()[i]].box);
+        if (model.mirrors[i].is_captured && sight.may_reach(world, i, mirror))
+            viewers.push_back(world.objects()[world.mirrors()[i]].box);
     const dvec3 normal = scene::transform_normal(scene::normal_matrix(thing.place), flat);
-    return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.max_position_rounding_error(),
-                                       viewers);
+    return needed_faces(thing.box, normal, 4 * world.rounding_error(), viewers);
 }
 
 /// Finds whether each light may shine on something that is seen. If any capture is made, all
 /// objects count as seen; else only those that the camera may see.
-void RequiredWorkModelBuilder::Impl::find_lights_needing_shadow_maps(
-    const PictureFrustum& picture) {
-    model.lights.resize(world.list_point_lights().size());
-    model.casters = content_hashes.list_shadow_casters(world);
+void WorkModelBuilder::Impl::find_shadow_maps(const PictureFrustum& picture) {
+    model.lights.resize(world.lights().size());
+    model.casters = content_hashes.shadow_casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorRequirements::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        model.lights[i].content_hash = ContentHash(world.static_content_hash()).add(i).sum();
+        model.lights[i].content_hash = ContentHash(world.static_hash()).add(i).sum();
         model.lights[i].has_map = std::ranges::any_of(
-            world.list_objects(), [&](const VisibilityObject& thing) {
+            world.objects(), [&](const VisibilityObject& thing) {
                 return !thing.box.empty() &&
-                       may_light_reach_box(world.list_point_lights()[i], thing.box,
-                                           world.max_position_rounding_error()) &&
-                       (all_around ||
-                        (thing.seen_by_camera && picture.may_frustum_contain_box(thing.box)));
+                       may_light_reach(world.lights()[i], thing.box, world.rounding_error()) &&
+                       (all_around || (thing.seen_by_camera && picture.may_contain_box(thing.box)));
             });
     }
 }
 
-RequiredWorkModelBuilder::RequiredWorkModelBuilder(const scene::Scene& rest)
+WorkModelBuilder::WorkModelBuilder(const scene::Scene& rest)
     : impl_(std::make_unique<Impl>(rest)) {}
-RequiredWorkModelBuilder::~RequiredWorkModelBuilder() = default;
-RequiredWorkModelBuilder::RequiredWorkModelBuilder(RequiredWorkModelBuilder&&) noexcept = default;
-RequiredWorkModelBuilder&
-RequiredWorkModelBuilder::operator=(RequiredWorkModelBuilder&&) noexcept = default;
+WorkModelBuilder::~WorkModelBuilder() = default;
+WorkModelBuilder::WorkModelBuilder(WorkModelBuilder&&) noexcept = default;
+WorkModelBuilder& WorkModelBuilder::operator=(WorkModelBuilder&&) noexcept = default;
 
-const RequiredWorkModel&
-RequiredWorkModelBuilder::make_work_model_for_request(const RequiredWorkModelInput& question) {
+const WorkModel& WorkModelBuilder::model(const WorkModelInput& question) {
     Impl& impl = *impl_;
     const PictureFrustum picture(question.camera, question.size);
-    impl.world.move_to_instant(question.now);
-    impl.sight.move_to_instant(impl.world);
-    impl.content_hashes.move_to_instant(impl.world, question.shadow_edge,
-                                        question.has_soft_shadows);
+    impl.world.update(question.now);
+    impl.sight.update(impl.world);
+    impl.content_hashes.update(impl.world, question.shadow_edge, question.has_soft_shadows);
     impl.find_visible_mirrors(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
-        impl.find_capture_requirements(i, question.asks_all);
+        impl.find_capture_needs(i, question.asks_all);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.model.mirrors[i].faces = question.asks_all || question.whole_cubes
-                                          ? kAllCubeFaceBits
-                                          : impl.needed_capture_faces_of_mirror(picture, i);
-    impl.find_lights_needing_shadow_maps(picture);
-    set_visibility_findings_key(impl.findings, impl.model);
+                                          ? kAllFaces
+                                          : impl.find_faces(picture, i);
+    impl.find_shadow_maps(picture);
+    set_key(impl.findings, impl.model);
     if (impl.findings.key != impl.known_key) {
         impl.known_key = impl.findings.key;
-        impl.model.left_out = list_culled_work(impl.model, impl.findings, question.now);
+        impl.model.left_out = find_culled_work(impl.model, impl.findings, question.now);
     }
     return impl.model;
 }
 
-RequiredWorkModel make_required_model(const RequiredWorkModelInput& question) {
-    return RequiredWorkModelBuilder(question.now).make_work_model_for_request(question);
+WorkModel make_required_model(const WorkModelInput& question) {
+    return WorkModelBuilder(question.now).model(question);
 }
 
 } // namespace catoptric::require

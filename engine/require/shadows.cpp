@@ -10,8 +10,8 @@ namespace {
 constexpr double kUnlimitedShadow = std::numeric_limits<double>::infinity();
 
 /// Returns how many times further from the light than the box a shaded point can be.
-double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
-                                 const Bounds<double>& everything) {
+double max_shadow_stretch(const dvec3& light, const Bounds<double>& box,
+                          const Bounds<double>& everything) {
     double times = kUnlimitedShadow;
     for (int axis = 0; axis < 3; ++axis) {
         // The ratio (wall - L) / (b - L) is largest for the point b of the box that is nearest to
@@ -23,8 +23,8 @@ double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
     return std::max(times, 1.);
 }
 
-double max_shadow_distance_along(const dvec3& axis, const Bounds<double>& box,
-                                 const Bounds<double>& everything) {
+double max_shadow_distance(const dvec3& axis, const Bounds<double>& box,
+                           const Bounds<double>& everything) {
     double times = kUnlimitedShadow;
     for (int i = 0; i < 3; ++i) {
         if (axis[i] > 0) times = std::min(times, (everything.hi[i] - box.lo[i]) / axis[i]);
@@ -34,23 +34,21 @@ double max_shadow_distance_along(const dvec3& axis, const Bounds<double>& box,
 }
 
 /// Returns the largest distance from a point to the points of a box.
-double max_distance_to_box(const dvec3& place, const Bounds<double>& box) {
+double max_distance(const dvec3& place, const Bounds<double>& box) {
     return glm::length(glm::max(abs(box.lo - place), abs(box.hi - place)));
 }
 
 /// Returns the length of kShadowFilterTexels at the box, in world units.
-double shadow_filter_length_at_box(const scene::PointLight& light, const Bounds<double>& box,
-                                   const Bounds<double>& everything, std::uint32_t edge) {
+double filter_length(const scene::PointLight& light, const Bounds<double>& box,
+                     const Bounds<double>& everything, std::uint32_t edge) {
     // A cube face at depth d is 2 d wide. The window of a directional light's shadow map is at most
     // slightly wider than the whole scene (render::make_directional_light_views).
     const double span = light.directional ? 1.5 * glm::length(everything.extent())
-                                          : 2 * max_distance_to_box(light.position, box);
+                                          : 2 * max_distance(light.position, box);
     return kShadowFilterTexels * span / std::max(edge, 1u);
 }
 
-Bounds<double> expand_box_by_length(const Bounds<double>& box, double by) {
-    return {box.lo - by, box.hi + by};
-}
+Bounds<double> expand(const Bounds<double>& box, double by) { return {box.lo - by, box.hi + by}; }
 
 Bounds<double> intersect_boxes(const Bounds<double>& a, const Bounds<double>& b) {
     return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
@@ -58,14 +56,14 @@ Bounds<double> intersect_boxes(const Bounds<double>& a, const Bounds<double>& b)
 
 } // namespace
 
-ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
-                                       const Bounds<double>& everything) {
+ShadowedVolume shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
+                               const Bounds<double>& everything) {
     if (light.directional) {
-        const double far = max_shadow_distance_along(light.axis, caster, everything);
+        const double far = max_shadow_distance(light.axis, caster, everything);
         if (far == kUnlimitedShadow) return {everything, everything};
         return {caster, {caster.lo + far * light.axis, caster.hi + far * light.axis}};
     }
-    const double times = max_shadow_stretch_factor(light.position, caster, everything);
+    const double times = max_shadow_stretch(light.position, caster, everything);
     if (times == kUnlimitedShadow) return {everything, everything};
     return {caster,
             {light.position + times * (caster.lo - light.position),
@@ -76,28 +74,23 @@ void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge, boo
                            std::vector<ShadowReceiver>& landings) {
     landings.clear();
     Bounds<double> everything;
-    for (const VisibilityObject& thing : world.list_objects()) everything.add(thing.box);
-    for (const std::size_t mover : world.list_moving_objects()) {
-        const VisibilityObject& caster = world.list_objects()[mover];
+    for (const VisibilityObject& thing : world.objects()) everything.add(thing.box);
+    for (const std::size_t mover : world.movers()) {
+        const VisibilityObject& caster = world.objects()[mover];
         if (!caster.casts_shadow || caster.box.empty()) continue;
-        for (const scene::PointLight& light : world.list_point_lights()) {
+        for (const scene::PointLight& light : world.lights()) {
             const auto [from, to] = is_soft && light.is_lamp
                                         ? ShadowedVolume{everything, everything}
-                                        : compute_shadowed_volume(light, caster.box, everything);
+                                        : shadowed_volume(light, caster.box, everything);
             Bounds<double> shade = from;
             shade.add(to);
-            for (std::size_t i = 0; i < world.list_objects().size(); ++i) {
-                const Bounds<double>& receiver = world.list_objects()[i].box;
+            for (std::size_t i = 0; i < world.objects().size(); ++i) {
+                const Bounds<double>& receiver = world.objects()[i].box;
                 if (receiver.empty()) continue;
-                const double room = shadow_filter_length_at_box(light, receiver, everything, edge);
-                const Bounds<double> box = intersect_boxes(expand_box_by_length(shade, room),
-                                                           receiver);
+                const double room = filter_length(light, receiver, everything, edge);
+                const Bounds<double> box = intersect_boxes(expand(shade, room), receiver);
                 if (!box.empty())
-                    landings.push_back(
-                        {mover,
-                         i,
-                         box,
-                         {expand_box_by_length(from, room), expand_box_by_length(to, room)}});
+                    landings.push_back({mover, i, box, {expand(from, room), expand(to, room)}});
             }
         }
     }

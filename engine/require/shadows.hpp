@@ -23,8 +23,8 @@ inline constexpr double kShadowFilterTexels = 5;
 struct ShadowedVolume {
     Bounds<double> from, to;
 };
-ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
-                                       const Bounds<double>& everything);
+ShadowedVolume shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
+                               const Bounds<double>& everything);
 
 /// A part of a receiver that lies in the shadow of a mover: its box, and the volume of the shadow.
 struct ShadowReceiver {

@@ -22,9 +22,8 @@ std::string format_percent(double share) {
 }
 
 /// Returns the reason that follows the mirror's technique.
-std::string explain_technique_choice(const RequiredWorkModelInput& question,
-                                     const MirrorCostInputs& known, std::size_t mirror,
-                                     const scene::Object& object, MirrorDrawMethod way) {
+std::string explain_choice(const WorkModelInput& question, const CostInputs& known,
+                           std::size_t mirror, const scene::Object& object, DrawMethod way) {
     const auto share = [&](std::size_t paths) {
         return format_percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
     };
@@ -44,24 +43,22 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
                                                                    : "curved";
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
-    if (known.is_glass[mirror] &&
-        (way == MirrorDrawMethod::hybrid || way == MirrorDrawMethod::traced))
+    if (known.is_glass[mirror] && (way == DrawMethod::hybrid || way == DrawMethod::traced))
         reason += "; rays pass it";
-    else if (way == MirrorDrawMethod::march && hidden == 0)
+    else if (way == DrawMethod::march && hidden == 0)
         reason += "; its centre sees all that it shows";
-    else if (way == MirrorDrawMethod::march || way == MirrorDrawMethod::hybrid)
+    else if (way == DrawMethod::march || way == DrawMethod::hybrid)
         reason += "; its centre does not see what " + share(hidden) + " of the picture show";
-    else if (way == MirrorDrawMethod::traced)
+    else if (way == DrawMethod::traced)
         reason += "; rays draw all mirrors";
-    if (way == MirrorDrawMethod::march && hidden > 0) reason += ", too little to trace";
+    if (way == DrawMethod::march && hidden > 0) reason += ", too little to trace";
     return reason;
 }
 
 /// Returns a plan such as "1,3=planar *=hybrid". All techniques other than `rest` list their
 /// mirrors by number.
-std::string
-write_technique_plan_text(const std::map<std::string, std::vector<std::size_t>>& mirrors,
-                          const std::string& rest) {
+std::string write_rules(const std::map<std::string, std::vector<std::size_t>>& mirrors,
+                        const std::string& rest) {
     if (mirrors.empty()) return rest;
     if (mirrors.size() == 1) return mirrors.begin()->first;
     std::string plan;
@@ -77,45 +74,44 @@ write_technique_plan_text(const std::map<std::string, std::vector<std::size_t>>&
 }
 
 /// Returns the text of the plan that gives each mirror its technique.
-std::string write_plan_of_candidate(const PlanCandidate& candidate) {
+std::string write_plan(const PlanCandidate& candidate) {
     std::map<std::string, std::vector<std::size_t>> of_technique;
     for (std::size_t i = 0; i < candidate.techniques.size(); ++i)
         of_technique[candidate.techniques[i]].push_back(i + 1);
-    return write_technique_plan_text(of_technique, "hybrid");
+    return write_rules(of_technique, "hybrid");
 }
 
 } // namespace
 
-PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question,
-                                      const UnitCosts& costs) {
+PlanSuggestion suggest_plan(const WorkModelInput& question, const UnitCosts& costs) {
     const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
     PlanSuggestion suggestion;
     if (mirrors.empty()) {
         suggestion.plan = "hybrid";
         return suggestion;
     }
-    const MirrorCostInputs known = gather_mirror_cost_inputs(question);
+    const CostInputs known = gather_cost_inputs(question);
     std::vector<PlanCandidate>& candidates = suggestion.candidates;
     candidates.push_back(make_captured_candidate(known, costs, true));
     if (PlanCandidate searched = make_captured_candidate(known, costs, false);
         searched.techniques != candidates.front().techniques)
         candidates.push_back(std::move(searched));
-    if (known.paths.count_paths_on_mirrors() > 0)
+    if (known.paths.on_mirrors() > 0)
         std::ranges::move(make_traced_candidates(known, costs), std::back_inserter(candidates));
     std::ranges::stable_sort(candidates, {}, &PlanCandidate::score);
-    for (PlanCandidate& candidate : candidates) candidate.plan = write_plan_of_candidate(candidate);
+    for (PlanCandidate& candidate : candidates) candidate.plan = write_plan(candidate);
     suggestion.plan = candidates.front().plan;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         suggestion.reasons.push_back(candidates.front().techniques[i] + ": " +
-                                     explain_technique_choice(question, known, i,
-                                                              question.now.objects[mirrors[i]],
-                                                              candidates.front().ways[i]));
+                                     explain_choice(question, known, i,
+                                                    question.now.objects[mirrors[i]],
+                                                    candidates.front().ways[i]));
     }
     return suggestion;
 }
 
-std::string format_plan_candidates(const std::vector<PlanCandidate>& candidates,
-                                   const std::string& costs) {
+std::string format_candidates(const std::vector<PlanCandidate>& candidates,
+                              const std::string& costs) {
     std::string text;
     for (const PlanCandidate& candidate : candidates) {
         char figures[160];

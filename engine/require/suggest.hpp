@@ -11,18 +11,18 @@
 namespace catoptric::require {
 
 /// A mirror is hardly seen if at most this share of all mirror pixels show it, directly or in other
-/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallCaptureFaceEdge, the cheapest
+/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallFaceEdge, the cheapest
 /// lookup.
-inline constexpr double kHardlySeenPixelShare = .002;
-inline constexpr std::uint32_t kSmallCaptureFaceEdge = 64, kUsualFaceEdge = 256;
+inline constexpr double kHardlySeenShare = .002;
+inline constexpr std::uint32_t kSmallFaceEdge = 64, kUsualFaceEdge = 256;
 /// A mirror with a larger share of bent surface than this is not drawn by `planar`.
-inline constexpr double kMaxCurvedAreaShare = .1;
+inline constexpr double kMaxCurvedShare = .1;
 
 /// A plan with this mean FLIP counts as much as an exact plan that takes twice the time.
 inline constexpr double kErrorOfDoubleTime = .005;
 
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
-struct TechniqueErrorTable {
+struct TechniqueErrors {
     double planar = .003, search = .03, reuse = .3;
     /// Rough mirrors, searched and by one ray or four rays of the lobe (docs/rough.md). The FLIP of
     /// one ray is half as large, but its rmse is larger than that of a search, so it counts more.
@@ -37,12 +37,12 @@ struct TechniqueErrorTable {
 
 /// The ways to draw a mirror: by mirrored views, by searches in its capture with or without rays
 /// for what the capture does not show, by a small capture, or by rays alone.
-enum class MirrorDrawMethod { planes, hybrid, march, small, traced };
+enum class DrawMethod { planes, hybrid, march, small, traced };
 
 /// One assignment of techniques to all mirrors.
 struct PlanCandidate {
     std::string name;                         ///< the techniques in use: "planar, hybrid"
-    std::vector<MirrorDrawMethod> ways = {};  ///< entry n-1 belongs to mirror n
+    std::vector<DrawMethod> ways = {};        ///< entry n-1 belongs to mirror n
     std::vector<std::string> techniques = {}; ///< the same
     double ms = 0;                            ///< predicted time of a frame that draws everything
     double error = 0;                         ///< estimated FLIP, mean over all mirror pixels
@@ -58,23 +58,23 @@ struct PlanSuggestion {
     std::vector<PlanCandidate> candidates; ///< all that were compared, the chosen one first
 };
 
-/// Suggests a plan from what the pixels show (MirrorPathCounts) and from shapes
+/// Suggests a plan from what the pixels show (PathCounts) and from shapes
 /// (scene::find_flat_faces). Mirrors that are hardly seen get `reuse` with small faces.
 ///
 /// Four candidates are compared: `planar` for flat mirrors with a search for the others, a search
 /// for all mirrors, and if a mirror is seen also `raytrace` and `raytrace:first=raster`. The search
 /// of a mirror is `hybrid`. It is `march` if tracing what captures do not show
-/// (MirrorPathCounts::hidden) would reduce the mirror's estimated error by less than a tenth. If a
+/// (PathCounts::hidden) would reduce the mirror's estimated error by less than a tenth. If a
 /// seen mirror is rough, one ray or four rays of each pixel are drawn from lobes.
 ///
 /// The candidate with the least PlanCandidate::score wins. Its time is the sum of estimated counts
 /// (FrameWork) times the unit costs. The same picture and costs always give the same plan.
-PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question,
-                                      const UnitCosts& costs = default_unit_costs());
+PlanSuggestion suggest_plan(const WorkModelInput& question,
+                            const UnitCosts& costs = default_unit_costs());
 
 /// Returns the candidates with time, error and the rule of the choice, for the user. `costs`:
-/// UnitCostsOfDevice::note.
-std::string format_plan_candidates(const std::vector<PlanCandidate>& candidates,
-                                   const std::string& costs);
+/// DeviceUnitCosts::note.
+std::string format_candidates(const std::vector<PlanCandidate>& candidates,
+                              const std::string& costs);
 
 } // namespace catoptric::require

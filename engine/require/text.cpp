@@ -13,25 +13,24 @@ namespace {
 std::string format_mirror_numbers(const std::vector<std::uint32_t>& mirrors) {
     std::vector<std::size_t> numbers(mirrors.begin(), mirrors.end());
     for (std::size_t& number : numbers) ++number;
-    return format_number_ranges(numbers);
+    return format_ranges(numbers);
 }
 
 std::string describe_capture_needs(const MirrorRequirements& needs, const scene::Mesh& mesh) {
     if (!needs.is_captured) return "not seen";
     std::string text = needs.seen_in
                            ? "in the view of mirror " + std::to_string(needs.seen_in.number())
-                       : !has_few_mesh_triangles(mesh) ? "its bounds are in the camera's view"
-                                                       : "in the camera's view";
+                       : !has_few_triangles(mesh) ? "its bounds are in the camera's view"
+                                                  : "in the camera's view";
     text += "; captured, ";
-    text += needs.faces == kAllCubeFaceBits ? "six faces"
-                                            : "faces " + list_cube_face_names(needs.faces);
+    text += needs.faces == kAllFaces ? "six faces" : "faces " + face_names(needs.faces);
     text += needs.sees.empty() ? ", no other mirror in it"
                                : ", mirrors " + format_mirror_numbers(needs.sees) + " in it";
     return text;
 }
 
 /// Returns the text about captures and maps that are kept over frames; empty if there are none.
-std::string describe_kept_captures(const RequiredWorkModel& model) {
+std::string describe_kept_captures(const WorkModel& model) {
     std::size_t faces = 0;
     for (const MirrorRequirements& needs : model.mirrors)
         faces += needs.is_captured ? static_cast<std::size_t>(std::popcount(needs.faces)) : 0;
@@ -52,7 +51,7 @@ std::string describe_kept_captures(const RequiredWorkModel& model) {
 
 } // namespace
 
-std::string describe_model(const RequiredWorkModel& model, const scene::Scene& scene) {
+std::string describe_model(const WorkModel& model, const scene::Scene& scene) {
     std::ostringstream text;
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     text << (model.is_everything ? "everything is required\n" : "required\n");

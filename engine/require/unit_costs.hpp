@@ -31,7 +31,7 @@ std::span<const UnitCosts> list_unit_costs();
 const UnitCosts& default_unit_costs();
 
 /// Unit costs by which plans for a device are compared.
-struct UnitCostsOfDevice {
+struct DeviceUnitCosts {
     const UnitCosts* costs = &default_unit_costs();
     std::string note; ///< which costs these are: "llvmpipe-22.3, fitted on this device"
 };
@@ -39,8 +39,7 @@ struct UnitCostsOfDevice {
 /// Returns the costs of a device. A device without a file gets those of the most similar one: a
 /// processor those of llvmpipe with the nearest version of Mesa, a card those from the literature
 /// for the newest card. `name` and `driver` are those of session::DeviceInfo.
-UnitCostsOfDevice find_unit_costs(std::string_view name, std::string_view driver,
-                                  bool is_processor);
+DeviceUnitCosts find_unit_costs(std::string_view name, std::string_view driver, bool is_processor);
 
 /// Returns the time that the costs predict for counts, milliseconds.
 double predict_ms(const WorkValues& counts, const UnitCosts& costs);

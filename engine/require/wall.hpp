@@ -13,21 +13,21 @@ namespace catoptric::require {
 using QuadCorners = std::array<dvec3, 4>;
 
 /// Returns the eight corners of a box.
-std::array<dvec3, 8> list_box_corners(const Bounds<double>& box);
+std::array<dvec3, 8> box_corners(const Bounds<double>& box);
 
 /// Returns the least and the largest product of the axis with points of the box.
-std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double>& box);
+std::array<double, 2> project_box(const dvec3& axis, const Bounds<double>& box);
 
 /// Returns the pairs of triangles that form convex quadrilaterals, in the mesh's own space. The two
 /// triangles share an edge, lie in one plane (within kCoplanarTolerance of their extent) and have
 /// one orientation, and every corner is convex. Each triangle is in at most one pair. Returns none
-/// for a mesh with more than kMaxWallMeshTriangles. O(triangles^2).
+/// for a mesh with more than kMaxWallTriangles. O(triangles^2).
 std::vector<QuadCorners> find_convex_quads(const scene::Mesh& mesh);
 inline constexpr double kCoplanarTolerance = 1e-9;
-inline constexpr std::size_t kMaxWallMeshTriangles = 64;
+inline constexpr std::size_t kMaxWallTriangles = 64;
 
 /// An opaque quadrilateral in world space.
-struct OccluderWall {
+struct Wall {
     QuadCorners corners;
     std::size_t object = 0;
     bool front_only = false; ///< whether the wall hides nothing from viewers behind it
@@ -37,15 +37,13 @@ struct OccluderWall {
         inward{}; ///< unit, in the plane, normal of the edge that starts at corner i
     double area = 0;
 
-    double height_above_wall_plane(const dvec3& place) const {
-        return dot(normal, place - corners[0]);
-    }
-    double distance_inside_wall_edge(std::size_t edge, const dvec3& place) const {
+    double height(const dvec3& place) const { return dot(normal, place - corners[0]); }
+    double distance_inside(std::size_t edge, const dvec3& place) const {
         return dot(inward[edge], place - corners[edge]);
     }
 };
 /// Returns the wall of a quadrilateral of an object. A wall of zero area hides nothing.
-OccluderWall make_occluder_wall(const QuadCorners& corners, std::size_t object);
+Wall make_wall(const QuadCorners& corners, std::size_t object);
 
 /// Returns whether each segment from a point of `viewer` to a point of `target` crosses the wall.
 /// Crossings must lie at least `margin` inside the wall's edges. The ends must lie on different
@@ -58,14 +56,13 @@ OccluderWall make_occluder_wall(const QuadCorners& corners, std::size_t object);
 /// these (at most 64) crossings lie in the wall, which is convex, all crossings do. Let h be the
 /// height over the plane and e the distance inside an edge's line, both linear. The crossing of v
 /// and t has e = (e(v) |h(t)| + e(t) |h(v)|) / (|h(v)| + |h(t)|).
-bool wall_hides_box(const OccluderWall& wall, const Bounds<double>& viewer,
-                    const Bounds<double>& target, double margin);
+bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
+           double margin);
 
 /// Returns whether the wall hides the box `target` from an orthographic camera. All rays to
 /// `target` run along the unit `direction`, from the plane through `eye` across it. A corner's
 /// crossing is linear in the corner, so eight segments suffice.
-bool wall_hides_from_orthographic(const OccluderWall& wall, const dvec3& eye,
-                                  const dvec3& direction, const Bounds<double>& target,
-                                  double margin);
+bool hides_from_orthographic(const Wall& wall, const dvec3& eye, const dvec3& direction,
+                             const Bounds<double>& target, double margin);
 
 } // namespace catoptric::require

@@ -15,8 +15,8 @@ namespace catoptric::require {
 
 namespace {
 
-MeshShapeSummary compute_mesh_shape_summary(const scene::Mesh& mesh) {
-    MeshShapeSummary facts;
+MeshShape make_mesh_shape(const scene::Mesh& mesh) {
+    MeshShape facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
     const dvec3 middle = facts.box.centre();
@@ -25,7 +25,7 @@ MeshShapeSummary compute_mesh_shape_summary(const scene::Mesh& mesh) {
             facts.radius = std::max(facts.radius, length(mesh.positions[triangle[i]] - middle));
     facts.content_hash = hash_mesh(mesh);
     facts.quads = find_convex_quads(mesh);
-    facts.flat_normal = find_normal_of_flat_mesh(mesh);
+    facts.flat_normal = find_flat_normal(mesh);
     return facts;
 }
 
@@ -33,14 +33,14 @@ MeshShapeSummary compute_mesh_shape_summary(const scene::Mesh& mesh) {
 Bounds<double> transform_bounds(const Bounds<double>& box, const dmat4& place) {
     Bounds<double> result;
     if (!box.empty())
-        for (const dvec3& corner : list_box_corners(box))
+        for (const dvec3& corner : box_corners(box))
             result.add(scene::transform_point(place, corner));
     return result;
 }
 
 /// Returns a bound on how much the matrix stretches lengths. The spectral norm is at most the root
 /// of the largest row sum of M^T M.
-double bound_matrix_stretch(const dmat3& m) {
+double max_stretch(const dmat3& m) {
     const dmat3 square = transpose(m) * m;
     double most = 0;
     for (int i = 0; i < 3; ++i)
@@ -59,7 +59,7 @@ bool are_equal_spheres(const std::optional<scene::Sphere>& a,
     return !a || (a->centre == b->centre && a->radius == b->radius);
 }
 
-bool can_object_be_wall(const scene::Material& material, bool is_mirror) {
+bool can_be_wall(const scene::Material& material, bool is_mirror) {
     // A lamp is invisible from behind, but the order of its triangles' corners does not tell which
     // side is behind. A lamp is therefore no wall.
     return !scene::has_alpha_mask(material) && !scene::is_glass(material) &&
@@ -70,7 +70,7 @@ bool can_object_be_wall(const scene::Material& material, bool is_mirror) {
 } // namespace
 
 VisibilityScene::VisibilityScene(const scene::Scene& rest) {
-    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(compute_mesh_shape_summary(mesh));
+    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(make_mesh_shape(mesh));
     things_.resize(rest.objects.size());
     for (std::size_t i = 0; i < things_.size(); ++i)
         things_[i].is_mover = !std::holds_alternative<std::monostate>(rest.objects[i].motion);
@@ -105,14 +105,14 @@ void VisibilityScene::set_layout(const scene::Scene& now) {
     const dvec3 extent = around.empty() ? dvec3(0) : around.extent();
     middle_ = around.empty() ? dvec3(0) : around.centre();
     rounding_ = kPositionRoundingError * std::max({extent.x, extent.y, extent.z});
-    for (std::size_t i = 0; i < things_.size(); ++i) move_visibility_object(now, i);
+    for (std::size_t i = 0; i < things_.size(); ++i) move_object(now, i);
     lights_ = scene::list_lights(now);
-    find_occluder_walls();
-    update_static_content_hash();
+    find_walls();
+    update_static_hash();
 }
 
 /// Returns whether the scene is the one that was laid out, except for where movers are.
-bool VisibilityScene::has_same_object_layout(const scene::Scene& now) const {
+bool VisibilityScene::has_same_layout(const scene::Scene& now) const {
     if (now.objects.size() != things_.size() || now.environment != environment_ ||
         now.materials != materials_ || now.punctual.size() != punctual_.size())
         return false;
@@ -129,7 +129,7 @@ bool VisibilityScene::has_same_object_layout(const scene::Scene& now) const {
 }
 
 /// Moves an object to its current place.
-void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_t index) {
+void VisibilityScene::move_object(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
     VisibilityObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
@@ -143,9 +143,9 @@ void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
-    const MeshShapeSummary& mesh = meshes_[thing.mesh];
+    const MeshShape& mesh = meshes_[thing.mesh];
     if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
-    thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;
+    thing.radius = mesh.radius * max_stretch(dmat3(thing.place)) + 2 * room;
     ContentHash content_hash;
     content_hash.add(index)
         .add(meshes_[thing.mesh].content_hash)
@@ -155,9 +155,9 @@ void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_
     thing.content_hash = content_hash.sum();
 }
 
-void VisibilityScene::move_to_instant(const scene::Scene& now) {
+void VisibilityScene::update(const scene::Scene& now) {
     has_changed_ = false;
-    if (!has_same_object_layout(now)) {
+    if (!has_same_layout(now)) {
         for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
             if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
         set_layout(now);
@@ -172,42 +172,42 @@ void VisibilityScene::move_to_instant(const scene::Scene& now) {
         thing.has_moved = object.world_from_object != thing.place ||
                           !are_equal_spheres(object.sphere, thing.sphere);
         if (!thing.has_moved) continue;
-        move_visibility_object(now, mover);
+        move_object(now, mover);
         has_changed_ = true;
         lights_moved = lights_moved || !thing.casts_shadow;
     }
     if (!lights_moved) return;
     punctual_ = now.punctual;
     lights_ = scene::list_lights(now);
-    update_static_content_hash();
+    update_static_hash();
     has_changed_ = true;
 }
 
-void VisibilityScene::find_occluder_walls() {
+void VisibilityScene::find_walls() {
     walls_.clear();
     const auto keep_largest = [&] { // keeps the first of equal walls
-        std::ranges::stable_sort(walls_, std::ranges::greater(), &OccluderWall::area);
-        if (walls_.size() > kMaxOccluderWalls) walls_.resize(kMaxOccluderWalls);
+        std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
+        if (walls_.size() > kMaxWalls) walls_.resize(kMaxWalls);
     };
     const double extent = rounding_ / kPositionRoundingError,
                  least = kMinWallAreaShare * extent * extent;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const VisibilityObject& thing = things_[i];
         const scene::Material& material = materials_[thing.material];
-        if (thing.is_mover || !can_object_be_wall(material, thing.is_mirror)) continue;
+        if (thing.is_mover || !can_be_wall(material, thing.is_mirror)) continue;
         for (QuadCorners quad : meshes_[thing.mesh].quads) {
             for (dvec3& corner : quad) corner = scene::transform_point(thing.rest, corner);
-            OccluderWall wall = make_occluder_wall(quad, i);
+            Wall wall = make_wall(quad, i);
             wall.front_only = material.front_only && !thing.is_mirror;
             wall.seen_by_camera = thing.seen_by_camera;
             if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
         }
-        if (walls_.size() >= 8 * kMaxOccluderWalls) keep_largest();
+        if (walls_.size() >= 8 * kMaxWalls) keep_largest();
     }
     keep_largest();
 }
 
-void VisibilityScene::update_static_content_hash() {
+void VisibilityScene::update_static_hash() {
     ContentHash content_hash;
     content_hash.add(materials_stamp_).add(environment_stamp_).add(things_.size());
     for (const VisibilityObject& thing : things_)

@@ -19,12 +19,12 @@ namespace catoptric::require {
 inline constexpr double kPositionRoundingError = 0x1p-20;
 /// Largest number of walls that are tested. Only the largest quadrilaterals that never moved are
 /// walls.
-inline constexpr std::size_t kMaxOccluderWalls = 32;
+inline constexpr std::size_t kMaxWalls = 32;
 /// Least area of a wall, as a part of the square of the extent of all objects that never moved.
 inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
-struct MeshShapeSummary {
+struct MeshShape {
     Bounds<double> box; ///< box in the mesh's own space
     double radius = 0;  ///< radius of all triangles of the mesh, around the middle of `box`
     std::uint64_t content_hash = 0;
@@ -51,7 +51,7 @@ struct VisibilityObject {
 
 /// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
 /// from movers. Objects that never moved cannot change a capture, so one hash
-/// (`static_content_hash`) covers all of them in content hashes.
+/// (`static_hash`) covers all of them in content hashes.
 class VisibilityScene {
 public:
     /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
@@ -60,50 +60,48 @@ public:
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
     /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
-    /// edit changes `static_content_hash`, and so does another number of objects, material, light
+    /// edit changes `static_hash`, and so does another number of objects, material, light
     /// or environment.
-    void move_to_instant(const scene::Scene& now);
+    void update(const scene::Scene& now);
 
-    const std::vector<VisibilityObject>& list_objects() const { return things_; }
-    const std::vector<std::size_t>& list_mirror_objects() const {
+    const std::vector<VisibilityObject>& objects() const { return things_; }
+    const std::vector<std::size_t>& mirrors() const {
         return mirrors_;
     } ///< indices of the mirrors' objects
-    const std::vector<std::size_t>& list_moving_objects() const {
+    const std::vector<std::size_t>& movers() const {
         return movers_;
-    } ///< indices of the moving objects
-    const std::vector<OccluderWall>& list_occluder_walls() const {
-        return walls_;
-    } ///< walls, the largest first
-    const std::vector<scene::PointLight>& list_point_lights() const { return lights_; }
-    const std::vector<MeshShapeSummary>& list_mesh_shapes() const { return meshes_; }
-    const Bounds<double>& bounds_of_static_objects() const {
+    }                                                         ///< indices of the moving objects
+    const std::vector<Wall>& walls() const { return walls_; } ///< walls, the largest first
+    const std::vector<scene::PointLight>& lights() const { return lights_; }
+    const std::vector<MeshShape>& mesh_shapes() const { return meshes_; }
+    const Bounds<double>& static_bounds() const {
         return still_;
     } ///< bounds of all that never moved
     /// Returns the largest rounding error of a position, in world units.
-    double max_position_rounding_error() const { return rounding_; }
-    std::uint64_t static_content_hash() const {
+    double rounding_error() const { return rounding_; }
+    std::uint64_t static_hash() const {
         return static_hash_;
     } ///< content hash of all that is no mover, and of the lights
     std::uint64_t layout_count() const { return layouts_; } ///< number of calls of set_layout
-    bool has_world_changed() const {
+    bool has_changed() const {
         return has_changed_;
     } ///< whether anything changed since the previous instant
 
 private:
     void set_layout(const scene::Scene& now);
-    bool has_same_object_layout(const scene::Scene& now) const;
-    void move_visibility_object(const scene::Scene& now, std::size_t object);
-    void find_occluder_walls();
-    void update_static_content_hash();
+    bool has_same_layout(const scene::Scene& now) const;
+    void move_object(const scene::Scene& now, std::size_t object);
+    void find_walls();
+    void update_static_hash();
 
-    std::vector<MeshShapeSummary> meshes_;
+    std::vector<MeshShape> meshes_;
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
     std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, static_hash_ = 0, layouts_ = 0;
     std::vector<VisibilityObject> things_;
     std::vector<std::size_t> mirrors_, movers_;
-    std::vector<OccluderWall> walls_;
+    std::vector<Wall> walls_;
     std::vector<scene::PointLight> lights_;
     Bounds<double> still_;
     dvec3 middle_{0};

@@ -12,19 +12,19 @@ namespace catoptric::require {
 namespace {
 
 template <typename Value>
-void hash_value_list(ContentHash& content_hash, const std::vector<Value>& values) {
+void hash_values(ContentHash& content_hash, const std::vector<Value>& values) {
     content_hash.add_values(std::span<const Value>(values));
 }
 
 /// Content hashes of images. Each image is hashed once, even if several materials use it.
-class ContentHashOfImages {
+class ImageHashes {
 public:
     std::uint64_t operator[](const std::shared_ptr<const scene::Image>& image) {
         const auto [entry, is_new] = known_.try_emplace(image.get(), 0);
         if (!is_new || !image) return entry->second;
         ContentHash content_hash;
         content_hash.add(image->size);
-        hash_value_list(content_hash, image->texels);
+        hash_values(content_hash, image->texels);
         return entry->second = content_hash.sum();
     }
 
@@ -33,7 +33,7 @@ private:
 };
 
 void hash_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
-                  ContentHashOfImages& images) {
+                  ImageHashes& images) {
     content_hash.add(texture.has_value());
     if (!texture) return;
     content_hash.add(images[texture->image]).add(texture->wrap_u).add(texture->wrap_v);
@@ -45,16 +45,16 @@ void hash_texture(ContentHash& content_hash, const std::optional<scene::Texture>
 
 std::uint64_t hash_mesh(const scene::Mesh& mesh) {
     ContentHash content_hash;
-    hash_value_list(content_hash, mesh.positions), hash_value_list(content_hash, mesh.normals),
-        hash_value_list(content_hash, mesh.triangles);
-    hash_value_list(content_hash, mesh.uv[0]), hash_value_list(content_hash, mesh.uv[1]),
-        hash_value_list(content_hash, mesh.colours);
+    hash_values(content_hash, mesh.positions), hash_values(content_hash, mesh.normals),
+        hash_values(content_hash, mesh.triangles);
+    hash_values(content_hash, mesh.uv[0]), hash_values(content_hash, mesh.uv[1]),
+        hash_values(content_hash, mesh.colours);
     return content_hash.sum();
 }
 
 std::uint64_t hash_materials(const std::vector<scene::Material>& materials) {
     ContentHash content_hash;
-    ContentHashOfImages images;
+    ImageHashes images;
     const auto add_member = [&](const auto& member) {
         using Member = std::remove_cvref_t<decltype(member)>;
         if constexpr (std::is_same_v<Member, std::optional<scene::Texture>>)
@@ -73,7 +73,7 @@ std::uint64_t hash_environment(const scene::Environment* environment) {
     if (environment == nullptr) return 0;
     ContentHash content_hash(1);
     content_hash.add(environment->studio).add(environment->size);
-    hash_value_list(content_hash, environment->texels);
+    hash_values(content_hash, environment->texels);
     content_hash.add(environment->scale).add(environment->rotation_degrees);
     return content_hash.sum();
 }

@@ -25,7 +25,7 @@ namespace catoptric::gpu {
 struct ExternalDeviceHandles;
 } // namespace catoptric::gpu
 namespace catoptric::require {
-struct RequiredWorkModel;
+struct WorkModel;
 } // namespace catoptric::require
 
 // Functions of engines, sessions and frames for the programs and tests of this tree. The headers
@@ -126,7 +126,7 @@ struct Access {
     /// Returns whether a technique's picture depends on the previous frame.
     static bool does_frame_part_need_previous_frame(const Frame& frame, std::size_t part = 0);
     /// Returns the model of the frame: which work was rendered, and which was left out.
-    static const require::RequiredWorkModel& rendered_model(const Frame& frame);
+    static const require::WorkModel& rendered_model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
     static render::CapturedCubes read_captures(const Frame& frame, std::size_t part = 0);

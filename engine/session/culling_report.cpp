@@ -22,7 +22,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 struct RequiredWorkReport {
     scene::Scene now;
-    require::RequiredWorkModel model;
+    require::WorkModel model;
     require::PlanSuggestion suggestion;
 };
 
@@ -42,9 +42,9 @@ RequiredWorkReport find_required_work(const Request& request, const require::Uni
     RequiredWorkReport required{
         .now = scene::scene_at(request.scene, request.time), .model = {}, .suggestion = {}};
     const scene::Camera camera = scene::camera_at(request.camera, request.time);
-    const require::RequiredWorkModelInput question{required.now, camera, request.size};
+    const require::WorkModelInput question{required.now, camera, request.size};
     required.model = require::make_required_model(question);
-    required.suggestion = require::suggest_technique_plan(question, costs);
+    required.suggestion = require::suggest_plan(question, costs);
     return required;
 }
 
@@ -52,7 +52,7 @@ OrderedJson describe_mirror_as_json(const RequiredWorkReport& required, const st
                                     std::size_t i) {
     const require::MirrorRequirements& needs = required.model.mirrors[i];
     OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
-    if (needs.is_captured) faces = split(require::list_cube_face_names(needs.faces), " ");
+    if (needs.is_captured) faces = split(require::face_names(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
@@ -70,7 +70,7 @@ constexpr const char* kUndrawnReflectionsRemedy =
 
 } // namespace
 
-std::string format_culling_as_text(const Request& request, const require::UnitCostsOfDevice& costs,
+std::string format_culling_as_text(const Request& request, const require::DeviceUnitCosts& costs,
                                    const std::optional<CaptureBudget>& capture_budget) {
     const auto [now, model, suggestion] = find_required_work(request, *costs.costs);
     const std::vector<std::string> names = list_mirror_names(now);
@@ -86,10 +86,10 @@ std::string format_culling_as_text(const Request& request, const require::UnitCo
     for (std::size_t i = 0; i < names.size(); ++i)
         text += "  mirror " + std::to_string(i + 1) + " " + quote(names[i]) + ": " +
                 suggestion.reasons[i] + "\n";
-    return text + require::format_plan_candidates(suggestion.candidates, costs.note);
+    return text + require::format_candidates(suggestion.candidates, costs.note);
 }
 
-std::string format_culling_as_json(const Request& request, const require::UnitCostsOfDevice& costs,
+std::string format_culling_as_json(const Request& request, const require::DeviceUnitCosts& costs,
                                    const std::optional<CaptureBudget>& capture_budget) {
     const RequiredWorkReport required = session::find_required_work(request, *costs.costs);
     const std::vector<std::string> names = list_mirror_names(required.now);

@@ -49,9 +49,7 @@ std::uint32_t Frame::waiting() const {
     return waiting;
 }
 
-const require::RequiredWorkModel& Access::rendered_model(const Frame& frame) {
-    return *frame.impl_->model;
-}
+const require::WorkModel& Access::rendered_model(const Frame& frame) { return *frame.impl_->model; }
 
 measure::Picture Frame::hdr(std::size_t part) const {
     return read_hdr_picture(impl_->graph_runner(), impl_->ticket,

@@ -7,7 +7,7 @@
 
 namespace catoptric::session {
 
-require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device) {
+require::DeviceUnitCosts find_unit_costs_of_device(const DeviceInfo& device) {
     return require::find_unit_costs(device.name, device.driver, device.type == "cpu");
 }
 
@@ -17,7 +17,7 @@ reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scen
     const scene::SceneAtTime at_time(scene, spec.time);
     const scene::Scene& now = *at_time;
     const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
-    const require::PlanSuggestion suggestion = require::suggest_technique_plan(
+    const require::PlanSuggestion suggestion = require::suggest_plan(
         {.now = now, .camera = camera, .size = spec.size},
         *find_unit_costs_of_device(device).costs);
     reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);

@@ -9,11 +9,11 @@
 namespace catoptric::session {
 
 /// Returns the unit costs by which `auto` compares plans for a device.
-require::UnitCostsOfDevice find_unit_costs_of_device(const DeviceInfo& device);
+require::DeviceUnitCosts find_unit_costs_of_device(const DeviceInfo& device);
 
-/// Replaces a plan with `is_auto` by the plan that require::suggest_technique_plan chooses for this
+/// Replaces a plan with `is_auto` by the plan that require::suggest_plan chooses for this
 /// picture and device, with a reason for each mirror. Returns any other plan unchanged. `scene`: at
-/// rest. Costs what require::suggest_technique_plan does.
+/// rest. Costs what require::suggest_plan does.
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
                                          const FrameSpec& spec, const DeviceInfo& device);
 

@@ -57,7 +57,7 @@ void check_frame_spec(const FrameSpec& spec) {
 
 /// Adds the ambient light to the content hashes. It is no part of a scene, but captures depend on
 /// it.
-void hash_ambient_light(require::RequiredWorkModel& model, double ambient) {
+void hash_ambient_light(require::WorkModel& model, double ambient) {
     for (require::MirrorRequirements& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
             for (std::uint64_t& content_hash : *content_hashes)
@@ -141,24 +141,23 @@ graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
     }
 }
 
-const std::shared_ptr<const require::RequiredWorkModel>&
+const std::shared_ptr<const require::WorkModel>&
 Session::Impl::find_required_work_model(const std::vector<reflect::TechniquePlan>& plans,
                                         RenderedWork work, bool is_ablated) {
     if (!have_equal_plans(modelled_plans, plans)) models.clear(), modelled_plans = plans;
-    std::shared_ptr<const require::RequiredWorkModel>& model = models[{work, is_ablated}];
+    std::shared_ptr<const require::WorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
-    require::RequiredWorkModelInput question{scene_at_current_instant(), shown->camera,
-                                             shown->size};
+    require::WorkModelInput question{scene_at_current_instant(), shown->camera, shown->size};
     reflect::add_capture_needs_of_plan(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // look-ups with removed causes read faces that a search
                                        // would never read
     if (work == RenderedWork::required && !requirements) requirements.emplace(scene);
-    require::RequiredWorkModel made = work == RenderedWork::everything
-                                          ? require::make_everything_model(question)
-                                          : requirements->make_work_model_for_request(question);
+    require::WorkModel made = work == RenderedWork::everything
+                                  ? require::make_everything_model(question)
+                                  : requirements->model(question);
     hash_ambient_light(made, shown->ambient);
-    model = std::make_shared<const require::RequiredWorkModel>(std::move(made));
+    model = std::make_shared<const require::WorkModel>(std::move(made));
     return model;
 }
 
@@ -300,7 +299,7 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
     render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
     self.update_device_scene(facts.now);
     facts.transforms = self.transforms;
-    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_required_work_model(
+    const std::shared_ptr<const require::WorkModel> model = self.find_required_work_model(
         plans, spec.model, false);
     std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
                                                          {*model, nullptr, &self.comparisons});

@@ -39,7 +39,7 @@ void check_capture_limit(const FrameSpec& spec) {
 
 std::vector<reflect::PreviousCaptureHistory>
 Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_count,
-                                      const require::RequiredWorkModel& model, bool follows) {
+                                      const require::WorkModel& model, bool follows) {
     std::vector<reflect::PreviousCaptureHistory> keeping(
         plan_count, {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
     for (std::size_t i = 0; i < keeping.size(); ++i)
@@ -93,7 +93,7 @@ void Session::Impl::read_capture_times() {
 }
 
 std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t part,
-                                           const require::RequiredWorkModel& model) const {
+                                           const require::WorkModel& model) const {
     if (spec.keeps_history || !has_capture_limit(spec)) return 0;
     if (spec.budget_ms == 0) return spec.most_captures;
     const auto captured = static_cast<std::uint32_t>(

@@ -59,18 +59,18 @@ struct Session::Impl {
                                           const graph::ExternalSemaphores& outside,
                                           bool counts_work);
     /// Returns the model of the scene at its present instant, for these techniques.
-    const std::shared_ptr<const require::RequiredWorkModel>&
+    const std::shared_ptr<const require::WorkModel>&
     find_required_work_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
                              bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
     std::vector<reflect::PreviousCaptureHistory>
     find_capture_histories(const FrameSpec& spec, std::size_t plan_count,
-                           const require::RequiredWorkModel& model, bool follows);
+                           const require::WorkModel& model, bool follows);
     /// Waits for results of earlier frames that this frame needs.
     void wait_for_needed_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.
     std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
-                                const require::RequiredWorkModel& model) const;
+                                const require::WorkModel& model) const;
     /// Reads how long captures took in the last submitted frame under a budget. Waits for that
     /// frame.
     void read_capture_times();
@@ -91,11 +91,10 @@ struct Session::Impl {
     std::optional<scene::Scene> moved;
     /// Transforms of the objects at the instant of `shown`; null: they must be listed.
     std::shared_ptr<const std::vector<dmat4>> transforms;
-    std::optional<require::RequiredWorkModelBuilder> requirements; ///< computed at first use
+    std::optional<require::WorkModelBuilder> requirements; ///< computed at first use
     /// Models of `shown`, and the plans for which they were made.
     std::vector<reflect::TechniquePlan> modelled_plans;
-    std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::RequiredWorkModel>>
-        models;
+    std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::WorkModel>> models;
     std::optional<graph::SubmittedFrameTicket> last; ///< ticket of the frame submitted last
     /// For each copy of the scene data, the last frame that reads the copy.
     std::vector<std::uint64_t> read_by;
@@ -111,7 +110,7 @@ struct Frame::Impl {
     FrameSpec spec;
     FrameHooks hooks;
     FrameGraph frame;
-    std::shared_ptr<const require::RequiredWorkModel> model;
+    std::shared_ptr<const require::WorkModel> model;
     double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;
     mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
 

@@ -51,7 +51,7 @@ session::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
 }
 
 /// Returns the unit costs of the device that draws, or the default ones if the machine has none.
-require::UnitCostsOfDevice find_unit_costs_for_why(const DeviceOptions& options) {
+require::DeviceUnitCosts find_unit_costs_for_why(const DeviceOptions& options) {
     if (!options.name.empty())
         return session::find_unit_costs_of_device(
             session::Engine(make_engine_options(options)).device());
@@ -60,13 +60,13 @@ require::UnitCostsOfDevice find_unit_costs_for_why(const DeviceOptions& options)
             return session::find_unit_costs_of_device(list.front());
     } catch (const NoDevice&) {
     }
-    require::UnitCostsOfDevice costs;
+    require::DeviceUnitCosts costs;
     costs.note = std::string(costs.costs->file) + ", because this machine has no device";
     return costs;
 }
 
 void print_culling_report(const session::Request& request, session::GraphPlanFormat format,
-                          const require::UnitCostsOfDevice& costs,
+                          const require::DeviceUnitCosts& costs,
                           const std::optional<session::CaptureBudget>& capture_budget) {
     print_result(format == session::GraphPlanFormat::json
                      ? session::format_culling_as_json(request, costs, capture_budget)

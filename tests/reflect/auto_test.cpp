@@ -18,7 +18,7 @@ constexpr uvec2 kAutoPictureSize{64, 64};
 /// Returns the plan that suits the picture on the device of the tests.
 std::string suggest_plan(const scene::Scene& rest) {
     const scene::Scene now = scene::scene_at(rest, 0);
-    return require::suggest_technique_plan(
+    return require::suggest_plan(
                {.now = now, .camera = now.cameras.front(), .size = kAutoPictureSize},
                *session::find_unit_costs_of_device(test::get_test_engine().device()).costs)
         .plan;
@@ -62,7 +62,7 @@ TEST(Auto, ExpectedTimesOfTracedPlansAreThoseOfTheirWork) {
         for (const std::uint64_t seed : {1, 2, 3}) {
             session::FrameSpec spec{.camera = session::make_seeded_camera(rest, 0, seed),
                                     .size = uvec2(256)};
-            const require::PlanSuggestion suggestion = require::suggest_technique_plan(
+            const require::PlanSuggestion suggestion = require::suggest_plan(
                 {.now = now, .camera = spec.camera, .size = spec.size});
             int traced = 0;
             for (const require::PlanCandidate& candidate : suggestion.candidates) {

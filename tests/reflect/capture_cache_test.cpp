@@ -62,7 +62,7 @@ protected:
     render::CaptureComparisonBufferPool comparisons_{
         bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
     graph::GraphRunner runner_{bench_.device, bench_.pipelines};
-    require::RequiredWorkModel model_;
+    require::WorkModel model_;
     std::shared_ptr<render::CaptureCache> kept_;
     std::uint32_t most_ = 0; ///< mirrors whose captures a frame draws again at most; 0: all
     bool learns_ = true;
@@ -92,8 +92,8 @@ TEST_F(CaptureCacheFramesTest, FacesWithAChangedContentHashAreDrawn) {
 TEST_F(CaptureCacheFramesTest, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
     const std::string technique = "parallax:face=32";
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
-    const auto tell = [&](std::uint64_t content_hash, const require::CubeFacePart& part) {
-        const auto pieces = std::make_shared<require::MovingObjectFaceParts>();
+    const auto tell = [&](std::uint64_t content_hash, const require::FacePart& part) {
+        const auto pieces = std::make_shared<require::MovingParts>();
         pieces->faces[5] = {{content_hash, part}};
         model_.mirrors[0].pieces = pieces;
         model_.mirrors[0].content_hashes[5] += 1;
@@ -190,7 +190,7 @@ TEST_F(CaptureCacheFramesTest, FacesThatNobodyReadsAreCleared) {
         return byte == std::byte{0} || byte == std::byte{0x3c}; // half floats of black with alpha 1
     }));
     render_until_captures_are_kept();
-    model_.mirrors[1].faces = require::kAllCubeFaceBits;
+    model_.mirrors[1].faces = require::kAllFaces;
     const Names names = render_and_list_passes();
     EXPECT_TRUE(std::ranges::find(names, "capture/2.4-6") != names.end()) << "now they are";
     render_until_captures_are_kept();

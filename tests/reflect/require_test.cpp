@@ -47,7 +47,7 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
     int stays = 0, changes = 0;
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         const scene::Scene scene = make_hall_of_seed(seed);
-        require::RequiredWorkModelBuilder requirements(scene);
+        require::WorkModelBuilder requirements(scene);
         session::Session session(test::get_test_engine(), scene);
         session::FrameSpec frame_spec{
             .techniques = {"parallax:face=" + std::to_string(kRequireFaceTexels) +
@@ -57,7 +57,7 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
         const auto at = [&](double seconds) {
             frame_spec.time = seconds;
             const scene::Scene now = scene::scene_at(scene, seconds);
-            const require::RequiredWorkModel model = requirements.make_work_model_for_request(
+            const require::WorkModel model = requirements.model(
                 {now, frame_spec.camera, frame_spec.size, kRequireShadowMapEdge});
             return std::pair(model.mirrors[0],
                              session::Access::read_captures(session::Access::render_frame(
@@ -96,10 +96,9 @@ TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
                 continue; // skip the other cameras, because the gallery takes long
             const scene::Camera now = scene::camera_at(camera, 0);
             const scene::Scene at_rest = scene::scene_at(scene, 0);
-            const require::RequiredWorkModel model = require::make_required_model(
-                {at_rest, now, {64, 48}});
+            const require::WorkModel model = require::make_required_model({at_rest, now, {64, 48}});
             for (const require::MirrorRequirements& needs : model.mirrors)
-                left_out += needs.faces != require::kAllCubeFaceBits ? 1 : 0;
+                left_out += needs.faces != require::kAllFaces ? 1 : 0;
             for (const char* technique :
                  {"parallax:face=32", "secant:face=32", "pyramid:face=32"}) {
                 SCOPED_TRACE(scene.name + " " + camera.name + " " + technique);

@@ -35,9 +35,9 @@ bool do_passes_draw_captures(const Names& names) {
 
 const Names kSettledPassNames{"view", "compose"};
 
-bool does_model_need_all_faces(const require::RequiredWorkModel& model) {
+bool does_model_need_all_faces(const require::WorkModel& model) {
     return std::ranges::all_of(model.mirrors, [](const require::MirrorRequirements& mirror) {
-        return mirror.is_captured && mirror.faces == require::kAllCubeFaceBits;
+        return mirror.is_captured && mirror.faces == require::kAllFaces;
     });
 }
 
@@ -98,7 +98,7 @@ public:
     session::SessionCounters counters_of_required_session() const {
         return session::Access::session_counters(few_);
     }
-    const require::RequiredWorkModel& last_required_model() const {
+    const require::WorkModel& last_required_model() const {
         return model_;
     } ///< model of the last frame
 
@@ -121,7 +121,7 @@ private:
     }
 
     session::Session all_, few_;
-    require::RequiredWorkModel model_;
+    require::WorkModel model_;
     int number_ = 0;
 };
 

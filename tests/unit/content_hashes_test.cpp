@@ -25,18 +25,17 @@ constexpr std::uint32_t kShadowMapEdgeTexels = 1024;
 class RequirementsAtInstants {
 public:
     explicit RequirementsAtInstants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
-    RequiredWorkModel required_work_model_at_time(double seconds) {
+    WorkModel required_work_model_at_time(double seconds) {
         const scene::Scene now = scene::scene_at(rest_, seconds);
-        return requirements_.make_work_model_for_request(
-            {now, rest_.cameras[0], {64, 64}, kShadowMapEdgeTexels});
+        return requirements_.model({now, rest_.cameras[0], {64, 64}, kShadowMapEdgeTexels});
     }
 
 private:
     const scene::Scene& rest_;
-    RequiredWorkModelBuilder requirements_;
+    WorkModelBuilder requirements_;
 };
 
-int count_unchanged_faces(const RequiredWorkModel& before, const RequiredWorkModel& after) {
+int count_unchanged_faces(const WorkModel& before, const WorkModel& after) {
     int count = 0;
     for (std::size_t i = 0; i < after.mirrors.size(); ++i)
         for (std::size_t face = 0; face < 6; ++face)
@@ -49,10 +48,10 @@ int count_unchanged_faces(const RequiredWorkModel& before, const RequiredWorkMod
 TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
     const scene::Scene scene = scene::make_cornell();
     RequirementsAtInstants instants(scene);
-    const RequiredWorkModel first = instants.required_work_model_at_time(0),
-                            second = instants.required_work_model_at_time(0),
-                            elsewhere = instants.required_work_model_at_time(1),
-                            again = instants.required_work_model_at_time(1);
+    const WorkModel first = instants.required_work_model_at_time(0),
+                    second = instants.required_work_model_at_time(0),
+                    elsewhere = instants.required_work_model_at_time(1),
+                    again = instants.required_work_model_at_time(1);
     EXPECT_EQ(count_unchanged_faces(first, second), 24);
     EXPECT_EQ(count_unchanged_faces(elsewhere, again), 24);
     EXPECT_EQ(first.lights[0].content_hash, second.lights[0].content_hash);
@@ -66,10 +65,10 @@ TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
 TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
     const scene::Scene scene = scene::make_cornell();
     RequirementsAtInstants instants(scene);
-    RequiredWorkModel before = instants.required_work_model_at_time(0);
+    WorkModel before = instants.required_work_model_at_time(0);
     int stays = 0;
     for (int frame = 1; frame <= 20; ++frame) {
-        const RequiredWorkModel after = instants.required_work_model_at_time(.1 * frame);
+        const WorkModel after = instants.required_work_model_at_time(.1 * frame);
         stays += count_unchanged_faces(before, after);
         for (std::size_t face = 0; face < 6; ++face)
             // The moving ball's own capture changes.
@@ -84,18 +83,17 @@ TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
 TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
     const scene::Scene rest = scene::make_cornell();
     scene::Scene scene = rest;
-    RequiredWorkModelBuilder requirements(scene);
+    WorkModelBuilder requirements(scene);
     const auto model = [&] {
-        return RequiredWorkModel(
-            requirements.make_work_model_for_request({scene, scene.cameras[0], {64, 64}}));
+        return WorkModel(requirements.model({scene, scene.cameras[0], {64, 64}}));
     };
-    const RequiredWorkModel first = model();
+    const WorkModel first = model();
     scene.materials[3].emission = {1, 1, 1};
-    const RequiredWorkModel dimmed = model();
+    const WorkModel dimmed = model();
     EXPECT_EQ(count_unchanged_faces(first, dimmed), 0);
     EXPECT_NE(first.lights[0].content_hash, dimmed.lights[0].content_hash);
     scene.materials[0].albedo = {.1f, .1f, .1f};
-    const RequiredWorkModel painted = model();
+    const WorkModel painted = model();
     EXPECT_EQ(count_unchanged_faces(dimmed, painted), 0);
     EXPECT_EQ(count_unchanged_faces(painted, model()), 24);
     scene.materials[3].emission = vec3(0);
@@ -104,7 +102,7 @@ TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
     EXPECT_EQ(count_unchanged_faces(painted, model()), 24);
     // Edits the floor, which has no motion.
     scene.objects[0].world_from_object[3].y = -1;
-    const RequiredWorkModel lowered = model();
+    const WorkModel lowered = model();
     EXPECT_EQ(count_unchanged_faces(painted, lowered), 0);
     EXPECT_EQ(count_unchanged_faces(lowered, model()), 24);
     scene.punctual.push_back({.name = "bare", .intensity = vec3(1)});
@@ -124,8 +122,8 @@ TEST(RequireStamps, ApproachingBlockChangesOnlyTheFaceThatShowsTheBlock) {
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.5, 0, 0}, .period = 1};
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     RequirementsAtInstants instants(scene);
-    const RequiredWorkModel before = instants.required_work_model_at_time(.1),
-                            after = instants.required_work_model_at_time(.2);
+    const WorkModel before = instants.required_work_model_at_time(.1),
+                    after = instants.required_work_model_at_time(.2);
     // Five faces keep their hash: all but face +X.
     EXPECT_EQ(count_unchanged_faces(before, after), 5);
     EXPECT_NE(before.mirrors[0].content_hashes[0], after.mirrors[0].content_hashes[0]);
@@ -136,14 +134,14 @@ TEST(RequireShadows, ShadowBoundsFollowTheLight) {
     scene::PointLight light{.position = {0, 10, 0}};
     // The shadow of the object's top reaches the floor at 2.5 times the top's distance from the
     // lamp.
-    const ShadowedVolume below = compute_shadowed_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    const ShadowedVolume below = shadowed_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(below.from.hi, dvec3(1, 6, 1));
     EXPECT_EQ(below.to.hi, dvec3(2.5, 0, 2.5));
     EXPECT_EQ(below.to.lo, dvec3(-2.5, -2.5, -2.5));
     // An object around the lamp may shade any place of the room.
-    EXPECT_EQ(compute_shadowed_volume(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
+    EXPECT_EQ(shadowed_volume(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
     light = {.axis = {0, -1, 0}, .directional = true};
-    const ShadowedVolume along = compute_shadowed_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    const ShadowedVolume along = shadowed_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(along.to.lo, dvec3(-1, -1, -1));
     EXPECT_EQ(along.to.hi, dvec3(1, 0, 1));
 }
@@ -181,14 +179,13 @@ std::vector<std::vector<double>> results_of_rays_through_face(const test::Object
 }
 
 /// Counts rays whose results differ between two times, but that lie outside the part of the face
-/// that `find_changed_face_part` reports.
+/// that `find_changed_part` reports.
 int count_changed_rays_outside_part(const MirrorRequirements& before,
                                     const MirrorRequirements& after, int face,
                                     const std::vector<std::vector<double>>& then,
                                     const std::vector<std::vector<double>>& now) {
     const auto f = static_cast<std::size_t>(face);
-    const CubeFacePart part = find_changed_face_part(before.pieces->faces[f],
-                                                     after.pieces->faces[f]);
+    const FacePart part = find_changed_part(before.pieces->faces[f], after.pieces->faces[f]);
     int count = 0;
     for (int k = 0; k < kRaysAlongFaceEdge * kRaysAlongFaceEdge; ++k) {
         const dvec2 at(f64::cube_coordinates(face, face_ray_direction(face, k)));
@@ -208,8 +205,8 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
         scene.objects[mover].motion = scene::HarmonicMotion{
             .amplitude = dvec3(numbers.random_unit_direction()), .period = 2};
         RequirementsAtInstants instants(scene);
-        const RequiredWorkModel before = instants.required_work_model_at_time(.2),
-                                after = instants.required_work_model_at_time(.5);
+        const WorkModel before = instants.required_work_model_at_time(.2),
+                        after = instants.required_work_model_at_time(.5);
         const scene::Scene then = scene::scene_at(scene, .2), now = scene::scene_at(scene, .5);
         const test::ObjectRayCaster old_tree(then), new_tree(now);
         const std::vector<std::size_t> mirrors = scene::mirrors(scene);

@@ -18,21 +18,21 @@ dvec2 face_coordinates_of_point(int face, const dvec3& place) {
     return dvec2(coordinates) / coordinates.z;
 }
 
-bool does_face_part_hold_place(const CubeFacePart& part, const dvec2& at) {
+bool does_face_part_hold_place(const FacePart& part, const dvec2& at) {
     return all(lessThanEqual(part.low, at + 1e-12)) && all(lessThanEqual(at, part.high + 1e-12));
 }
 
 TEST(Pieces, FacePartOfABoxInFrontSpansItsCorners) {
     // Face +X has -Z on its right and -Y below. The box lies 2 to 4 in front of the centre, and its
     // near side looks larger than its far side.
-    const CubeFacePart part = face_part_containing(0, {{2, -.5, .2}, {4, .5, 1}});
+    const FacePart part = face_part_containing(0, {{2, -.5, .2}, {4, .5, 1}});
     EXPECT_EQ(part.low, dvec2(-.5, -.25));
     EXPECT_EQ(part.high, dvec2(-.05, .25));
     // A box that reaches beyond the edge of the face gives a rectangle that ends at the edge.
     EXPECT_EQ(face_part_containing(0, {{2, -.5, .2}, {4, .5, 3}}).low, dvec2(-1, -.25));
     // The rectangle of two boxes holds their hull, so also the space between the boxes.
-    const CubeFacePart both = face_part_containing(0, {{2, -.5, .2}, {4, .5, 1}},
-                                                   {{2, 1, -1}, {2, 1, -1}});
+    const FacePart both = face_part_containing(0, {{2, -.5, .2}, {4, .5, 1}},
+                                               {{2, 1, -1}, {2, 1, -1}});
     EXPECT_EQ(both.low, dvec2(-.5, -.5));
     EXPECT_EQ(both.high, dvec2(.5, .25));
 }
@@ -42,10 +42,10 @@ TEST(Pieces, FacePartIsEmptyForABoxElsewhereAndWholeForABoxAround) {
     for (int face = 1; face < 6; ++face)
         EXPECT_TRUE(face_part_containing(face, right).is_empty()) << face;
     for (int face = 0; face < 6; ++face)
-        EXPECT_TRUE(face_part_containing(face, {dvec3(-1), dvec3(2)}).is_whole_face()) << face;
+        EXPECT_TRUE(face_part_containing(face, {dvec3(-1), dvec3(2)}).is_whole()) << face;
     // A floor that passes below the centre covers the whole width of the face, from below the
     // horizon to the lower edge.
-    const CubeFacePart floor = face_part_containing(0, {{-3, -1.5, -9}, {6, -1, 9}});
+    const FacePart floor = face_part_containing(0, {{-3, -1.5, -9}, {6, -1, 9}});
     EXPECT_EQ(floor.low, dvec2(-1, 1 / 6.));
     EXPECT_EQ(floor.high, dvec2(1));
 }
@@ -65,9 +65,9 @@ TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
             box = {middle - half, middle + half};
         }
         for (int face = 0; face < 6; ++face) {
-            const CubeFacePart one = face_part_containing(face, boxes[0]),
-                               both = face_part_containing(face, boxes[0], boxes[1]);
-            partly += !one.is_empty() && !one.is_whole_face() ? 1 : 0;
+            const FacePart one = face_part_containing(face, boxes[0]),
+                           both = face_part_containing(face, boxes[0], boxes[1]);
+            partly += !one.is_empty() && !one.is_whole() ? 1 : 0;
             for (int i = 0; i < 40; ++i) {
                 std::array<dvec3, 2> at;
                 for (std::size_t box = 0; box < 2; ++box)
@@ -88,22 +88,19 @@ TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
 }
 
 TEST(Pieces, DifferingPartHoldsPiecesOfOnlyOneState) {
-    const CubeFacePart a{dvec2(-1), dvec2(-.5)}, b{dvec2(0), dvec2(.25)}, c{dvec2(.5), dvec2(.75)};
-    const auto states = [](std::vector<MovingObjectFacePart> before,
-                           std::vector<MovingObjectFacePart> after) {
-        MovingObjectFaceParts old, now;
+    const FacePart a{dvec2(-1), dvec2(-.5)}, b{dvec2(0), dvec2(.25)}, c{dvec2(.5), dvec2(.75)};
+    const auto states = [](std::vector<MovingPart> before, std::vector<MovingPart> after) {
+        MovingParts old, now;
         old.faces[2] = std::move(before), now.faces[2] = std::move(after);
-        old.sort_moving_face_pieces(), now.sort_moving_face_pieces();
-        return find_changed_face_part(old.faces[2], now.faces[2]);
+        old.sort(), now.sort();
+        return find_changed_part(old.faces[2], now.faces[2]);
     };
     EXPECT_TRUE(states({}, {}).is_empty());
     EXPECT_TRUE(states({{9, a}, {4, b}}, {{4, b}, {9, a}}).is_empty());
     EXPECT_EQ(states({{9, a}, {4, b}}, {{4, b}}), a) << "it has gone";
     EXPECT_EQ(states({{4, b}}, {{4, b}, {9, c}}), c) << "it has come";
-    EXPECT_EQ(states({{4, b}}, {{5, c}}), unite_face_parts(b, c))
-        << "both, where it was and where it is";
-    EXPECT_EQ(states({{4, b}}, {{4, c}}), unite_face_parts(b, c))
-        << "the shadow of what stays, elsewhere";
+    EXPECT_EQ(states({{4, b}}, {{5, c}}), unite(b, c)) << "both, where it was and where it is";
+    EXPECT_EQ(states({{4, b}}, {{4, c}}), unite(b, c)) << "the shadow of what stays, elsewhere";
     EXPECT_EQ(states({{4, b}, {4, b}, {4, c}}, {{4, b}, {4, c}}), b) << "one of two alike";
 }
 

@@ -40,7 +40,7 @@ UnitCosts make_costs_with_dear_rays() {
 TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     const auto suggest = [](const scene::Scene& rest) {
         const scene::Scene now = scene::scene_at(rest, 0);
-        return suggest_technique_plan({now, now.cameras[0], {96, 96}});
+        return suggest_plan({now, now.cameras[0], {96, 96}});
     };
     const auto plan = [&](const scene::Scene& rest) {
         const PlanSuggestion suggestion = suggest(rest);
@@ -65,9 +65,9 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
 TEST(RequireSuggest, CostsOfTheDeviceDecideBetweenRaysAndCaptures) {
     for (const char* name : {"flat", "room"}) {
         const scene::Scene now = scene::scene_at(scene::load(name), 0);
-        const RequiredWorkModelInput question{now, now.cameras[0], {96, 96}};
-        const PlanSuggestion cheap = suggest_technique_plan(question),
-                             dear = suggest_technique_plan(question, make_costs_with_dear_rays());
+        const WorkModelInput question{now, now.cameras[0], {96, 96}};
+        const PlanSuggestion cheap = suggest_plan(question),
+                             dear = suggest_plan(question, make_costs_with_dear_rays());
         EXPECT_THAT(cheap.plan, testing::StartsWith("raytrace")) << name;
         EXPECT_THAT(dear.plan, testing::Not(HasSubstr("raytrace"))) << name;
         std::vector<std::string> names;
@@ -86,12 +86,12 @@ TEST(RequireSuggest, RoughMirrorsAreTracedByRaysOfTheirLobes) {
     material.mirror = false, material.metallic = 1, material.roughness = .3f;
     material.albedo = vec3(.9f);
     scene::find_mirrors(scene);
-    const PlanSuggestion suggestion = suggest_technique_plan({scene, scene.cameras[0], {96, 96}});
+    const PlanSuggestion suggestion = suggest_plan({scene, scene.cameras[0], {96, 96}});
     const auto error_of = [&](const char* name) {
         const auto found = std::ranges::find(suggestion.candidates, name, &PlanCandidate::name);
         return found == suggestion.candidates.end() ? NAN : found->error;
     };
-    const TechniqueErrorTable errors;
+    const TechniqueErrors errors;
     EXPECT_NEAR(error_of("raytrace:depth=4,rays=1"), errors.one_rough_ray, 1e-9);
     EXPECT_NEAR(error_of("raytrace:depth=4,rays=4"), errors.four_rough_rays, 1e-9);
     EXPECT_GT(best_without_tracing(suggestion).error, errors.four_rough_rays);
@@ -100,7 +100,7 @@ TEST(RequireSuggest, RoughMirrorsAreTracedByRaysOfTheirLobes) {
 /// The number of rays that auto predicts is the number that the ray tracer traces.
 TEST(RequireSuggest, RaysOfAPictureAreCounted) {
     const scene::Scene scene = test::make_mirror_hall();
-    const MirrorPathCounts paths = trace_mirror_paths({scene, scene.cameras[0], {64, 64}});
+    const PathCounts paths = trace_paths({scene, scene.cameras[0], {64, 64}});
     EXPECT_EQ(paths.camera.rays, 64 * 64);
     double reflections = 0;
     for (const auto& [path, count] : paths.through)
@@ -160,17 +160,16 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
     test::add_quad(scene, "hidden", mirror, {-1.6, .5, -.5}, {-1.4, .5, -.5}, {-1.4, .7, -.5},
                    {-1.6, .7, -.5});
     scene.cameras[0].eye = {-1.5, .6, -2.9}, scene.cameras[0].target = {-.5, -.2, 0};
-    const RequiredWorkModelInput question{scene, scene.cameras[0], {64, 64}};
-    const MirrorPathCounts paths = trace_mirror_paths(question);
+    const WorkModelInput question{scene, scene.cameras[0], {64, 64}};
+    const PathCounts paths = trace_paths(question);
     EXPECT_EQ(paths.count, 64u * 64);
     EXPECT_GT(paths.first[2], 100u);
     EXPECT_EQ(paths.first[3], 0u);
     std::size_t on_mirrors = 0;
     for (const auto& [path, count] : paths.through)
         if (path.size() == 1) on_mirrors += count;
-    EXPECT_EQ(on_mirrors, paths.count_paths_on_mirrors());
-    const MirrorPathCounts open = trace_mirror_paths(
-        {scene, test::make_mirror_hall().cameras[0], {64, 64}});
+    EXPECT_EQ(on_mirrors, paths.on_mirrors());
+    const PathCounts open = trace_paths({scene, test::make_mirror_hall().cameras[0], {64, 64}});
     EXPECT_GT(open.reached[0], open.first[0]) << "the ball is also seen in the others";
     EXPECT_GT(open.hidden[0], 0u) << "of what it shows its centre does not see all";
     EXPECT_LT(open.hidden[0], open.first[0] / 4);
@@ -189,14 +188,14 @@ TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
             for (int face = 0; face < 6; ++face)
                 add_mesh(scene, test::make_box_wall(face, {.8, 1, -2.1}, {1, 1.2, -1.9}),
                          test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}));
-        const RequiredWorkModelInput question{scene, scene.cameras[0], {64, 64}};
-        MirrorPathCounts paths = trace_mirror_paths(question);
+        const WorkModelInput question{scene, scene.cameras[0], {64, 64}};
+        PathCounts paths = trace_paths(question);
         const std::size_t through = paths.through[{0, 1}], hidden = paths.hidden_after[{0, 1}];
         EXPECT_EQ(paths.first[1], 0u) << "the ball is seen in the flat mirror alone";
         EXPECT_GT(through, 60u);
         EXPECT_LE(hidden, is_walled_in ? through : through / 4);
         EXPECT_GE(hidden, is_walled_in ? through : 0);
-        const PlanSuggestion suggestion = suggest_technique_plan(question);
+        const PlanSuggestion suggestion = suggest_plan(question);
         EXPECT_EQ(best_without_tracing(suggestion).techniques.front(),
                   is_walled_in ? "hybrid" : "planar");
     }
@@ -210,8 +209,8 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     test::add_mesh(scene, bent, mirror);
     for (vec3& normal : scene.meshes.back().normals) normal = normalize(vec3(.005f, 0, -1));
     test::add_ball(scene, "outside", mirror, {0, 0, 9}, .5, 2);
-    const PlanSuggestion suggestion = suggest_technique_plan({scene, scene.cameras[0], {96, 96}},
-                                                             make_costs_with_dear_rays());
+    const PlanSuggestion suggestion = suggest_plan({scene, scene.cameras[0], {96, 96}},
+                                                   make_costs_with_dear_rays());
     EXPECT_THAT(suggestion.reasons,
                 ElementsAre(HasSubstr(": a sphere, "), HasSubstr("planar: flat faces, "),
                             HasSubstr("planar: flat, "), HasSubstr("march: curved, "),
@@ -220,12 +219,12 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     ASSERT_EQ(suggestion.candidates.size(), 4u);
     EXPECT_THAT(suggestion.candidates[0].name, HasSubstr("planar, "));
     EXPECT_LT(suggestion.candidates[0].error, suggestion.candidates[1].error);
-    EXPECT_THAT(format_plan_candidates(suggestion.candidates, "h200, fitted, for this device"),
+    EXPECT_THAT(format_candidates(suggestion.candidates, "h200, fitted, for this device"),
                 testing::AllOf(HasSubstr(" (chosen)\n"),
                                HasSubstr("  raytrace:first=raster: predicted "),
                                HasSubstr("  why: least score, which is the time times (1 + FLIP / "
                                          "0.005); unit costs: h200, fitted, for this device\n")));
-    EXPECT_EQ(suggest_technique_plan({test::make_lit_room(0, 1), scene.cameras[0]}).plan, "hybrid");
+    EXPECT_EQ(suggest_plan({test::make_lit_room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
 
 TEST(RequireSuggest, UnseenMirrorCostsOneSmallCapture) {
@@ -236,13 +235,13 @@ TEST(RequireSuggest, UnseenMirrorCostsOneSmallCapture) {
         const std::size_t grey = test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}),
                           material = is_mirror ? scene.objects.back().material : grey;
         test::add_ball(scene, "outside", material, {0, 0, 9}, .5, 2);
-        const RequiredWorkModelInput question{scene, scene.cameras[0], {96, 96}};
-        const PlanSuggestion suggestion = suggest_technique_plan(question);
+        const WorkModelInput question{scene, scene.cameras[0], {96, 96}};
+        const PlanSuggestion suggestion = suggest_plan(question);
         const PlanCandidate& best = best_without_tracing(suggestion);
         ASSERT_EQ(best.plan,
                   is_mirror ? "1=march 2,3=planar 4=reuse:face=64" : "1=march 2,3=planar");
         costs.at(is_mirror ? 1 : 0) = best.ms;
-        const PictureCounts picture = count_picture(question, trace_mirror_paths(question));
+        const PictureCounts picture = count_picture(question, trace_paths(question));
         FrameWork with(picture);
         with.add_capture(64, false, false);
         capture = predict_ms(with.work(), default_unit_costs()) -
@@ -254,15 +253,15 @@ TEST(RequireSuggest, UnseenMirrorCostsOneSmallCapture) {
 /// Tests drawn views of the four balls of the built-in scene. In some views, the capture of a ball
 /// shows all that the ball reflects, in others nearly all or less.
 TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
-    const TechniqueErrorTable errors;
+    const TechniqueErrors errors;
     const double most = .1 * errors.search / (errors.unknown - errors.search);
     bool is_traced = false, is_searched = false;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const scene::Scene scene = scene::scene_at(scene::make_cornell(), 0);
         const scene::Camera camera = session::make_seeded_camera(scene, 0, seed);
-        const RequiredWorkModelInput question{scene, camera, {96, 96}};
-        const MirrorPathCounts paths = trace_mirror_paths(question);
-        const PlanSuggestion suggestion = suggest_technique_plan(question);
+        const WorkModelInput question{scene, camera, {96, 96}};
+        const PathCounts paths = trace_paths(question);
+        const PlanSuggestion suggestion = suggest_plan(question);
         for (std::size_t i = 0; i < 4; ++i) {
             const std::string& technique = best_without_tracing(suggestion).techniques[i];
             if (technique.starts_with("reuse")) continue;
@@ -281,8 +280,7 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
 TEST(RequireSuggest, PlanarPlansUseSmallCaptures) {
     scene::Scene scene = test::make_mirror_hall();
     const auto plan = [&] {
-        return best_without_tracing(suggest_technique_plan({scene, scene.cameras[0], {96, 96}}))
-            .plan;
+        return best_without_tracing(suggest_plan({scene, scene.cameras[0], {96, 96}})).plan;
     };
     EXPECT_EQ(plan(), "1=march 2,3=planar");
     scene.objects.erase(scene.objects.begin() +

@@ -75,7 +75,7 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
 /// Returns whether a picture of the built-in scene by the technique requires complete captures.
 bool does_technique_read_all_captures(const std::string& technique) {
     const scene::Scene room = scene::make_cornell();
-    require::RequiredWorkModelInput question{.now = room, .camera = room.cameras.front()};
+    require::WorkModelInput question{.now = room, .camera = room.cameras.front()};
     reflect::add_capture_needs_of_plan(question, {reflect::parse_plan(technique)});
     return question.asks_all;
 }
