@@ -35,7 +35,7 @@ glm::mat4 make_clip_from_scene_matrix(const shared::View& view) {
 
 } // namespace
 
-CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::GpuDevice& device,
+CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::Device& device,
                                                            gpu::PipelineStore& pipelines,
                                                            const session::Request& request,
                                                            std::uint32_t face)
@@ -75,11 +75,10 @@ void CubeCapturePrototypeRenderer::add_scene(const session::Request& request) {
     frame.light_normal = vec4(vec3(light.normal), kNearDistance);
     frame.intensity = vec4(
         light.emission * static_cast<float>(light.area * space.scale * space.scale), 0);
-    gpu::upload_to_buffer(peer_device_, vertices_, "vertices", geometry_.vertices,
-                          BufferUsage::vertex);
-    gpu::upload_to_buffer(peer_device_, indices_, "indices", geometry_.indices, BufferUsage::index);
-    gpu::upload_to_buffer(peer_device_, frame_, "frame", std::vector<FrameUniforms>{frame},
-                          BufferUsage::uniform);
+    gpu::upload(peer_device_, vertices_, "vertices", geometry_.vertices, BufferUsage::vertex);
+    gpu::upload(peer_device_, indices_, "indices", geometry_.indices, BufferUsage::index);
+    gpu::upload(peer_device_, frame_, "frame", std::vector<FrameUniforms>{frame},
+                BufferUsage::uniform);
 }
 
 void CubeCapturePrototypeRenderer::make_images(uvec2 size) {
@@ -99,8 +98,8 @@ void CubeCapturePrototypeRenderer::make_images(uvec2 size) {
     picture_ = view_.view(kOne);
     view_depth_ = GeneralLayoutVulkanImage(peer_device_, TexelFormat::d32f, size, 1, kDepthUsage);
     picture_depth_ = view_depth_.view(kOne);
-    pixels_ = gpu::GpuBuffer(peer_device_, "pixels", sizeof(vec4) * size.x * size.y,
-                             BufferUsage::read_back);
+    pixels_ = gpu::Buffer(peer_device_, "pixels", sizeof(vec4) * size.x * size.y,
+                          BufferUsage::read_back);
     const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
     for (std::size_t i = 0; i < 2; ++i) {
         cubes_[i] = {GeneralLayoutVulkanImage(peer_device_, TexelFormat::rgba16f, uvec2(face_),
@@ -122,7 +121,7 @@ void CubeCapturePrototypeRenderer::make_programs(gpu::PipelineStore& pipelines) 
     constexpr gpu::TriangleWinding kBackFaceWinding = gpu::TriangleWinding::clockwise,
                                    kAwayInFaces = gpu::TriangleWinding::counterclockwise;
     const auto state = [](const char* fragment, gpu::TriangleWinding hidden) {
-        return gpu::RasterPipelineState{"peers/surface.vert", fragment, {}, hidden};
+        return gpu::RasterState{"peers/surface.vert", fragment, {}, hidden};
     };
     for (std::size_t i = 0; i < 2; ++i) {
         const VkImageViewType cubes = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
@@ -133,8 +132,7 @@ void CubeCapturePrototypeRenderer::make_programs(gpu::PipelineStore& pipelines) 
             {"distances", {nullptr, cubes_[i].distance.view(cubes, 0, layers), linear_}}};
         const auto bind = [&](const char* fragment, gpu::TriangleWinding hidden,
                               const gpu::AttachmentFormats& to) {
-            return sets_.bind(pipelines.find_or_make_raster_pipeline(state(fragment, hidden), to),
-                              resources);
+            return sets_.bind(pipelines.raster_pipeline(state(fragment, hidden), to), resources);
         };
         capture_[i] = {bind("peers/diffuse.frag", gpu::TriangleWinding::none, faces),
                        bind("peers/mirror.frag", kAwayInFaces, faces)};
@@ -219,31 +217,29 @@ void CubeCapturePrototypeRenderer::draw_surfaces(VkCommandBuffer commands,
 
 void CubeCapturePrototypeRenderer::draw() {
     const std::size_t now = ++frame_number_ % 2, before = 1 - now;
-    peer_device_.submit_one_time_commands(
-        "draw the prototype's frame", [&](VkCommandBuffer commands) {
-            const VkDeviceSize zero = 0;
-            const VkBuffer vertices = vertices_.buffer_handle();
-            vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
-            vkCmdBindIndexBuffer(commands, indices_.buffer_handle(), 0, VK_INDEX_TYPE_UINT32);
-            draw_shadows(commands);
-            for (std::uint32_t i = 0; i < mirrors_.size(); ++i)
-                record_rendering_scope(
-                    commands, depth_.image_extent(), 6,
-                    {make_cleared_attachment(faces_[now][i][0], 0),
-                     make_cleared_attachment(faces_[now][i][1], kNoSurfaceDistance)},
-                    make_cleared_attachment(depth_faces_, 0, false),
-                    [&] { draw_surfaces(commands, capture_[before], 1 + 6 * i, 6, mirrors_[i]); });
+    peer_device_.run_commands("draw the prototype's frame", [&](VkCommandBuffer commands) {
+        const VkDeviceSize zero = 0;
+        const VkBuffer vertices = vertices_.handle();
+        vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+        vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
+        draw_shadows(commands);
+        for (std::uint32_t i = 0; i < mirrors_.size(); ++i)
             record_rendering_scope(
-                commands, view_.image_extent(), 1, {make_cleared_attachment(picture_, 0)},
-                make_cleared_attachment(picture_depth_, 0, false),
-                [&] { draw_surfaces(commands, camera_[now], 0, 1, geometry_.ranges.size()); });
-        });
+                commands, depth_.image_extent(), 6,
+                {make_cleared_attachment(faces_[now][i][0], 0),
+                 make_cleared_attachment(faces_[now][i][1], kNoSurfaceDistance)},
+                make_cleared_attachment(depth_faces_, 0, false),
+                [&] { draw_surfaces(commands, capture_[before], 1 + 6 * i, 6, mirrors_[i]); });
+        record_rendering_scope(
+            commands, view_.image_extent(), 1, {make_cleared_attachment(picture_, 0)},
+            make_cleared_attachment(picture_depth_, 0, false),
+            [&] { draw_surfaces(commands, camera_[now], 0, 1, geometry_.ranges.size()); });
+    });
 }
 
 std::vector<PeerVector3> CubeCapturePrototypeRenderer::read() {
-    peer_device_.submit_one_time_commands(
-        "read the prototype's picture",
-        [&](VkCommandBuffer commands) { view_.copy(commands, pixels_); });
+    peer_device_.run_commands("read the prototype's picture",
+                              [&](VkCommandBuffer commands) { view_.copy(commands, pixels_); });
     return read_texel_colours_from_buffer(pixels_);
 }
 

@@ -15,7 +15,7 @@ namespace peers {
 class CubeCapturePrototypeRenderer {
 public:
     /// Sets up the request's scene. `face` is the edge of the captures' faces, texels.
-    CubeCapturePrototypeRenderer(catoptric::gpu::GpuDevice& device,
+    CubeCapturePrototypeRenderer(catoptric::gpu::Device& device,
                                  catoptric::gpu::PipelineStore& pipelines,
                                  const catoptric::session::Request& request, std::uint32_t face);
 
@@ -51,14 +51,14 @@ private:
     void draw_surfaces(VkCommandBuffer commands, const PrototypeGraphicsPipelines& programs,
                        std::uint32_t first_view, std::uint32_t layers, std::size_t except) const;
 
-    catoptric::gpu::GpuDevice& peer_device_;
+    catoptric::gpu::Device& peer_device_;
     std::uint32_t face_;
     catoptric::render::FrameGeometry geometry_;
     std::vector<PrototypeMaterial> materials_; ///< material of each object
     std::vector<std::size_t> mirrors_;         ///< indices of the objects that are mirrors
     std::vector<catoptric::shared::View>
         views_; ///< views in the order of Frame in shaders/draw.glsl
-    catoptric::gpu::GpuBuffer vertices_, indices_, frame_, pixels_;
+    catoptric::gpu::Buffer vertices_, indices_, frame_, pixels_;
     catoptric::gpu::UniqueSampler linear_, compare_;
     GeneralLayoutVulkanImage shadow_map_, depth_, view_, view_depth_;
     std::array<MirrorCaptureCubeMaps, 2>

@@ -93,7 +93,7 @@ bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std:
                                   const std::vector<bvh::Triangle>& triangles,
                                   const std::vector<Ray>& rays) {
     std::printf("\n%s: %zu triangles\n", name.c_str(), triangles.size());
-    gpu::GpuDevice device{{}};
+    gpu::Device device{{}};
     gpu::PipelineStore pipelines(device);
     RayListBenchmark list(device, pipelines, triangles, rays);
     list.trace_all_rays();

@@ -6,7 +6,7 @@
 namespace peers {
 
 using namespace catoptric;
-using gpu::throw_unless_vk_success;
+using gpu::check_vk;
 
 namespace {
 
@@ -16,10 +16,10 @@ VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
 
 } // namespace
 
-GeneralLayoutVulkanImage::GeneralLayoutVulkanImage(gpu::GpuDevice& device, TexelFormat format,
+GeneralLayoutVulkanImage::GeneralLayoutVulkanImage(gpu::Device& device, TexelFormat format,
                                                    uvec2 size, std::uint32_t layers,
                                                    VkImageUsageFlags usage)
-    : peer_device_(device.device_handle()), format_(format), extent_{size.x, size.y} {
+    : peer_device_(device.handle()), format_(format), extent_{size.x, size.y} {
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = layers % 6 == 0 ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
@@ -30,18 +30,16 @@ GeneralLayoutVulkanImage::GeneralLayoutVulkanImage(gpu::GpuDevice& device, Texel
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = usage;
     VkImage image = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateImage(peer_device_, &create, nullptr, &image),
-                            "create a plain image");
+    check_vk(vkCreateImage(peer_device_, &create, nullptr, &image), "create a plain image");
     image_ = {peer_device_, image};
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(peer_device_, image, &needs);
     memory_ = device.allocate(needs.size,
-                              static_cast<std::uint32_t>(device.find_memory_type_index(
+                              static_cast<std::uint32_t>(device.find_memory_type(
                                   needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)),
                               "a plain image");
-    throw_unless_vk_success(vkBindImageMemory(peer_device_, image, memory_, 0),
-                            "bind a plain image");
-    device.submit_one_time_commands("lay out a plain image", [&](VkCommandBuffer commands) {
+    check_vk(vkBindImageMemory(peer_device_, image, memory_, 0), "bind a plain image");
+    device.run_commands("lay out a plain image", [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
         barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         barrier.image = image;
@@ -60,22 +58,20 @@ VkImageView GeneralLayoutVulkanImage::view(VkImageViewType type, std::uint32_t f
     create.format = gpu::to_vk_format(format_);
     create.subresourceRange = {image_aspect_of_format(format_), 0, 1, first, count};
     VkImageView view = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateImageView(peer_device_, &create, nullptr, &view),
-                            "view a plain image");
+    check_vk(vkCreateImageView(peer_device_, &create, nullptr, &view), "view a plain image");
     views_.emplace_back(peer_device_, view);
     return view;
 }
 
-void GeneralLayoutVulkanImage::copy(VkCommandBuffer commands, const gpu::GpuBuffer& to) const {
+void GeneralLayoutVulkanImage::copy(VkCommandBuffer commands, const gpu::Buffer& to) const {
     VkBufferImageCopy region{};
     region.imageSubresource = {image_aspect_of_format(format_), 0, 0, 1};
     region.imageExtent = {extent_.width, extent_.height, 1};
-    vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_GENERAL, to.buffer_handle(), 1,
-                           &region);
+    vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
 }
 
-std::vector<PeerVector3> read_texel_colours_from_buffer(const gpu::GpuBuffer& texels) {
-    const std::vector<std::byte> bytes = texels.read_contents();
+std::vector<PeerVector3> read_texel_colours_from_buffer(const gpu::Buffer& texels) {
+    const std::vector<std::byte> bytes = texels.read();
     std::vector<PeerVector3> vectors(bytes.size() / sizeof(vec4));
     for (std::size_t i = 0; i < vectors.size(); ++i)
         std::memcpy(&vectors[i], &bytes[i * sizeof(vec4)], sizeof(PeerVector3));
@@ -88,8 +84,7 @@ void BoundPrototypePipeline::bind(VkCommandBuffer commands) const {
                             nullptr);
 }
 
-PrototypeDescriptorSets::PrototypeDescriptorSets(const gpu::GpuDevice& device)
-    : peer_device_(device) {
+PrototypeDescriptorSets::PrototypeDescriptorSets(const gpu::Device& device) : peer_device_(device) {
     constexpr std::uint32_t kMaxDescriptorSets = 64;
     const std::array<VkDescriptorPoolSize, 5> sizes{
         {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kMaxDescriptorSets},
@@ -102,9 +97,9 @@ PrototypeDescriptorSets::PrototypeDescriptorSets(const gpu::GpuDevice& device)
     create.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     create.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateDescriptorPool(device.device_handle(), &create, nullptr, &pool),
-                            "create a descriptor pool");
-    pool_ = {device.device_handle(), pool};
+    check_vk(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool),
+             "create a descriptor pool");
+    pool_ = {device.handle(), pool};
 }
 
 BoundPrototypePipeline PrototypeDescriptorSets::bind(const gpu::Pipeline& pipeline,
@@ -115,29 +110,28 @@ BoundPrototypePipeline PrototypeDescriptorSets::bind(const gpu::Pipeline& pipeli
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkAllocateDescriptorSets(peer_device_.device_handle(), &allocate, &set),
-                            "allocate a set");
+    check_vk(vkAllocateDescriptorSets(peer_device_.handle(), &allocate, &set), "allocate a set");
     for (const gpu::ShaderBinding& binding : pipeline.bindings) {
         const auto found = resources.find(binding.name);
         check(found != resources.end(), Failure::internal, "a prototype lacks '", binding.name,
               "'");
         const auto& [buffer, view, sampler] = found->second;
         const VkDescriptorImageInfo image{sampler, view, VK_IMAGE_LAYOUT_GENERAL};
-        const VkDescriptorBufferInfo bytes{buffer ? buffer->buffer_handle() : VK_NULL_HANDLE, 0,
+        const VkDescriptorBufferInfo bytes{buffer ? buffer->handle() : VK_NULL_HANDLE, 0,
                                            VK_WHOLE_SIZE};
-        const VkBufferView texels = buffer ? buffer->texel_buffer_view() : VK_NULL_HANDLE;
+        const VkBufferView texels = buffer ? buffer->texel_view() : VK_NULL_HANDLE;
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
         write.dstBinding = binding.binding;
         write.descriptorCount = 1;
-        write.descriptorType = gpu::descriptor_type_of_binding(binding.kind);
+        write.descriptorType = gpu::descriptor_type(binding.kind);
         write.pImageInfo = &image, write.pBufferInfo = &bytes, write.pTexelBufferView = &texels;
-        vkUpdateDescriptorSets(peer_device_.device_handle(), 1, &write, 0, nullptr);
+        vkUpdateDescriptorSets(peer_device_.handle(), 1, &write, 0, nullptr);
     }
     return {&pipeline, set};
 }
 
-gpu::UniqueSampler make_linear_sampler(const gpu::GpuDevice& device, bool compares) {
+gpu::UniqueSampler make_linear_sampler(const gpu::Device& device, bool compares) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     create.magFilter = create.minFilter = VK_FILTER_LINEAR;
     create.addressModeU = create.addressModeV = create.addressModeW =
@@ -145,9 +139,8 @@ gpu::UniqueSampler make_linear_sampler(const gpu::GpuDevice& device, bool compar
     create.compareEnable = compares;
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateSampler(device.device_handle(), &create, nullptr, &sampler),
-                            "create a sampler");
-    return {device.device_handle(), sampler};
+    check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
+    return {device.handle(), sampler};
 }
 
 void record_full_memory_barrier(VkCommandBuffer commands) {

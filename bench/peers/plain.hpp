@@ -15,14 +15,14 @@ namespace peers {
 class GeneralLayoutVulkanImage {
 public:
     GeneralLayoutVulkanImage() = default;
-    GeneralLayoutVulkanImage(catoptric::gpu::GpuDevice& device, catoptric::TexelFormat format,
+    GeneralLayoutVulkanImage(catoptric::gpu::Device& device, catoptric::TexelFormat format,
                              catoptric::uvec2 size, std::uint32_t layers, VkImageUsageFlags usage);
 
     /// Returns a view of `count` layers from layer `first`. The view is valid as long as the image.
     VkImageView view(VkImageViewType type, std::uint32_t first = 0, std::uint32_t count = 1);
     VkExtent2D image_extent() const { return extent_; }
     /// Copies the texels of the first layer to a buffer.
-    void copy(VkCommandBuffer commands, const catoptric::gpu::GpuBuffer& to) const;
+    void copy(VkCommandBuffer commands, const catoptric::gpu::Buffer& to) const;
 
 private:
     catoptric::gpu::DeviceHandle peer_device_;
@@ -35,11 +35,11 @@ private:
 
 /// Returns the texels, without alpha, of an rgba32f image that GeneralLayoutVulkanImage::copy
 /// copied to a buffer.
-std::vector<PeerVector3> read_texel_colours_from_buffer(const catoptric::gpu::GpuBuffer& texels);
+std::vector<PeerVector3> read_texel_colours_from_buffer(const catoptric::gpu::Buffer& texels);
 
 /// The resource of a named shader binding: a buffer, or an image view with or without a sampler.
 struct BoundResource {
-    const catoptric::gpu::GpuBuffer* buffer = nullptr;
+    const catoptric::gpu::Buffer* buffer = nullptr;
     VkImageView view = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE;
 };
@@ -60,18 +60,18 @@ struct BoundPrototypePipeline {
 /// Allocates and owns the descriptor sets of a program.
 class PrototypeDescriptorSets {
 public:
-    explicit PrototypeDescriptorSets(const catoptric::gpu::GpuDevice& device);
+    explicit PrototypeDescriptorSets(const catoptric::gpu::Device& device);
     /// Writes a descriptor set with the resources that the pipeline uses, by the bindings' names.
     BoundPrototypePipeline bind(const catoptric::gpu::Pipeline& pipeline,
                                 const Resources& resources);
 
 private:
-    const catoptric::gpu::GpuDevice& peer_device_;
+    const catoptric::gpu::Device& peer_device_;
     catoptric::gpu::UniqueDescriptorPool pool_;
 };
 
 /// Creates a sampler with bilinear filtering. With `compares` the sampler compares reversed depth.
-catoptric::gpu::UniqueSampler make_linear_sampler(const catoptric::gpu::GpuDevice& device,
+catoptric::gpu::UniqueSampler make_linear_sampler(const catoptric::gpu::Device& device,
                                                   bool compares);
 
 /// Records a barrier that makes all writes before it visible to all commands after it.

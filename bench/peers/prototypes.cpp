@@ -19,7 +19,7 @@ constexpr int kCaptureFaceEdges[] = {64, 256, 512};
 } // namespace
 
 struct PrototypeFrameRenderer::Impl {
-    gpu::GpuDevice device{{}};
+    gpu::Device device{{}};
     gpu::PipelineStore pipelines{device};
     std::map<std::string, std::unique_ptr<RayTracingPrototype>> tracers;
     std::map<std::string, std::unique_ptr<CubeCapturePrototypeRenderer>> captures;

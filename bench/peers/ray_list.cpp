@@ -7,7 +7,7 @@ namespace peers {
 using namespace catoptric;
 using gpu::BufferUsage;
 
-RayListBenchmark::RayListBenchmark(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+RayListBenchmark::RayListBenchmark(gpu::Device& device, gpu::PipelineStore& pipelines,
                                    std::span<const bvh::Triangle> triangles,
                                    std::span<const Ray> rays)
     : peer_device_(device),
@@ -19,12 +19,11 @@ RayListBenchmark::RayListBenchmark(gpu::GpuDevice& device, gpu::PipelineStore& p
         texels.emplace_back(origin.x, origin.y, origin.z, 0);
         texels.emplace_back(direction.x, direction.y, direction.z, 0);
     }
-    gpu::upload_to_buffer(peer_device_, nodes_, "nodes", tree.nodes, BufferUsage::texels);
-    gpu::upload_to_buffer(peer_device_, triangles_, "triangles", tree.triangles,
-                          BufferUsage::texels);
-    gpu::upload_to_buffer(peer_device_, rays_, "rays", texels, BufferUsage::texels);
-    met_.write_contents(std::span<const FirstRayHit>(std::vector<FirstRayHit>(rays.size())));
-    bound_ = sets_.bind(pipelines.find_or_make_compute_pipeline({"peers/rays.comp", {}}),
+    gpu::upload(peer_device_, nodes_, "nodes", tree.nodes, BufferUsage::texels);
+    gpu::upload(peer_device_, triangles_, "triangles", tree.triangles, BufferUsage::texels);
+    gpu::upload(peer_device_, rays_, "rays", texels, BufferUsage::texels);
+    met_.write(std::span<const FirstRayHit>(std::vector<FirstRayHit>(rays.size())));
+    bound_ = sets_.bind(pipelines.compute_pipeline({"peers/rays.comp", {}}),
                         {{"bvh_nodes", {&nodes_}},
                          {"bvh_triangles", {&triangles_}},
                          {"rays", {&rays_}},
@@ -32,7 +31,7 @@ RayListBenchmark::RayListBenchmark(gpu::GpuDevice& device, gpu::PipelineStore& p
 }
 
 void RayListBenchmark::trace_all_rays() {
-    peer_device_.submit_one_time_commands("trace a list of rays", [&](VkCommandBuffer commands) {
+    peer_device_.run_commands("trace a list of rays", [&](VkCommandBuffer commands) {
         bound_.bind(commands);
         vkCmdDispatch(commands, groups_, 1, 1);
         record_full_memory_barrier(commands);
@@ -40,7 +39,7 @@ void RayListBenchmark::trace_all_rays() {
 }
 
 std::vector<FirstRayHit> RayListBenchmark::read() const {
-    const std::vector<std::byte> bytes = met_.read_contents();
+    const std::vector<std::byte> bytes = met_.read();
     std::vector<FirstRayHit> met(bytes.size() / sizeof(FirstRayHit));
     std::memcpy(met.data(), bytes.data(), bytes.size());
     return met;

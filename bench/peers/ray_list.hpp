@@ -10,7 +10,7 @@ namespace peers {
 class RayListBenchmark {
 public:
     /// Builds the tree and uploads the rays. The number of rays must be a multiple of 64.
-    RayListBenchmark(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
+    RayListBenchmark(catoptric::gpu::Device& device, catoptric::gpu::PipelineStore& pipelines,
                      std::span<const catoptric::bvh::Triangle> triangles,
                      std::span<const Ray> rays);
 
@@ -19,8 +19,8 @@ public:
     std::vector<FirstRayHit> read() const; ///< returns the hits of the last `trace_all_rays`
 
 private:
-    catoptric::gpu::GpuDevice& peer_device_;
-    catoptric::gpu::GpuBuffer nodes_, triangles_, rays_, met_;
+    catoptric::gpu::Device& peer_device_;
+    catoptric::gpu::Buffer nodes_, triangles_, rays_, met_;
     PrototypeDescriptorSets sets_;
     BoundPrototypePipeline bound_;
     std::uint32_t groups_;

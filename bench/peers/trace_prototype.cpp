@@ -26,7 +26,7 @@ std::vector<vec4> copy_bvh_nodes_without_tags(const bvh::Bvh& tree) {
 
 } // namespace
 
-RayTracingPrototype::RayTracingPrototype(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+RayTracingPrototype::RayTracingPrototype(gpu::Device& device, gpu::PipelineStore& pipelines,
                                          const EmbreeWhittedTracer& peer,
                                          std::span<const bvh::Triangle> triangles,
                                          PrototypeBvhKind tree)
@@ -38,8 +38,7 @@ RayTracingPrototype::RayTracingPrototype(gpu::GpuDevice& device, gpu::PipelineSt
     picture_ = GeneralLayoutVulkanImage(device, TexelFormat::rgba32f, {width, height}, 1,
                                         VK_IMAGE_USAGE_STORAGE_BIT |
                                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    pixels_ = gpu::GpuBuffer(device, "pixels", sizeof(vec4) * width * height,
-                             BufferUsage::read_back);
+    pixels_ = gpu::Buffer(device, "pixels", sizeof(vec4) * width * height, BufferUsage::read_back);
     view_ = {make_texel(scene.eye, scene.ambient),
              make_texel(scene.forward, static_cast<float>(scene.depth)),
              make_texel(scene.right),
@@ -51,7 +50,7 @@ RayTracingPrototype::RayTracingPrototype(gpu::GpuDevice& device, gpu::PipelineSt
     upload(scene, triangles, tree);
     const char* const shader = tree == PrototypeBvhKind::stack ? "peers/trace.comp"
                                                                : "peers/trace.comp#skip_links";
-    bound_ = sets_.bind(pipelines.find_or_make_compute_pipeline({shader, {}}),
+    bound_ = sets_.bind(pipelines.compute_pipeline({shader, {}}),
                         {{"nodes", {&nodes_}},
                          {"triangles", {&triangles_}},
                          {"normals", {&normals_}},
@@ -83,27 +82,25 @@ void RayTracingPrototype::upload(const WhittedTracerScene& scene,
         view_.grid = vec4(list.lowest, list.steps);
         nodes = std::move(list.nodes);
     }
-    gpu::upload_to_buffer(peer_device_, nodes_, "nodes", nodes, BufferUsage::texels);
-    gpu::upload_to_buffer(peer_device_, triangles_, "triangles", corners, BufferUsage::texels);
-    gpu::upload_to_buffer(peer_device_, normals_, "normals", normals, BufferUsage::texels);
-    gpu::upload_to_buffer(peer_device_, surfaces_, "surfaces", surfaces, BufferUsage::texels);
+    gpu::upload(peer_device_, nodes_, "nodes", nodes, BufferUsage::texels);
+    gpu::upload(peer_device_, triangles_, "triangles", corners, BufferUsage::texels);
+    gpu::upload(peer_device_, normals_, "normals", normals, BufferUsage::texels);
+    gpu::upload(peer_device_, surfaces_, "surfaces", surfaces, BufferUsage::texels);
 }
 
 void RayTracingPrototype::trace_picture_with_prototype() {
-    peer_device_.submit_one_time_commands(
-        "trace the prototype's picture", [&](VkCommandBuffer commands) {
-            bound_.bind(commands);
-            bound_.push_draw_constants(commands, view_);
-            vkCmdDispatch(commands, picture_.image_extent().width / 8,
-                          picture_.image_extent().height / 8, 1);
-            record_full_memory_barrier(commands);
-        });
+    peer_device_.run_commands("trace the prototype's picture", [&](VkCommandBuffer commands) {
+        bound_.bind(commands);
+        bound_.push_draw_constants(commands, view_);
+        vkCmdDispatch(commands, picture_.image_extent().width / 8,
+                      picture_.image_extent().height / 8, 1);
+        record_full_memory_barrier(commands);
+    });
 }
 
 std::vector<PeerVector3> RayTracingPrototype::read() {
-    peer_device_.submit_one_time_commands(
-        "read the prototype's picture",
-        [&](VkCommandBuffer commands) { picture_.copy(commands, pixels_); });
+    peer_device_.run_commands("read the prototype's picture",
+                              [&](VkCommandBuffer commands) { picture_.copy(commands, pixels_); });
     return read_texel_colours_from_buffer(pixels_);
 }
 

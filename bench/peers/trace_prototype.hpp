@@ -14,7 +14,7 @@ public:
         skip_links ///< the BVH as SkipLinkBvh, walked without a stack
     };
     /// Sets up the scene, view and depth of `peer`. The picture's width must be a power of two.
-    RayTracingPrototype(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
+    RayTracingPrototype(catoptric::gpu::Device& device, catoptric::gpu::PipelineStore& pipelines,
                         const EmbreeWhittedTracer& peer,
                         std::span<const catoptric::bvh::Triangle> triangles, PrototypeBvhKind tree);
 
@@ -30,8 +30,8 @@ private:
     void upload(const WhittedTracerScene& scene,
                 std::span<const catoptric::bvh::Triangle> triangles, PrototypeBvhKind tree);
 
-    catoptric::gpu::GpuDevice& peer_device_;
-    catoptric::gpu::GpuBuffer nodes_, triangles_, normals_, surfaces_, pixels_;
+    catoptric::gpu::Device& peer_device_;
+    catoptric::gpu::Buffer nodes_, triangles_, normals_, surfaces_, pixels_;
     GeneralLayoutVulkanImage picture_;
     PrototypeDescriptorSets sets_;
     BoundPrototypePipeline bound_;

@@ -45,14 +45,14 @@ RequiredFeatures::RequiredFeatures(VkPhysicalDevice device) {
     check(info.missing.empty(), Failure::no_device, "device '", info.name, "' lacks ",
           info.missing);
     gpu::DeviceFeatures wanted;
-    wanted.enable_features(device);
+    wanted.enable(device);
     core = wanted.core, v11 = wanted.v11, v12 = wanted.v12, v13 = wanted.v13;
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13, v13.pNext = nullptr;
 }
 
 session::Engine make_engine(const Device& device, const session::EngineOptions& options) {
-    const gpu::ExternalDeviceHandles given{device.instance, device.physical, device.device,
-                                           device.queue, device.queue_family};
+    const gpu::ExternalDevice given{device.instance, device.physical, device.device, device.queue,
+                                    device.queue_family};
     return session::Access::make_engine(options, {.given = &given});
 }
 

@@ -24,36 +24,36 @@ enum class BufferUsage : std::uint32_t {
 constexpr BufferUsage operator|(BufferUsage a, BufferUsage b) {
     return static_cast<BufferUsage>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
-constexpr bool has_buffer_usage(BufferUsage set, BufferUsage bit) {
+constexpr bool has_usage(BufferUsage set, BufferUsage bit) {
     return static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit);
 }
 
 /// A buffer that the device reads and the host may write between frames.
-class GpuBuffer {
+class Buffer {
 public:
-    GpuBuffer() = default;
+    Buffer() = default;
     /// Allocates at least 16 bytes, so that an empty list can still be bound. Throws `exhausted`,
     /// naming the bytes or the device's limit for texel buffers.
-    GpuBuffer(GpuDevice& device, std::string name, std::uint64_t bytes, BufferUsage use);
+    Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUsage use);
 
     /// Copies `data` to `offset`, in bytes. Must not be called while a frame that reads the buffer
     /// is in flight. If device memory cannot be mapped, the copy goes through Uploads. Work
     /// submitted from now on sees the data.
-    void write_contents(std::uint64_t offset, std::span<const std::byte> data);
+    void write(std::uint64_t offset, std::span<const std::byte> data);
     template <typename T>
-    void write_contents(std::span<const T> data) {
-        write_contents(0, std::as_bytes(data));
+    void write(std::span<const T> data) {
+        write(0, std::as_bytes(data));
     }
     /// Returns the contents. The device must have finished writing them.
-    std::vector<std::byte> read_contents() const;
+    std::vector<std::byte> read() const;
 
-    const std::string& buffer_name() const { return name_; }
-    std::uint64_t size_in_bytes() const { return bytes_; }
-    VkBuffer buffer_handle() const { return buffer_; }
-    VkBufferView texel_buffer_view() const { return view_; }
+    const std::string& name() const { return name_; }
+    std::uint64_t bytes() const { return bytes_; }
+    VkBuffer handle() const { return buffer_; }
+    VkBufferView texel_view() const { return view_; }
 
 private:
-    GpuDevice* buffer_device_ = nullptr;
+    Device* device_ = nullptr;
     std::string name_;
     std::uint64_t bytes_ = 0;
     UniqueMemory memory_; // declared before the buffer, so destroyed after the buffer
@@ -65,12 +65,11 @@ private:
 
 /// Writes `data` to `buffer`. If it does not fit, a new buffer of the same name replaces `buffer`.
 template <typename T>
-void upload_to_buffer(GpuDevice& device, GpuBuffer& buffer, const std::string& name,
-                      const std::vector<T>& data, BufferUsage use) {
+void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data,
+            BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
-    if (buffer.size_in_bytes() < bytes || !buffer.buffer_handle())
-        buffer = GpuBuffer(device, name, bytes, use);
-    buffer.write_contents(std::span<const T>(data));
+    if (buffer.bytes() < bytes || !buffer.handle()) buffer = Buffer(device, name, bytes, use);
+    buffer.write(std::span<const T>(data));
 }
 
 } // namespace catoptric::gpu

@@ -29,9 +29,9 @@ std::vector<DeviceProperties> list_devices();
 
 class StagedUploads;
 
-/// A device made by the caller with DeviceFeatures::enable_features. All handles must outlive the
-/// GpuDevice.
-struct ExternalDeviceHandles {
+/// A device made by the caller with DeviceFeatures::enable. All handles must outlive the
+/// Device.
+struct ExternalDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
@@ -47,7 +47,7 @@ struct DeviceOptions {
     std::vector<std::string> instance_extensions = {}; ///< required by the window system
     /// Makes the surface to show pictures on; empty: none.
     std::function<VkSurfaceKHR(VkInstance)> make_surface = {};
-    std::optional<ExternalDeviceHandles> given = {}; ///< a device to use instead of making one
+    std::optional<ExternalDevice> given = {}; ///< a device to use instead of making one
 };
 
 /// Returns whether a device of this process was abandoned. Its driver's threads may still run, and
@@ -59,99 +59,94 @@ bool has_abandoned_device();
 ///
 /// A device that is lost, or that cannot be waited for, may still use its resources. It becomes
 /// *abandoned*: it takes no more work, and neither it, its instance nor its objects are destroyed.
-/// Their memory is lost until the process ends. Another GpuDevice may be made.
-class GpuDevice {
+/// Their memory is lost until the process ends. Another Device may be made.
+class Device {
 public:
     /// Opens a device. Throws `no_device` if there is none, it cannot be opened or it lacks a
     /// required feature. Throws `usage` if `wanted` matches no device. May throw `exhausted`.
-    explicit GpuDevice(const DeviceOptions& options);
-    ~GpuDevice();
-    GpuDevice(const GpuDevice&) = delete;
-    GpuDevice& operator=(const GpuDevice&) = delete;
+    explicit Device(const DeviceOptions& options);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
 
-    const DeviceProperties& device_properties() const { return info_; }
-    const VkPhysicalDeviceLimits& vulkan_limits() const { return limits_; }
-    DeviceHandle device_handle() const { return {device_, &abandoned_}; }
+    const DeviceProperties& info() const { return info_; }
+    const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    DeviceHandle handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical_device() const { return physical_; }
     /// Returns the surface of the window; null if none was asked for.
-    VkSurfaceKHR window_surface() const { return surface_; }
-    VkQueue vulkan_queue() const { return queue_; }
-    std::uint32_t queue_family_index() const { return queue_family_; }
-    bool is_cpu_device() const { return info_.type == "cpu"; }
+    VkSurfaceKHR surface() const { return surface_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+    bool is_cpu() const { return info_.type == "cpu"; }
     /// Returns the shader variants of the device: the defaults unless
-    /// `set_active_shader_variant_choices` was called. Call `set_active_shader_variant_choices`
+    /// `set_variant_choices` was called. Call `set_variant_choices`
     /// before the first frame.
-    const ShaderVariantChoices& active_shader_variant_choices() const { return choices_; }
-    void set_active_shader_variant_choices(const ShaderVariantChoices& choices) {
-        choices_ = choices;
-    }
+    const VariantChoices& variant_choices() const { return choices_; }
+    void set_variant_choices(const VariantChoices& choices) { choices_ = choices; }
     /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
     /// layer.
-    bool supports_layered_rendering() const { return layered_; }
+    bool supports_layers() const { return layered_; }
     /// Returns whether lists of texels are read from storage buffers, because texel buffers hold
     /// too few. A device may allow as few as 65,536 texels: enough for 21,845 triangles.
-    bool needs_storage_buffers_for_texels() const {
-        return limits_.maxTexelBufferElements < (1u << 26);
-    }
+    bool texels_in_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
     /// Returns the most texels, of `texel_bytes` bytes each, that a list may have.
-    std::uint64_t max_texel_count(std::uint64_t texel_bytes) const {
-        return needs_storage_buffers_for_texels() ? limits_.maxStorageBufferRange / texel_bytes
-                                                  : limits_.maxTexelBufferElements;
+    std::uint64_t max_texels(std::uint64_t texel_bytes) const {
+        return texels_in_storage() ? limits_.maxStorageBufferRange / texel_bytes
+                                   : limits_.maxTexelBufferElements;
     }
     /// Returns whether images of 32-bit floats can be sampled with linear filtering.
-    bool has_float_filtering() const { return filters_floats_; }
+    bool filters_floats() const { return filters_floats_; }
     /// Returns whether shaders may compute with doubles.
-    bool supports_double_precision_shaders() const { return doubles_; }
+    bool has_doubles() const { return doubles_; }
     /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
     /// geometry shaders.
-    bool supports_primitive_id_in_fragments() const { return numbers_triangles_; }
+    bool has_primitive_id() const { return primitive_id_; }
     /// Returns whether a pass can blend its first attachment, of 32-bit floats, and leave the
     /// others.
-    bool supports_float_colour_blending() const { return blends_; }
+    bool blends_floats() const { return blends_; }
     /// Returns whether the device counts vertices, fragments and other invocations.
     bool has_pipeline_statistics() const { return pipeline_statistics_; }
     /// Returns whether fragment shaders have basic subgroup operations.
-    bool has_subgroups_in_fragments() const { return fragment_subgroups_; }
-    bool needs_staged_uploads() const { return staged_; }
-    std::uint32_t valid_timestamp_bits() const { return timestamp_bits_; }
+    bool has_fragment_subgroups() const { return fragment_subgroups_; }
+    bool needs_staging() const { return staged_; }
+    std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
     /// Returns the index of the first memory type that is among `type_bits` and has all of
     /// `properties`, or -1.
-    int find_memory_type_index(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
+    int find_memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
     /// Returns the bytes of the largest device-local heap.
     std::uint64_t memory_budget() const;
     /// Returns the most bytes of one allocation.
-    std::uint64_t max_allocation_bytes() const { return max_allocation_; }
+    std::uint64_t max_allocation() const { return max_allocation_; }
     /// Returns the bytes of the heap of a memory type.
-    std::uint64_t heap_bytes_of_memory_type(std::uint32_t type) const {
+    std::uint64_t heap_bytes(std::uint32_t type) const {
         return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
     }
     /// Allocates memory. Throws `exhausted`, naming the bytes, and the device's limit if it is
     /// exceeded.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
-    /// Throws as `throw_unless_vk_success` does, for a call that submits work or asks about its
+    /// Throws as `check_vk` does, for a call that submits work or asks about its
     /// result. If the device is lost, it becomes abandoned.
-    void check_result_and_abandon_if_lost(VkResult result, const std::string& doing);
-    /// Throws as `throw_unless_vk_success` does, for a call that waits for the device. If the wait
+    void check_result(VkResult result, const std::string& doing);
+    /// Throws as `check_vk` does, for a call that waits for the device. If the wait
     /// fails, the device becomes abandoned.
-    void check_wait_or_abandon(VkResult result, const std::string& doing);
+    void check_wait(VkResult result, const std::string& doing);
     bool is_abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.
-    void check_device_not_abandoned() const;
+    void check_not_abandoned() const;
     /// Names the object in validation messages and debuggers. Does nothing without
     /// VK_EXT_debug_utils.
-    void set_debug_name_of_vulkan_object(VkObjectType type, std::uint64_t handle,
-                                         const std::string& name) const;
+    void set_debug_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     bool has_debug_labels() const { return has_debug_utils_; }
 
     /// Records copies with `record`, submits them and waits. Their writes are visible to the host
     /// and to all later commands. For uploads and read-back, never inside a timed frame. `doing`
     /// completes "Vulkan: cannot " in the message of `exhausted` or `device_lost`.
     template <typename Record>
-    void submit_one_time_commands(const std::string& doing, Record&& record) {
-        begin_one_time_commands(doing);
-        record(one_shot_);
-        submit_one_time_commands_and_wait(doing);
+    void run_commands(const std::string& doing, Record&& record) {
+        begin_commands(doing);
+        record(commands_);
+        finish_commands(doing);
     }
 
     /// Returns the uploads to buffers that the host cannot map. Made at first use.
@@ -167,14 +162,14 @@ public:
 private:
     void close();
     void create_instance(const DeviceOptions& options);
-    void choose_physical_device(const DeviceOptions& options);
-    void adopt_external_device(const ExternalDeviceHandles& given);
-    void read_physical_device(const DeviceOptions& options);
+    void choose_device(const DeviceOptions& options);
+    void adopt_device(const ExternalDevice& given);
+    void read_properties(const DeviceOptions& options);
     void create_device();
-    void make_one_time_command_pool();
-    void abandon_device(const Error& why);
-    void begin_one_time_commands(const std::string& doing);
-    void submit_one_time_commands_and_wait(const std::string& doing);
+    void make_command_pool();
+    void abandon(const Error& why);
+    void begin_commands(const std::string& doing);
+    void finish_commands(const std::string& doing);
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
@@ -188,9 +183,9 @@ private:
     std::uint64_t max_allocation_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceProperties info_;
-    ShaderVariantChoices choices_{};
+    VariantChoices choices_{};
     bool layered_ = true;
-    bool doubles_ = false, numbers_triangles_ = false, blends_ = false;
+    bool doubles_ = false, primitive_id_ = false, blends_ = false;
     bool pipeline_statistics_ = false;
     bool fragment_subgroups_ = false;
     bool filters_floats_ = false;
@@ -199,10 +194,10 @@ private:
     bool is_given_ = false;
     bool abandoned_ = false;
     std::optional<Error> why_abandoned_;
-    PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;
+    PFN_vkSetDebugUtilsObjectNameEXT set_debug_name_ = nullptr;
     std::unique_ptr<std::vector<std::string>> validation_messages_;
-    UniqueCommandPool one_shot_pool_;
-    VkCommandBuffer one_shot_ = VK_NULL_HANDLE;
+    UniqueCommandPool command_pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
     std::unique_ptr<StagedUploads> uploads_;
 };
 

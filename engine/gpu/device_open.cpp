@@ -12,9 +12,10 @@ namespace catoptric::gpu {
 
 namespace {
 
-VKAPI_ATTR VkBool32 VKAPI_CALL
-on_validation_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                      const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* messages) {
     static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
     return VK_FALSE;
 }
@@ -26,13 +27,12 @@ VkDebugUtilsMessengerEXT make_debug_messenger(VkInstance instance,
     create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                              VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-    create.pfnUserCallback = on_validation_message;
+    create.pfnUserCallback = on_message;
     create.pUserData = &messages;
     const auto make = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    throw_unless_vk_success(make(instance, &create, nullptr, &messenger),
-                            "create the validation messenger");
+    check_vk(make(instance, &create, nullptr, &messenger), "create the validation messenger");
     return messenger;
 }
 
@@ -45,7 +45,7 @@ std::string to_lower(std::string text) {
 /// Returns whether a device's name has the wanted text, in capitals or not. A number, such as 4090,
 /// must be a whole number of the name with at least three digits, so that an index that is out of
 /// range selects no device.
-bool matches_device_name(const std::string& name, const std::string& wanted, bool is_number) {
+bool matches_name(const std::string& name, const std::string& wanted, bool is_number) {
     if (!is_number) return to_lower(name).find(to_lower(wanted)) != std::string::npos;
     constexpr std::size_t kLeastDigits = 3;
     constexpr std::string_view kNumberCharacters = "0123456789.";
@@ -60,15 +60,14 @@ bool matches_device_name(const std::string& name, const std::string& wanted, boo
     return false;
 }
 
-std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
-                               const std::string& wanted) {
+std::size_t find_device(const std::vector<DeviceProperties>& devices, const std::string& wanted) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     const bool is_number = error == std::errc{} && end == wanted.data() + wanted.size();
     if (is_number && index < devices.size()) return index;
     std::vector<std::string> names;
     for (const DeviceProperties& info : devices) {
-        if (matches_device_name(info.name, wanted, is_number)) return names.size();
+        if (matches_name(info.name, wanted, is_number)) return names.size();
         names.push_back(info.name);
     }
     std::string list;
@@ -81,7 +80,7 @@ std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
         "installed, see 'vulkaninfo --summary'");
 }
 
-std::vector<DeviceProperties> describe_all_devices(const std::vector<VkPhysicalDevice>& devices) {
+std::vector<DeviceProperties> describe_devices(const std::vector<VkPhysicalDevice>& devices) {
     std::vector<DeviceProperties> list;
     list.reserve(devices.size());
     for (VkPhysicalDevice device : devices) list.push_back(describe_device(device));
@@ -92,10 +91,10 @@ std::vector<DeviceProperties> describe_all_devices(const std::vector<VkPhysicalD
 
 std::vector<DeviceProperties> list_devices() {
     bool has_debug_utils = false;
-    const VkInstance instance = make_vulkan_instance(false, {}, has_debug_utils);
+    const VkInstance instance = make_instance(false, {}, has_debug_utils);
     std::vector<DeviceProperties> list;
     try {
-        list = describe_all_devices(list_physical_devices(instance));
+        list = describe_devices(physical_devices(instance));
     } catch (...) {
         vkDestroyInstance(instance, nullptr);
         throw;
@@ -104,27 +103,26 @@ std::vector<DeviceProperties> list_devices() {
     return list;
 }
 
-void GpuDevice::create_instance(const DeviceOptions& options) {
-    instance_ = make_vulkan_instance(options.validate, options.instance_extensions,
-                                     has_debug_utils_);
+void Device::create_instance(const DeviceOptions& options) {
+    instance_ = make_instance(options.validate, options.instance_extensions, has_debug_utils_);
     if (options.validate && has_debug_utils_)
         messenger_ = make_debug_messenger(instance_, *validation_messages_);
     if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
-void GpuDevice::choose_physical_device(const DeviceOptions& options) {
-    const std::vector<VkPhysicalDevice> devices = list_physical_devices(instance_);
-    std::vector<DeviceProperties> infos = describe_all_devices(devices);
+void Device::choose_device(const DeviceOptions& options) {
+    const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
+    std::vector<DeviceProperties> infos = describe_devices(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
-        if (infos[i].missing.empty() && !can_present_to_surface(devices[i], surface_))
+        if (infos[i].missing.empty() && !can_present(devices[i], surface_))
             infos[i].missing = "a way to show pictures in this window";
     std::size_t index = 0;
     if (!options.wanted.empty())
-        index = find_wanted_device(infos, options.wanted);
+        index = find_device(infos, options.wanted);
     else
         index = static_cast<std::size_t>(
             std::ranges::find(infos, std::string(), &DeviceProperties::missing) - infos.begin());
-    if (index == infos.size()) // `list_physical_devices` returns at least one
+    if (index == infos.size()) // `physical_devices` returns at least one
         fail(Failure::no_device, "no usable Vulkan device: '", infos[0].name, "' lacks ",
              infos[0].missing);
     check(infos[index].missing.empty(), Failure::no_device, "device '", infos[index].name,
@@ -134,7 +132,7 @@ void GpuDevice::choose_physical_device(const DeviceOptions& options) {
     queue_family_ = static_cast<std::uint32_t>(find_queue_family(physical_));
 }
 
-void GpuDevice::adopt_external_device(const ExternalDeviceHandles& given) {
+void Device::adopt_device(const ExternalDevice& given) {
     is_given_ = true;
     instance_ = given.instance, physical_ = given.physical, device_ = given.device;
     queue_ = given.queue, queue_family_ = given.queue_family;
@@ -146,7 +144,7 @@ void GpuDevice::adopt_external_device(const ExternalDeviceHandles& given) {
 }
 
 /// Reads limits and features of the physical device.
-void GpuDevice::read_physical_device(const DeviceOptions& options) {
+void Device::read_properties(const DeviceOptions& options) {
     staged_ = options.staged;
     VkPhysicalDeviceMaintenance3Properties pieces{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
@@ -159,11 +157,11 @@ void GpuDevice::read_physical_device(const DeviceOptions& options) {
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
     layered_ = options.layered && has.v12.shaderOutputLayer;
     doubles_ = has.core.features.shaderFloat64;
-    numbers_triangles_ = has.core.features.geometryShader;
+    primitive_id_ = has.core.features.geometryShader;
     pipeline_statistics_ = has.core.features.pipelineStatisticsQuery;
     fragment_subgroups_ = DeviceFeatures::has_fragment_subgroups(physical_);
-    filters_floats_ = DeviceFeatures::has_float_filtering(physical_);
-    blends_ = has.core.features.independentBlend && DeviceFeatures::has_float_blending(physical_);
+    filters_floats_ = DeviceFeatures::filters_floats(physical_);
+    blends_ = has.core.features.independentBlend && DeviceFeatures::blends_floats(physical_);
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
@@ -179,44 +177,42 @@ void GpuDevice::read_physical_device(const DeviceOptions& options) {
           queue_family_, ", which does not");
 }
 
-void GpuDevice::create_device() {
+void Device::create_device() {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = queue_family_;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
     DeviceFeatures features;
-    features.enable_features(physical_);
+    features.enable(physical_);
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     create.enabledExtensionCount = surface_ ? 1 : 0;
     create.ppEnabledExtensionNames = &extension;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    throw_unless_vulkan_started(vkCreateDevice(physical_, &create, nullptr, &device_),
-                                "open device '" + info_.name + "'", "no usable Vulkan device");
+    check_vk_started(vkCreateDevice(physical_, &create, nullptr, &device_),
+                     "open device '" + info_.name + "'", "no usable Vulkan device");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     if (has_debug_utils_)
-        set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+        set_debug_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
 }
 
-void GpuDevice::make_one_time_command_pool() {
+void Device::make_command_pool() {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family_;
     VkCommandPool handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateCommandPool(device_, &pool, nullptr, &handle),
-                            "create a command pool");
-    one_shot_pool_ = {this->device_handle(), handle};
+    check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
+    command_pool_ = {this->handle(), handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    throw_unless_vk_success(vkAllocateCommandBuffers(device_, &allocate, &one_shot_),
-                            "allocate a command buffer");
-    set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_COMMAND_BUFFER,
-                                    reinterpret_cast<std::uint64_t>(one_shot_), "one shot");
+    check_vk(vkAllocateCommandBuffers(device_, &allocate, &commands_), "allocate a command buffer");
+    set_debug_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(commands_),
+                   "one shot");
 }
 
 } // namespace catoptric::gpu

@@ -16,7 +16,7 @@ namespace catoptric::gpu {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* kNoVulkanDriverMessage =
+constexpr const char* kNoDriver =
     "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
     "driver: apt-get install mesa-vulkan-drivers";
 
@@ -28,7 +28,7 @@ constexpr std::size_t kDriverAddressSpace = std::size_t{256} << 20;
 /// are repeated if it grew in between. Items that vanished in between are left out. Calls `failed`
 /// with a result that is an error.
 template <typename Item, typename Call, typename Failed>
-std::vector<Item> list_vulkan_enumeration(Call&& call, Failed&& failed) {
+std::vector<Item> enumerate(Call&& call, Failed&& failed) {
     constexpr int kMaxEnumerationAttempts = 8; // after the last try the fetched items are returned
     std::vector<Item> items;
     VkResult result = VK_INCOMPLETE;
@@ -43,28 +43,28 @@ std::vector<Item> list_vulkan_enumeration(Call&& call, Failed&& failed) {
     return items;
 }
 
-bool has_instance_layer(const char* name) {
-    const auto layers = list_vulkan_enumeration<VkLayerProperties>(
+bool has_layer(const char* name) {
+    const auto layers = enumerate<VkLayerProperties>(
         vkEnumerateInstanceLayerProperties,
-        [](VkResult result) { throw_unless_vk_success(result, "enumerate layers"); });
+        [](VkResult result) { check_vk(result, "enumerate layers"); });
     return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
 }
 
-bool has_instance_extension(const char* layer, const char* name) {
-    const auto list = list_vulkan_enumeration<VkExtensionProperties>(
+bool has_extension(const char* layer, const char* name) {
+    const auto list = enumerate<VkExtensionProperties>(
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateInstanceExtensionProperties(layer, count, items);
         },
         [](VkResult result) {
             // The loader returns VK_ERROR_OUT_OF_HOST_MEMORY for a missing file.
-            fail(Failure::no_device, kNoVulkanDriverMessage,
+            fail(Failure::no_device, kNoDriver,
                  " (the Vulkan loader cannot read its driver files: ", vk_result_name(result),
                  "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
         });
     return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });
 }
 
-int rank_device_type(VkPhysicalDeviceType type) {
+int type_rank(VkPhysicalDeviceType type) {
     switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
     case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
@@ -77,8 +77,8 @@ int rank_device_type(VkPhysicalDeviceType type) {
 /// Returns the problem, if any, of Mesa 22's software driver with the vector width set in the
 /// environment. For widths other than 128 and 256 bits it compiles code that crashes (tested from 0
 /// to 1024 bits).
-std::string describe_llvmpipe_vector_width_problem(const VkPhysicalDeviceDriverProperties& driver) {
-    const std::optional<long> asked = read_llvmpipe_vector_width_request();
+std::string vector_width_problem(const VkPhysicalDeviceDriverProperties& driver) {
+    const std::optional<long> asked = llvmpipe_vector_width();
     const bool is_sound = !asked || *asked == 128 || *asked == 256;
     if (is_sound || driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE ||
         std::string_view(driver.driverInfo).find("Mesa 22.") == std::string_view::npos)
@@ -88,18 +88,18 @@ std::string describe_llvmpipe_vector_width_problem(const VkPhysicalDeviceDriverP
            std::getenv("LP_NATIVE_VECTOR_WIDTH") + ")";
 }
 
-std::string make_device_id(const VkPhysicalDeviceProperties& properties) {
+std::string device_id(const VkPhysicalDeviceProperties& properties) {
     char text[32];
     std::snprintf(text, sizeof text, "%04x-%04x", properties.vendorID, properties.deviceID);
     return text;
 }
 
-std::string format_vulkan_version(std::uint32_t v) {
+std::string format_version(std::uint32_t v) {
     return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) +
            "." + std::to_string(VK_API_VERSION_PATCH(v));
 }
 
-int count_cpu_threads() {
+int cpu_threads() {
     int threads = static_cast<int>(std::thread::hardware_concurrency());
     if (const char* limit = std::getenv("LP_NUM_THREADS"))
         threads = std::min(threads, std::max(1, std::atoi(limit)));
@@ -107,8 +107,7 @@ int count_cpu_threads() {
 }
 
 /// Returns whether images of this format with optimal tiling have these features.
-bool format_allows_features(VkPhysicalDevice device, VkFormat format,
-                            VkFormatFeatureFlags features) {
+bool format_allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
     VkFormatProperties properties;
     vkGetPhysicalDeviceFormatProperties(device, format, &properties);
     return (properties.optimalTilingFeatures & features) == features;
@@ -126,7 +125,7 @@ bool has_subgroup_operations(VkPhysicalDevice device, VkShaderStageFlagBits stag
            (subgroups.supportedOperations & wanted) == wanted;
 }
 
-std::uint32_t max_work_group_invocations(VkPhysicalDevice device) {
+std::uint32_t max_invocations(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
     return std::min(properties.limits.maxComputeWorkGroupInvocations,
@@ -135,7 +134,7 @@ std::uint32_t max_work_group_invocations(VkPhysicalDevice device) {
 
 } // namespace
 
-std::optional<long> read_llvmpipe_vector_width_request() {
+std::optional<long> llvmpipe_vector_width() {
     const char* const text = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     if (text == nullptr) return std::nullopt;
     char* end = nullptr;
@@ -143,16 +142,16 @@ std::optional<long> read_llvmpipe_vector_width_request() {
     return end == text ? std::nullopt : std::optional(bits);
 }
 
-void throw_unless_vulkan_started(VkResult result, const std::string& doing, const char* or_else) {
+void check_vk_started(VkResult result, const std::string& doing, const char* or_else) {
     const bool begun = result != VK_ERROR_INITIALIZATION_FAILED &&
                        result != VK_ERROR_INCOMPATIBLE_DRIVER;
     check(begun, Failure::no_device, or_else, " (cannot ", doing, ": ", vk_result_name(result),
           ")");
-    throw_unless_vk_success(result, doing);
+    check_vk(result, doing);
 }
 
-VkInstance make_vulkan_instance(bool validate, const std::vector<std::string>& wanted_extensions,
-                                bool& has_debug_utils) {
+VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
+                         bool& has_debug_utils) {
     // Mesa's device-select layer sorts devices and crashes if one vanishes between two of its
     // calls. It is needed only if the user selects a device by its variables, because devices are
     // sorted here.
@@ -161,9 +160,8 @@ VkInstance make_vulkan_instance(bool validate, const std::vector<std::string>& w
     check_address_space(kDriverAddressSpace, "a Vulkan driver");
     std::vector<const char*> layers, extensions;
     if (validate) {
-        check(has_instance_layer(kValidationLayer), Failure::no_device,
-              "--validate needs the layer ", kValidationLayer,
-              ": apt-get install vulkan-validationlayers");
+        check(has_layer(kValidationLayer), Failure::no_device, "--validate needs the layer ",
+              kValidationLayer, ": apt-get install vulkan-validationlayers");
         layers.push_back(kValidationLayer);
         // The validation layer of Vulkan 1.3 reads this setting only from the environment.
         setenv("VK_LAYER_ENABLES",
@@ -171,9 +169,9 @@ VkInstance make_vulkan_instance(bool validate, const std::vector<std::string>& w
                "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT",
                0);
     }
-    has_debug_utils = has_instance_extension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+    has_debug_utils = has_extension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
                       (validate &&
-                       has_instance_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+                       has_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     if (has_debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
     for (const std::string& name : wanted_extensions) extensions.push_back(name.c_str());
@@ -188,24 +186,22 @@ VkInstance make_vulkan_instance(bool validate, const std::vector<std::string>& w
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
-    throw_unless_vulkan_started(vkCreateInstance(&create, nullptr, &instance), "create an instance",
-                                kNoVulkanDriverMessage);
+    check_vk_started(vkCreateInstance(&create, nullptr, &instance), "create an instance",
+                     kNoDriver);
     return instance;
 }
 
-std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance) {
-    auto devices = list_vulkan_enumeration<VkPhysicalDevice>(
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+    auto devices = enumerate<VkPhysicalDevice>(
         [&](std::uint32_t* count, VkPhysicalDevice* items) {
             return vkEnumeratePhysicalDevices(instance, count, items);
         },
-        [](VkResult result) {
-            throw_unless_vulkan_started(result, "enumerate devices", kNoVulkanDriverMessage);
-        });
-    check(!devices.empty(), Failure::no_device, kNoVulkanDriverMessage);
+        [](VkResult result) { check_vk_started(result, "enumerate devices", kNoDriver); });
+    check(!devices.empty(), Failure::no_device, kNoDriver);
     std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
-        return rank_device_type(properties.deviceType);
+        return type_rank(properties.deviceType);
     });
     return devices;
 }
@@ -218,15 +214,15 @@ DeviceProperties describe_device(VkPhysicalDevice device) {
     DeviceProperties info;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    info.id = make_device_id(properties.properties);
-    info.api = format_vulkan_version(properties.properties.apiVersion);
-    info.type = kDeviceTypeNames[static_cast<std::size_t>(
-        rank_device_type(properties.properties.deviceType))];
-    if (info.type == "cpu") info.threads = count_cpu_threads();
+    info.id = device_id(properties.properties);
+    info.api = format_version(properties.properties.apiVersion);
+    info.type =
+        kDeviceTypeNames[static_cast<std::size_t>(type_rank(properties.properties.deviceType))];
+    if (info.type == "cpu") info.threads = cpu_threads();
     info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
                        ? "Vulkan 1.3 (has " + info.api + ")"
-                       : DeviceFeatures::describe_missing_features(device);
-    if (info.missing.empty()) info.missing = describe_llvmpipe_vector_width_problem(driver);
+                       : DeviceFeatures::missing_features(device);
+    if (info.missing.empty()) info.missing = vector_width_problem(driver);
     if (info.missing.empty() && find_queue_family(device) < 0)
         info.missing = "a queue for graphics and compute with timestamps";
     return info;
@@ -245,25 +241,23 @@ int find_queue_family(VkPhysicalDevice device) {
     return -1;
 }
 
-bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface) {
-    const auto extensions = list_vulkan_enumeration<VkExtensionProperties>(
+bool can_present(VkPhysicalDevice device, VkSurfaceKHR surface) {
+    const auto extensions = enumerate<VkExtensionProperties>(
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateDeviceExtensionProperties(device, nullptr, count, items);
         },
-        [](VkResult result) {
-            throw_unless_vk_success(result, "enumerate a device's extensions");
-        });
+        [](VkResult result) { check_vk(result, "enumerate a device's extensions"); });
     const auto is_swapchain = [](const VkExtensionProperties& extension) {
         return !strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     };
     VkBool32 can = VK_FALSE;
     const auto family = static_cast<std::uint32_t>(find_queue_family(device));
-    throw_unless_vk_success(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &can),
-                            "ask whether a device can show pictures in a window");
+    check_vk(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &can),
+             "ask whether a device can show pictures in a window");
     return can && std::ranges::any_of(extensions, is_swapchain);
 }
 
-void DeviceFeatures::enable_features(VkPhysicalDevice device) {
+void DeviceFeatures::enable(VkPhysicalDevice device) {
     DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     core.features.imageCubeArray = true;
@@ -291,11 +285,11 @@ DeviceFeatures::DeviceFeatures() {
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13;
 }
 
-bool DeviceFeatures::has_float_filtering(VkPhysicalDevice device) {
+bool DeviceFeatures::filters_floats(VkPhysicalDevice device) {
     constexpr VkFormatFeatureFlags kLinearFilterFeature =
         VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    return format_allows_features(device, VK_FORMAT_R32_SFLOAT, kLinearFilterFeature) &&
-           format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kLinearFilterFeature);
+    return format_allows(device, VK_FORMAT_R32_SFLOAT, kLinearFilterFeature) &&
+           format_allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kLinearFilterFeature);
 }
 
 bool DeviceFeatures::has_fragment_subgroups(VkPhysicalDevice device) {
@@ -303,13 +297,13 @@ bool DeviceFeatures::has_fragment_subgroups(VkPhysicalDevice device) {
                                    VK_SUBGROUP_FEATURE_BASIC_BIT);
 }
 
-bool DeviceFeatures::has_float_blending(VkPhysicalDevice device) {
+bool DeviceFeatures::blends_floats(VkPhysicalDevice device) {
     constexpr VkFormatFeatureFlags kBlendFeature = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
-    return format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kBlendFeature) &&
-           format_allows_features(device, VK_FORMAT_R16G16B16A16_SFLOAT, kBlendFeature);
+    return format_allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kBlendFeature) &&
+           format_allows(device, VK_FORMAT_R16G16B16A16_SFLOAT, kBlendFeature);
 }
 
-std::string DeviceFeatures::describe_missing_features(VkPhysicalDevice device) {
+std::string DeviceFeatures::missing_features(VkPhysicalDevice device) {
     DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     const std::pair<const char*, VkBool32> required[] = {
@@ -329,7 +323,7 @@ std::string DeviceFeatures::describe_missing_features(VkPhysicalDevice device) {
         {"subgroup ballots in compute shaders",
          has_subgroup_operations(device, VK_SHADER_STAGE_COMPUTE_BIT,
                                  VK_SUBGROUP_FEATURE_BALLOT_BIT)},
-        {"work groups of 256", max_work_group_invocations(device) >= 256},
+        {"work groups of 256", max_invocations(device) >= 256},
     };
     std::string names;
     for (const auto& [name, there] : required)

@@ -14,8 +14,7 @@
 namespace catoptric::gpu {
 
 /// Values of specialisation constants, by their names in the shader.
-using ShaderConstantValues =
-    std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
+using ShaderConstants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
 
 /// The order of a triangle's corners in the picture.
 enum class TriangleWinding { none, clockwise, counterclockwise };
@@ -26,22 +25,20 @@ enum class Blending { none, cover, sum };
 
 /// A raster pipeline as a pass body asks for it. Attachments come from the pass. Depth is reversed:
 /// greater is nearer.
-struct RasterPipelineState {
+struct RasterState {
     std::string vertex;
     std::string fragment; ///< fragment shader; empty: the pipeline writes depth only
-    ShaderConstantValues constants;
+    ShaderConstants constants;
     TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
-    ShaderConstantValues features =
-        {}; ///< constants of the scene; ignored by shaders that lack them
+    ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
     Blending blending = Blending::none;
     bool keeps_colour = false; ///< the first attachment stays as it is
 };
 
-struct ComputePipelineState {
+struct ComputeState {
     std::string shader;
-    ShaderConstantValues constants;
-    ShaderConstantValues features =
-        {}; ///< constants of the scene; ignored by shaders that lack them
+    ShaderConstants constants;
+    ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
 };
 
 struct AttachmentFormats {
@@ -50,7 +47,7 @@ struct AttachmentFormats {
 };
 
 /// Returns Vulkan's descriptor type of a binding.
-VkDescriptorType descriptor_type_of_binding(ShaderBindingKind kind);
+VkDescriptorType descriptor_type(BindingKind kind);
 
 /// A pipeline with its layout and the bindings that its shaders use.
 struct Pipeline {
@@ -74,45 +71,41 @@ public:
     /// for benchmarks that compare two builds of one shader.
     /// `cache`: folder for compiled pipelines; empty: none. `shaders`: folder for specialised
     /// shaders; empty: none.
-    explicit PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants = {},
+    explicit PipelineStore(Device& device, std::map<std::string, std::string> variants = {},
                            const std::filesystem::path& cache = {},
                            const std::filesystem::path& shaders = {});
     ~PipelineStore();
-    const Pipeline& find_or_make_raster_pipeline(const RasterPipelineState& state,
-                                                 const AttachmentFormats& attachments);
-    const Pipeline& find_or_make_compute_pipeline(const ComputePipelineState& state);
+    const Pipeline& raster_pipeline(const RasterState& state, const AttachmentFormats& attachments);
+    const Pipeline& compute_pipeline(const ComputeState& state);
     const PipelineCache& pipeline_cache() const { return cache_; }
-    std::size_t count_compiled_pipelines() const { return rasters_.size() + computes_.size(); }
-    double total_compile_ms() const {
-        return ms_;
-    } ///< milliseconds of the host, for all pipelines made
+    std::size_t pipeline_count() const { return rasters_.size() + computes_.size(); }
+    double compile_ms() const { return ms_; } ///< milliseconds of the host, for all pipelines made
 
 private:
-    using RasterPipelineKey = std::pair<RasterPipelineState, AttachmentFormats>;
-    using RasterPipelineKeyView = std::pair<const RasterPipelineState&, const AttachmentFormats&>;
+    using RasterKey = std::pair<RasterState, AttachmentFormats>;
+    using RasterKeyView = std::pair<const RasterState&, const AttachmentFormats&>;
     /// An order of the requests, so that a lookup builds no name.
-    struct PipelineRequestLess {
+    struct RequestLess {
         using is_transparent = void;
-        bool operator()(const RasterPipelineKeyView& a, const RasterPipelineKeyView& b) const;
-        bool operator()(const ComputePipelineState& a, const ComputePipelineState& b) const;
+        bool operator()(const RasterKeyView& a, const RasterKeyView& b) const;
+        bool operator()(const ComputeState& a, const ComputeState& b) const;
     };
 
     /// Returns the stage of this shader or of its variant with these constants.
-    const ShaderStage& find_or_make_shader_stage(const std::string& shader,
-                                                 VkShaderStageFlagBits bit,
-                                                 const ShaderConstantValues& constants,
-                                                 const ShaderConstantValues& features);
-    GpuDevice& pipeline_device_;
+    const ShaderStage& shader_stage(const std::string& shader, VkShaderStageFlagBits bit,
+                                    const ShaderConstants& constants,
+                                    const ShaderConstants& features);
+    Device& device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
-    SpecialisedShaderCache shaders_;
+    ShaderCache shaders_;
     /// Pipelines that differ in attachments or fixed functions share stages. Keyed by the shader's
     /// name and the bits of its constants by constant_id.
     std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>,
              std::unique_ptr<ShaderStage>>
         stages_;
-    std::map<RasterPipelineKey, Pipeline, PipelineRequestLess> rasters_;
-    std::map<ComputePipelineState, Pipeline, PipelineRequestLess> computes_;
+    std::map<RasterKey, Pipeline, RequestLess> rasters_;
+    std::map<ComputeState, Pipeline, RequestLess> computes_;
     double ms_ = 0;
 };
 

@@ -18,7 +18,7 @@ constexpr std::string_view kCacheFileSignature = "catoptric pipelines 1\n";
 
 /// Returns a file name for device, driver and driver build. Vulkan does not define pipeline data of
 /// one to be valid for another.
-std::string make_cache_file_name(const GpuDevice& device) {
+std::string cache_file_name(const Device& device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device.physical_device(), &properties);
     char text[64];
@@ -34,24 +34,24 @@ std::string make_cache_file_name(const GpuDevice& device) {
 
 } // namespace
 
-PipelineCache::PipelineCache(GpuDevice& device, const fs::path& folder) : cache_device_(device) {
+PipelineCache::PipelineCache(Device& device, const fs::path& folder) : device_(device) {
     if (!folder.empty()) {
         std::error_code error;
         fs::create_directories(folder, error);
-        file_ = folder / make_cache_file_name(device);
+        file_ = folder / cache_file_name(device);
         known_ = loaded();
     }
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     create.initialDataSize = known_.size();
     create.pInitialData = known_.data();
     VkPipelineCache cache = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreatePipelineCache(device.device_handle(), &create, nullptr, &cache),
-                            "create a pipeline cache");
-    cache_ = {device.device_handle(), cache};
+    check_vk(vkCreatePipelineCache(device.handle(), &create, nullptr, &cache),
+             "create a pipeline cache");
+    cache_ = {device.handle(), cache};
 }
 
 PipelineCache::~PipelineCache() {
-    if (file_.empty() || cache_device_.is_abandoned()) return;
+    if (file_.empty() || device_.is_abandoned()) return;
     try {
         save();
     } catch (...) { // ignored: it is only a cache
@@ -65,12 +65,12 @@ std::string PipelineCache::loaded() {
     const bool is_there = fs::exists(file_, error);
     try {
         if (!is_there) {
-            write_file(file_, add_cache_file_header(kCacheFileSignature, {}));
+            write_file(file_, add_header(kCacheFileSignature, {}));
             return {};
         }
         const std::string file = read_file(file_);
-        std::string data = strip_cache_file_header(kCacheFileSignature, file);
-        if (data.empty() && file != add_cache_file_header(kCacheFileSignature, {}))
+        std::string data = strip_header(kCacheFileSignature, file);
+        if (data.empty() && file != add_header(kCacheFileSignature, {}))
             warning_ = file_.string() +
                        ": wanted a whole pipeline cache, found something else; a new one is made";
         return data;
@@ -85,14 +85,11 @@ std::string PipelineCache::loaded() {
 
 void PipelineCache::save() const {
     std::size_t size = 0;
-    if (vkGetPipelineCacheData(cache_device_.device_handle(), cache_, &size, nullptr) != VK_SUCCESS)
-        return;
+    if (vkGetPipelineCacheData(device_.handle(), cache_, &size, nullptr) != VK_SUCCESS) return;
     std::string data(size, '\0');
-    if (vkGetPipelineCacheData(cache_device_.device_handle(), cache_, &size, data.data()) !=
-        VK_SUCCESS)
-        return;
+    if (vkGetPipelineCacheData(device_.handle(), cache_, &size, data.data()) != VK_SUCCESS) return;
     data.resize(size);
-    if (data != known_) write_file(file_, add_cache_file_header(kCacheFileSignature, data));
+    if (data != known_) write_file(file_, add_header(kCacheFileSignature, data));
 }
 
 } // namespace catoptric::gpu

@@ -13,28 +13,28 @@ class PipelineCache {
 public:
     /// Loads the cache from `folder`, which is created if missing; empty: nothing is stored. A file
     /// that is unreadable, incomplete or another driver's is ignored. A folder that cannot be
-    /// written to counts as empty. `cache_warning` reports both.
-    PipelineCache(GpuDevice& device, const std::filesystem::path& folder);
+    /// written to counts as empty. `warning` reports both.
+    PipelineCache(Device& device, const std::filesystem::path& folder);
     /// Writes the file if the cache has changed. Errors are ignored, because it is only a cache.
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
 
-    VkPipelineCache cache_handle() const { return cache_; }
-    /// Returns whether the cache is stored in a file. `loaded_cache_bytes` is the size of the data
+    VkPipelineCache handle() const { return cache_; }
+    /// Returns whether the cache is stored in a file. `loaded_bytes` is the size of the data
     /// loaded from it.
-    bool is_stored_in_file() const { return !file_.empty(); }
+    bool is_stored() const { return !file_.empty(); }
     /// Returns the folder of the file; empty: nothing is stored.
     std::filesystem::path folder() const { return file_.parent_path(); }
-    std::size_t loaded_cache_bytes() const { return known_.size(); }
+    std::size_t loaded_bytes() const { return known_.size(); }
     /// Returns a sentence for the user; empty if there was no problem.
-    const std::string& cache_warning() const { return warning_; }
+    const std::string& warning() const { return warning_; }
 
 private:
     std::string loaded();
     void save() const;
 
-    GpuDevice& cache_device_;
+    Device& device_;
     std::filesystem::path file_; ///< file of the cache; empty: nothing is stored
     std::string known_;          ///< data of the file
     std::string warning_;

@@ -74,7 +74,7 @@ public:
             const std::uint32_t length = words[i] >> 16;
             check(length > 0 && i + length <= words.size(), Failure::internal, "shader '", name,
                   "' is cut off");
-            read_spirv_instruction(words[i] & 0xffff, words.subspan(i + 1, length - 1));
+            read_instruction(words[i] & 0xffff, words.subspan(i + 1, length - 1));
             i += length;
         }
     }
@@ -82,26 +82,22 @@ public:
     ShaderReflection make_reflection() const {
         ShaderReflection result;
         for (const SpirvVariable& variable : variables_) {
-            if (variable.storage == kInput && find_spirv_decoration_value(variable.id, kLocation))
+            if (variable.storage == kInput && decoration(variable.id, kLocation))
                 result.has_inputs = true;
             if (variable.storage == kPushConstant)
-                result.push_bytes = std::max(
-                    result.push_bytes,
-                    byte_size_of_spirv_type(spirv_type_of_pointer_variable(variable)));
-            else if (used_.contains(variable.id) &&
-                     find_spirv_decoration_value(variable.id, kBinding))
-                result.bindings.push_back(make_shader_binding(variable));
+                result.push_bytes = std::max(result.push_bytes, byte_size(pointee_type(variable)));
+            else if (used_.contains(variable.id) && decoration(variable.id, kBinding))
+                result.bindings.push_back(make_binding(variable));
         }
         for (const auto& [key, value] : decorations_)
-            if (key.second == kSpecId)
-                result.constants.push_back({spirv_debug_name_of_id(key.first), value});
+            if (key.second == kSpecId) result.constants.push_back({debug_name(key.first), value});
         result.doubles = doubles_, result.triangle_numbers = triangle_numbers_;
         std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);
         return result;
     }
 
 private:
-    void read_spirv_instruction(std::uint32_t op, std::span<const std::uint32_t> words) {
+    void read_instruction(std::uint32_t op, std::span<const std::uint32_t> words) {
         switch (op) {
         case kName: names_[words[0]] = reinterpret_cast<const char*>(words.data() + 1); break;
         case kCapability:
@@ -137,54 +133,51 @@ private:
         }
     }
 
-    std::optional<std::uint32_t> find_spirv_decoration_value(std::uint32_t id,
-                                                             std::uint32_t which) const {
+    std::optional<std::uint32_t> decoration(std::uint32_t id, std::uint32_t which) const {
         const auto found = decorations_.find({id, which});
         return found == decorations_.end() ? std::nullopt : std::optional(found->second);
     }
-    std::string spirv_debug_name_of_id(std::uint32_t id) const {
+    std::string debug_name(std::uint32_t id) const {
         const auto found = names_.find(id);
         return found == names_.end() ? "" : found->second;
     }
-    std::uint32_t spirv_type_of_pointer_variable(const SpirvVariable& variable) const {
+    std::uint32_t pointee_type(const SpirvVariable& variable) const {
         return types_.at(variable.type).words[1];
     }
 
     /// Returns the bytes of a type in the scalar layout.
-    std::uint32_t byte_size_of_spirv_type(std::uint32_t id) const {
+    std::uint32_t byte_size(std::uint32_t id) const {
         const SpirvType& type = types_.at(id);
         switch (type.op) {
         case kTypeInt:
         case kTypeFloat: return type.words[0] / 8;
         case kTypeVector:
-        case kTypeMatrix: return byte_size_of_spirv_type(type.words[0]) * type.words[1];
-        case kTypeArray:
-            return byte_size_of_spirv_type(type.words[0]) * constants_.at(type.words[1]);
+        case kTypeMatrix: return byte_size(type.words[0]) * type.words[1];
+        case kTypeArray: return byte_size(type.words[0]) * constants_.at(type.words[1]);
         case kTypeStruct: {
             if (type.words.empty()) return 0;
             const auto last = static_cast<std::uint32_t>(type.words.size() - 1);
-            return member_offsets_.at({id, last}) + byte_size_of_spirv_type(type.words[last]);
+            return member_offsets_.at({id, last}) + byte_size(type.words[last]);
         }
         default: fail(Failure::internal, "shader '", name_, "': a push constant of unknown size");
         }
     }
 
-    ShaderBinding make_shader_binding(const SpirvVariable& variable) const {
+    ShaderBinding make_binding(const SpirvVariable& variable) const {
         ShaderBinding result;
-        result.name = spirv_debug_name_of_id(variable.id);
-        result.binding = *find_spirv_decoration_value(variable.id, kBinding);
-        check(find_spirv_decoration_value(variable.id, kDescriptorSet).value_or(0) == 0,
-              Failure::internal, "shader '", name_, "': '", result.name, "' is not in set 0");
-        const SpirvType* type = &types_.at(spirv_type_of_pointer_variable(variable));
+        result.name = debug_name(variable.id);
+        result.binding = *decoration(variable.id, kBinding);
+        check(decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
+              "shader '", name_, "': '", result.name, "' is not in set 0");
+        const SpirvType* type = &types_.at(pointee_type(variable));
         if (type->op == kTypeStruct) {
-            if (result.name.empty())
-                result.name = spirv_debug_name_of_id(spirv_type_of_pointer_variable(variable));
-            result.kind = variable.storage == kUniform ? ShaderBindingKind::uniform_buffer
-                                                       : ShaderBindingKind::storage_buffer;
+            if (result.name.empty()) result.name = debug_name(pointee_type(variable));
+            result.kind = variable.storage == kUniform ? BindingKind::uniform_buffer
+                                                       : BindingKind::storage_buffer;
             return result;
         }
         if (type->op == kTypeSampler) {
-            result.kind = ShaderBindingKind::sampler;
+            result.kind = BindingKind::sampler;
             return result;
         }
         const bool is_array = type->op == kTypeArray;
@@ -199,11 +192,11 @@ private:
         if (has_sampler) type = &types_.at(type->words[0]);
         const std::uint32_t dim = type->words[1], arrayed = type->words[3],
                             sampled = type->words[5];
-        result.kind = dim == kDimBuffer ? ShaderBindingKind::texel_buffer
-                      : sampled == 2    ? ShaderBindingKind::storage_image
-                      : has_sampler     ? ShaderBindingKind::sampled_image
-                                        : ShaderBindingKind::texture;
-        check(!is_array || result.kind == ShaderBindingKind::texture, Failure::internal, "shader '",
+        result.kind = dim == kDimBuffer ? BindingKind::texel_buffer
+                      : sampled == 2    ? BindingKind::storage_image
+                      : has_sampler     ? BindingKind::sampled_image
+                                        : BindingKind::texture;
+        check(!is_array || result.kind == BindingKind::texture, Failure::internal, "shader '",
               name_, "': '", result.name, "' is an array of something else than textures");
         result.shape = dim == kDimCube
                            ? (arrayed ? ImageViewType::cube_array : ImageViewType::cube)
@@ -225,7 +218,7 @@ private:
 
 namespace {
 
-std::map<std::string_view, EmbeddedShader>& list_added_shaders() {
+std::map<std::string_view, EmbeddedShader>& added_shaders() {
     static std::map<std::string_view, EmbeddedShader> shaders; // filled while the program starts
     return shaders;
 }
@@ -234,8 +227,8 @@ const EmbeddedShader* find_embedded_shader(std::string_view name) {
     const auto shaders = embedded_shaders();
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
     if (found != shaders.end()) return &*found;
-    const auto other = list_added_shaders().find(name);
-    return other == list_added_shaders().end() ? nullptr : &other->second;
+    const auto other = added_shaders().find(name);
+    return other == added_shaders().end() ? nullptr : &other->second;
 }
 
 } // namespace
@@ -243,7 +236,7 @@ const EmbeddedShader* find_embedded_shader(std::string_view name) {
 void add_shader(const EmbeddedShader& shader) {
     check(!find_embedded_shader(shader.name), Failure::usage, "there is a shader '", shader.name,
           "' already");
-    list_added_shaders().emplace(shader.name, shader);
+    added_shaders().emplace(shader.name, shader);
 }
 
 const EmbeddedShader& find_shader(std::string_view name) {

@@ -21,7 +21,7 @@ void add_shader(const EmbeddedShader& shader);
 /// Returns the embedded or added shader of this name. Throws `Failure::internal` if there is none.
 const EmbeddedShader& find_shader(std::string_view name);
 
-enum class ShaderBindingKind {
+enum class BindingKind {
     uniform_buffer,
     storage_buffer,
     texel_buffer,
@@ -36,7 +36,7 @@ enum class ImageViewType { flat, flat_array, cube, cube_array };
 struct ShaderBinding {
     std::string name; ///< name of the variable or of the block
     std::uint32_t binding = 0;
-    ShaderBindingKind kind = ShaderBindingKind::storage_buffer;
+    BindingKind kind = BindingKind::storage_buffer;
     ImageViewType shape = ImageViewType::flat;
     std::uint32_t count = 1; ///< length of an array of textures
 };

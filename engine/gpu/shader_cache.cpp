@@ -26,9 +26,9 @@ namespace {
 constexpr std::string_view kShaderFileSignature = "catoptric shader 1\n";
 
 /// Returns a file name of 128 bits of hash, which includes everything that the result depends on.
-std::string make_shader_file_name(std::span<const std::uint32_t> words,
-                                  const std::map<std::uint32_t, std::uint32_t>& constants) {
-    const std::string tools = spvSoftwareVersionDetailsString() + list_specialisation_passes();
+std::string shader_file_name(std::span<const std::uint32_t> words,
+                             const std::map<std::uint32_t, std::uint32_t>& constants) {
+    const std::string tools = spvSoftwareVersionDetailsString() + specialisation_passes();
     std::string name;
     for (const std::uint64_t seed : {1u, 2u}) {
         ContentHash hash(seed);
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> read_shader_file(const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return {};
     try {
-        const std::string data = strip_cache_file_header(kShaderFileSignature, read_file(path));
+        const std::string data = strip_header(kShaderFileSignature, read_file(path));
         std::vector<std::uint32_t> words(data.size() / sizeof(std::uint32_t));
         std::memcpy(words.data(), data.data(), words.size() * sizeof(std::uint32_t));
         return words;
@@ -58,21 +58,21 @@ std::vector<std::uint32_t> read_shader_file(const fs::path& path) {
 
 } // namespace
 
-SpecialisedShaderCache::SpecialisedShaderCache(fs::path folder, std::uintmax_t largest_bytes)
+ShaderCache::ShaderCache(fs::path folder, std::uintmax_t largest_bytes)
     : folder_(std::move(folder)), largest_bytes_(largest_bytes) {}
 
-SpecialisedShaderCache::~SpecialisedShaderCache() {
+ShaderCache::~ShaderCache() {
     try {
-        if (stored_ > 0) remove_oldest_files();
+        if (stored_ > 0) remove_oldest();
     } catch (const std::exception&) { // ignored: it is only a cache
     }
 }
 
-std::vector<std::uint32_t> SpecialisedShaderCache::find_or_specialise(
-    std::string_view name, std::span<const std::uint32_t> words,
-    const std::map<std::uint32_t, std::uint32_t>& constants) {
+std::vector<std::uint32_t>
+ShaderCache::specialised(std::string_view name, std::span<const std::uint32_t> words,
+                         const std::map<std::uint32_t, std::uint32_t>& constants) {
     if (folder_.empty()) return specialise_shader(name, words, constants);
-    const fs::path file = folder_ / make_shader_file_name(words, constants);
+    const fs::path file = folder_ / shader_file_name(words, constants);
     std::vector<std::uint32_t> result = read_shader_file(file);
     if (!result.empty()) {
         ++loaded_;
@@ -85,7 +85,7 @@ std::vector<std::uint32_t> SpecialisedShaderCache::find_or_specialise(
         fs::create_directories(folder_, error);
         const std::string_view data(reinterpret_cast<const char*>(result.data()),
                                     result.size() * sizeof(std::uint32_t));
-        write_file(file, add_cache_file_header(kShaderFileSignature, data));
+        write_file(file, add_header(kShaderFileSignature, data));
         ++stored_;
     } catch (const std::exception&) { // ignored: it is only a cache
         can_write_ = false;
@@ -93,7 +93,7 @@ std::vector<std::uint32_t> SpecialisedShaderCache::find_or_specialise(
     return result;
 }
 
-void SpecialisedShaderCache::remove_oldest_files() const {
+void ShaderCache::remove_oldest() const {
     struct StoredFile {
         fs::file_time_type written;
         std::uintmax_t bytes;

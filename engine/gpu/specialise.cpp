@@ -39,11 +39,11 @@ void register_inlining_passes(spvtools::Optimizer& optimiser) {
         .RegisterPass(spvtools::CreateBlockMergePass());
 }
 
-constexpr std::string_view kSubgroupCapabilityPassName = "remove-unused-subgroup-capability";
+constexpr std::string_view kSubgroupPass = "remove-unused-subgroup-capability";
 
 /// Removes the capability of subgroup operations if no such operation is left. The code that counts
 /// work in fragment shaders has subgroup operations, which a device need not support there.
-void remove_unused_subgroup_capability(std::vector<std::uint32_t>& words) {
+void remove_subgroup_capability(std::vector<std::uint32_t>& words) {
     constexpr std::size_t kSpirvHeaderWords = 5;
     // Numbers of SPIR-V: instruction OpCapability, its operand, and the instructions of subgroups.
     constexpr std::uint32_t kCapabilityInstruction = 17, kSubgroupCapability = 61,
@@ -64,13 +64,13 @@ void remove_unused_subgroup_capability(std::vector<std::uint32_t>& words) {
 
 } // namespace
 
-std::string list_specialisation_passes() {
+std::string specialisation_passes() {
     spvtools::Optimizer optimiser(SPV_ENV_VULKAN_1_3);
     register_constant_passes(optimiser, {});
     register_inlining_passes(optimiser);
     std::string names;
     for (const char* name : optimiser.GetPassNames()) names.append(name).append("\n");
-    return names.append(kSubgroupCapabilityPassName).append("\n");
+    return names.append(kSubgroupPass).append("\n");
 }
 
 std::vector<std::uint32_t>
@@ -89,7 +89,7 @@ specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
     std::vector<std::uint32_t> result;
     check(optimiser.Run(words.data(), words.size(), &result, options), Failure::internal,
           "shader '", name, "' cannot be specialised: ", said);
-    remove_unused_subgroup_capability(result);
+    remove_subgroup_capability(result);
     return result;
 }
 

@@ -19,6 +19,6 @@ specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
                   const std::map<std::uint32_t, std::uint32_t>& constants);
 
 /// Returns the names of the passes that specialise_shader runs, in their order.
-std::string list_specialisation_passes();
+std::string specialisation_passes();
 
 } // namespace catoptric::gpu

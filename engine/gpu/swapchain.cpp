@@ -10,29 +10,29 @@ namespace {
 /// recorded.
 constexpr std::size_t kAcquireSemaphoreCount = 4;
 
-UniqueSemaphore make_semaphore(const GpuDevice& device) {
+UniqueSemaphore make_semaphore(const Device& device) {
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateSemaphore(device.device_handle(), &create, nullptr, &semaphore),
-                            "create a semaphore");
-    return {device.device_handle(), semaphore};
+    check_vk(vkCreateSemaphore(device.handle(), &create, nullptr, &semaphore),
+             "create a semaphore");
+    return {device.handle(), semaphore};
 }
 
-VkSurfaceFormatKHR choose_surface_format(const GpuDevice& device) {
+VkSurfaceFormatKHR choose_surface_format(const Device& device) {
     std::uint32_t count = 0;
-    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical_device(), device.window_surface(), &count,
+    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical_device(), device.surface(), &count,
                                          nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
-    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical_device(), device.window_surface(), &count,
+    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical_device(), device.surface(), &count,
                                          formats.data());
     for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
         for (const VkSurfaceFormatKHR& format : formats)
             if (format.format == wanted) return format;
     fail(Failure::no_device, "the window takes no colours of 8 bits that are written as they are (",
-         count, " formats of device '", device.device_properties().name, "')");
+         count, " formats of device '", device.info().name, "')");
 }
 
-VkExtent2D choose_swapchain_extent(const VkSurfaceCapabilitiesKHR& can, uvec2 wanted) {
+VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& can, uvec2 wanted) {
     constexpr std::uint32_t kAnySurfaceExtent = 0xFFFFFFFF;
     if (can.currentExtent.width != kAnySurfaceExtent) return can.currentExtent;
     return {std::clamp(wanted.x, can.minImageExtent.width, can.maxImageExtent.width),
@@ -41,39 +41,36 @@ VkExtent2D choose_swapchain_extent(const VkSurfaceCapabilitiesKHR& can, uvec2 wa
 
 } // namespace
 
-Swapchain::Swapchain(GpuDevice& device)
-    : presenting_device_(device), colours_(choose_surface_format(device)) {
+Swapchain::Swapchain(Device& device) : device_(device), colours_(choose_surface_format(device)) {
     if (colours_.format == VK_FORMAT_R8G8B8A8_UNORM) format_ = TexelFormat::rgba8_unorm;
 }
 
-bool Swapchain::check_swapchain_result(VkResult result, const std::string& doing) {
+bool Swapchain::check_result(VkResult result, const std::string& doing) {
     if (result == VK_SUCCESS) return true;
     lost_ |= result == VK_ERROR_SURFACE_LOST_KHR;
     if (lost_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
         result == VK_TIMEOUT || result == VK_NOT_READY)
         return false; // the next frame tries again
-    presenting_device_.check_result_and_abandon_if_lost(result, doing);
+    device_.check_result(result, doing);
     return false;
 }
 
 void Swapchain::wait_idle() {
-    presenting_device_.check_device_not_abandoned();
-    presenting_device_.check_wait_or_abandon(vkQueueWaitIdle(presenting_device_.vulkan_queue()),
-                                             "wait for the window's pictures");
+    device_.check_not_abandoned();
+    device_.check_wait(vkQueueWaitIdle(device_.queue()), "wait for the window's pictures");
 }
 
-bool Swapchain::create_swapchain_images(uvec2 size) {
+bool Swapchain::create_images(uvec2 size) {
     VkSurfaceCapabilitiesKHR can{};
-    if (!check_swapchain_result(
-            vkGetPhysicalDeviceSurfaceCapabilitiesKHR(presenting_device_.physical_device(),
-                                                      presenting_device_.window_surface(), &can),
-            "ask what the window can show"))
+    if (!check_result(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical_device(),
+                                                                device_.surface(), &can),
+                      "ask what the window can show"))
         return false;
-    const VkExtent2D extent = choose_swapchain_extent(can, size);
+    const VkExtent2D extent = choose_extent(can, size);
     images_.clear();
     if (extent.width == 0 || extent.height == 0) return false;
     VkSwapchainCreateInfoKHR create{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
-    create.surface = presenting_device_.window_surface();
+    create.surface = device_.surface();
     create.minImageCount = std::max(can.minImageCount, 3u);
     if (can.maxImageCount > 0)
         create.minImageCount = std::min(create.minImageCount, can.maxImageCount);
@@ -90,26 +87,22 @@ bool Swapchain::create_swapchain_images(uvec2 size) {
     create.clipped = true;
     create.oldSwapchain = chain_;
     VkSwapchainKHR chain = VK_NULL_HANDLE;
-    if (!check_swapchain_result(
-            vkCreateSwapchainKHR(presenting_device_.device_handle(), &create, nullptr, &chain),
-            "make the window's images"))
+    if (!check_result(vkCreateSwapchainKHR(device_.handle(), &create, nullptr, &chain),
+                      "make the window's images"))
         return false;
-    chain_ = {presenting_device_.device_handle(), chain};
+    chain_ = {device_.handle(), chain};
     std::uint32_t count = 0;
-    throw_unless_vk_success(
-        vkGetSwapchainImagesKHR(presenting_device_.device_handle(), chain_, &count, nullptr),
-        "count the window's images");
+    check_vk(vkGetSwapchainImagesKHR(device_.handle(), chain_, &count, nullptr),
+             "count the window's images");
     images_.resize(count);
-    throw_unless_vk_success(
-        vkGetSwapchainImagesKHR(presenting_device_.device_handle(), chain_, &count, images_.data()),
-        "get the window's images");
+    check_vk(vkGetSwapchainImagesKHR(device_.handle(), chain_, &count, images_.data()),
+             "get the window's images");
     // Semaphores of images that were acquired but not drawn are still signalled, so they cannot be
     // used again.
     acquired_.clear(), rendered_.clear();
     for (std::size_t i = 0; i < kAcquireSemaphoreCount; ++i)
-        acquired_.push_back(make_semaphore(presenting_device_));
-    for (std::size_t i = 0; i < images_.size(); ++i)
-        rendered_.push_back(make_semaphore(presenting_device_));
+        acquired_.push_back(make_semaphore(device_));
+    for (std::size_t i = 0; i < images_.size(); ++i) rendered_.push_back(make_semaphore(device_));
     size_ = {extent.width, extent.height};
     return true;
 }
@@ -117,12 +110,10 @@ bool Swapchain::create_swapchain_images(uvec2 size) {
 std::optional<std::uint32_t> Swapchain::acquire_image() {
     const std::size_t turn = (turn_ + 1) % acquired_.size();
     std::uint32_t image = 0;
-    const VkResult result = vkAcquireNextImageKHR(presenting_device_.device_handle(), chain_,
-                                                  ~std::uint64_t{0}, acquired_[turn],
-                                                  VK_NULL_HANDLE, &image);
+    const VkResult result = vkAcquireNextImageKHR(device_.handle(), chain_, ~std::uint64_t{0},
+                                                  acquired_[turn], VK_NULL_HANDLE, &image);
     // A suboptimal image is drawn all the same, because its semaphore will be signalled.
-    if (result != VK_SUBOPTIMAL_KHR &&
-        !check_swapchain_result(result, "get the window's next image"))
+    if (result != VK_SUBOPTIMAL_KHR && !check_result(result, "get the window's next image"))
         return {};
     turn_ = turn;
     return image;
@@ -137,8 +128,8 @@ bool Swapchain::present_image(std::uint32_t image) {
     present.swapchainCount = 1;
     present.pSwapchains = &chain;
     present.pImageIndices = &image;
-    return check_swapchain_result(vkQueuePresentKHR(presenting_device_.vulkan_queue(), &present),
-                                  "show a picture in the window");
+    return check_result(vkQueuePresentKHR(device_.queue(), &present),
+                        "show a picture in the window");
 }
 
 } // namespace catoptric::gpu

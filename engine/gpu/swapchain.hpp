@@ -12,36 +12,36 @@ namespace catoptric::gpu {
 class Swapchain {
 public:
     /// `device` must have a surface. Throws `no_device` if the window takes no colours of 8 bits.
-    explicit Swapchain(GpuDevice& device);
+    explicit Swapchain(Device& device);
 
-    /// Waits until the device is idle. Call it before `create_swapchain_images`, and before views
+    /// Waits until the device is idle. Call it before `create_images`, and before views
     /// of the images are destroyed.
     void wait_idle();
     /// Makes images of this size, in pixels, or of the size that the window system demands. Returns
     /// false if the window has no pixels now (it is minimised), or is gone (see `is_surface_lost`).
-    bool create_swapchain_images(uvec2 size);
+    bool create_images(uvec2 size);
     /// Returns whether the surface is lost together with its window. Only another device with
     /// another surface helps.
     bool is_surface_lost() const { return lost_; }
     TexelFormat texel_format() const { return format_; }
-    uvec2 size_in_pixels() const { return size_; }
-    const std::vector<VkImage>& swapchain_images() const { return images_; }
+    uvec2 size() const { return size_; }
+    const std::vector<VkImage>& images() const { return images_; }
 
     /// Returns the index of the image to draw next. Waits for the window system if none is free.
-    /// Returns nothing if the window has changed and `create_swapchain_images` must be called.
+    /// Returns nothing if the window has changed and `create_images` must be called.
     std::optional<std::uint32_t> acquire_image();
     /// Semaphores for the frame that draws the image acquired last: the frame waits for
-    /// `image_acquired_semaphore` and signals `rendering_done_semaphore`.
-    VkSemaphore image_acquired_semaphore() const { return acquired_[turn_]; }
-    VkSemaphore rendering_done_semaphore(std::uint32_t image) const { return rendered_[image]; }
-    /// Shows the image. Returns false if the window has changed and `create_swapchain_images` must
+    /// `acquired_semaphore` and signals `rendered_semaphore`.
+    VkSemaphore acquired_semaphore() const { return acquired_[turn_]; }
+    VkSemaphore rendered_semaphore(std::uint32_t image) const { return rendered_[image]; }
+    /// Shows the image. Returns false if the window has changed and `create_images` must
     /// be called.
     bool present_image(std::uint32_t image);
 
 private:
-    bool check_swapchain_result(VkResult result, const std::string& doing);
+    bool check_result(VkResult result, const std::string& doing);
 
-    GpuDevice& presenting_device_;
+    Device& device_;
     VkSurfaceFormatKHR colours_{};
     TexelFormat format_ = TexelFormat::bgra8_unorm;
     UniqueSwapchain chain_;

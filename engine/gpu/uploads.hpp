@@ -12,8 +12,8 @@
 
 namespace catoptric::gpu {
 
-class GpuBuffer;
-class GpuDevice;
+class Buffer;
+class Device;
 
 /// Writes to buffers that the host cannot map, through a ring of staging blocks. A write copies its
 /// bytes into a block and records a copy on the device. It waits only if the whole ring is in
@@ -21,44 +21,43 @@ class GpuDevice;
 class StagedUploads {
 public:
     /// The number of the submit that ends a write; 0: none. Larger numbers end later.
-    using StagedWriteTicket = std::uint64_t;
+    using WriteTicket = std::uint64_t;
 
-    explicit StagedUploads(GpuDevice& device);
+    explicit StagedUploads(Device& device);
     ~StagedUploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
-    /// Throws as GpuDevice::check_result_and_abandon_if_lost and check_wait_or_abandon do.
-    StagedWriteTicket stage_write(VkBuffer to, std::uint64_t offset,
-                                  std::span<const std::byte> data);
+    /// Throws as Device::check_result and check_wait do.
+    WriteTicket stage_write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
-    void wait_for_staged_write(StagedWriteTicket ticket);
+    void wait_for(WriteTicket ticket);
 
 private:
     /// Bytes of `buffer` that a block's commands write.
-    struct UploadWriteRange {
+    struct WriteRange {
         VkBuffer buffer;
         std::uint64_t first, end;
     };
     struct StagingBlock {
-        std::unique_ptr<GpuBuffer> staging;
+        std::unique_ptr<Buffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        std::uint64_t used = 0;                ///< bytes used in `staging`
-        StagedWriteTicket ends = 0;            ///< timeline value at which the block is free again
-        std::vector<UploadWriteRange> targets; ///< writes since the last barrier
+        std::uint64_t used = 0;          ///< bytes used in `staging`
+        WriteTicket ends = 0;            ///< timeline value at which the block is free again
+        std::vector<WriteRange> targets; ///< writes since the last barrier
     };
-    StagingBlock& open_staging_block();
-    void wait(StagedWriteTicket ticket);
-    void order_overlapping_staged_writes(StagingBlock& block, const UploadWriteRange& target);
+    StagingBlock& open_block();
+    void wait(WriteTicket ticket);
+    void order_writes(StagingBlock& block, const WriteRange& target);
 
-    GpuDevice& upload_device_;
+    Device& device_;
     UniqueCommandPool pool_;
     UniqueSemaphore timeline_;
     std::array<StagingBlock, 3> blocks_;
     std::size_t current_ = 0;
     bool is_recording_ = false;
-    StagedWriteTicket submitted_ = 0, ended_ = 0;
+    WriteTicket submitted_ = 0, ended_ = 0;
 };
 
 /// The last upload to a buffer. Its destructor waits until the upload has ended, so that the buffer
@@ -73,7 +72,7 @@ public:
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void set_ticket(GpuDevice& device, StagedUploads::StagedWriteTicket ticket) {
+    void set_ticket(Device& device, StagedUploads::WriteTicket ticket) {
         device_ = &device, ticket_ = ticket;
     }
 
@@ -82,8 +81,8 @@ private:
         std::swap(device_, other.device_), std::swap(ticket_, other.ticket_);
     }
 
-    GpuDevice* device_ = nullptr;
-    StagedUploads::StagedWriteTicket ticket_ = 0;
+    Device* device_ = nullptr;
+    StagedUploads::WriteTicket ticket_ = 0;
 };
 
 } // namespace catoptric::gpu

@@ -4,7 +4,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::array<ShaderVariant, kShaderVariantCount> kShaderVariants{
+constexpr std::array<ShaderVariant, kVariantCount> kShaderVariants{
     {{"groups",
       {"scattered", "in order"},
       "groups_in_order",
@@ -20,8 +20,6 @@ constexpr std::array<ShaderVariant, kShaderVariantCount> kShaderVariants{
 
 } // namespace
 
-std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants() {
-    return kShaderVariants;
-}
+std::span<const ShaderVariant, kVariantCount> shader_variants() { return kShaderVariants; }
 
 } // namespace catoptric::gpu

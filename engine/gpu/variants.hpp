@@ -9,7 +9,7 @@
 /// picture takes, and never a byte of the picture.
 namespace catoptric::gpu {
 
-inline constexpr std::size_t kShaderVariantCount = 3;
+inline constexpr std::size_t kVariantCount = 3;
 
 struct ShaderVariant {
     std::string_view name;
@@ -17,9 +17,9 @@ struct ShaderVariant {
     std::string_view constant;               ///< shader constant that gets the index of the choice
     std::string_view help;
 };
-std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants();
+std::span<const ShaderVariant, kVariantCount> shader_variants();
 
 /// The index of the choice for each variant, in the table's order.
-using ShaderVariantChoices = std::array<std::uint8_t, kShaderVariantCount>;
+using VariantChoices = std::array<std::uint8_t, kVariantCount>;
 
 } // namespace catoptric::gpu

@@ -29,7 +29,7 @@ const char* vk_result_name(VkResult result) {
     }
 }
 
-void throw_unless_vk_success(VkResult result, const std::string& doing) {
+void check_vk(VkResult result, const std::string& doing) {
     if (result == VK_SUCCESS) return;
     Failure failure = Failure::internal;
     switch (result) {
@@ -72,8 +72,8 @@ VkFormat to_vk_format(TexelFormat format) {
     return VK_FORMAT_UNDEFINED;
 }
 
-void record_memory_barrier(VkCommandBuffer commands, const BarrierAccessScope& earlier,
-                           const BarrierAccessScope& later) {
+void memory_barrier(VkCommandBuffer commands, const AccessScope& earlier,
+                    const AccessScope& later) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = earlier.stages;
     barrier.srcAccessMask = earlier.access;
@@ -85,7 +85,7 @@ void record_memory_barrier(VkCommandBuffer commands, const BarrierAccessScope& e
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-void record_image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
+void image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &barrier;

@@ -15,34 +15,31 @@ namespace catoptric::gpu {
 /// Throws unless `result` is VK_SUCCESS: `exhausted` without memory, `device_lost` for a device
 /// that is lost or gives no answer, `no_device` for a missing feature, else `internal`. `doing`
 /// completes "Vulkan: cannot ".
-void throw_unless_vk_success(VkResult result, const std::string& doing);
+void check_vk(VkResult result, const std::string& doing);
 const char* vk_result_name(VkResult result);
 
 VkFormat to_vk_format(TexelFormat format);
 
 /// Stages and kinds of access of the work on one side of a barrier.
-struct BarrierAccessScope {
+struct AccessScope {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
 };
 /// The writes of copies.
-inline constexpr BarrierAccessScope kTransferWriteAccessScope{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                                              VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr AccessScope kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                            VK_ACCESS_2_TRANSFER_WRITE_BIT};
 /// Records a barrier that makes the writes of earlier work visible to later work, in all memory.
-void record_memory_barrier(VkCommandBuffer commands, const BarrierAccessScope& earlier,
-                           const BarrierAccessScope& later);
+void memory_barrier(VkCommandBuffer commands, const AccessScope& earlier, const AccessScope& later);
 /// Records one barrier of a single image.
-void record_image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier);
+void image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier);
 
 /// Returns the surface for the number that window libraries pass for it.
-inline VkSurfaceKHR vulkan_surface_from_integer_handle(std::uint64_t number) {
-    return std::bit_cast<VkSurfaceKHR>(number);
-}
+inline VkSurfaceKHR to_surface(std::uint64_t number) { return std::bit_cast<VkSurfaceKHR>(number); }
 
 /// A device handle for objects made from the device, with its abandoned flag.
 struct DeviceHandle {
     VkDevice device = VK_NULL_HANDLE;
-    /// The flag of GpuDevice::is_abandoned(); null: the device is never abandoned.
+    /// The flag of Device::is_abandoned(); null: the device is never abandoned.
     const bool* abandoned = nullptr;
     operator VkDevice() const { return device; }
 };
@@ -53,21 +50,21 @@ template <typename Handle, auto Destroy>
 class UniqueHandle {
 public:
     UniqueHandle() = default;
-    UniqueHandle(DeviceHandle device, Handle handle) : owner_device_(device), handle_(handle) {}
+    UniqueHandle(DeviceHandle device, Handle handle) : device_(device), handle_(handle) {}
     UniqueHandle(UniqueHandle&& other) noexcept
-        : owner_device_(other.owner_device_), handle_(std::exchange(other.handle_, Handle{})) {}
+        : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
     UniqueHandle& operator=(UniqueHandle&& other) noexcept {
-        std::swap(owner_device_, other.owner_device_), std::swap(handle_, other.handle_);
+        std::swap(device_, other.device_), std::swap(handle_, other.handle_);
         return *this;
     }
     ~UniqueHandle() {
-        const bool abandoned = owner_device_.abandoned && *owner_device_.abandoned;
-        if (handle_ && !abandoned) Destroy(owner_device_, handle_, nullptr);
+        const bool abandoned = device_.abandoned && *device_.abandoned;
+        if (handle_ && !abandoned) Destroy(device_, handle_, nullptr);
     }
     operator Handle() const { return handle_; }
 
 private:
-    DeviceHandle owner_device_;
+    DeviceHandle device_;
     Handle handle_{};
 };
 

@@ -26,7 +26,7 @@ void PassCommands::add_counted_work(WorkKind kind, std::uint64_t count) {
     if (WorkCounter* const work = frame_recorder_.frame_work_counter()) work->add(kind, count);
 }
 
-void PassCommands::bind_pipeline(gpu::RasterPipelineState state) {
+void PassCommands::bind_pipeline(gpu::RasterState state) {
     gpu::AttachmentFormats attachments;
     for (const ImageUse& use : pass_.images) {
         if (use.use == ResourceUse::colour)
@@ -37,19 +37,19 @@ void PassCommands::bind_pipeline(gpu::RasterPipelineState state) {
     if (frame_recorder_.frame_work_counter())
         state.features.emplace_back(kCountWorkShaderConstantName, 1u);
     pipeline_name_ = state.vertex + "+" + state.fragment;
-    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_raster_pipeline(state, attachments);
+    pipeline_ = &frame_recorder_.pipeline_store().raster_pipeline(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true, is_pushed_ = false;
 }
 
-void PassCommands::bind_pipeline(const gpu::ComputePipelineState& state) {
+void PassCommands::bind_pipeline(const gpu::ComputeState& state) {
     pipeline_name_ = state.shader;
-    gpu::ComputePipelineState counting;
+    gpu::ComputeState counting;
     if (frame_recorder_.frame_work_counter()) {
         counting = state;
         counting.features.emplace_back(kCountWorkShaderConstantName, 1u);
     }
-    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_compute_pipeline(
+    pipeline_ = &frame_recorder_.pipeline_store().compute_pipeline(
         frame_recorder_.frame_work_counter() ? counting : state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true, is_pushed_ = false;
@@ -99,18 +99,17 @@ void PassCommands::bind_resource(std::string_view name, BufferHandle buffer) {
     dirty_ = true;
 }
 
-void PassCommands::bind_resource(std::string_view name, const gpu::GpuBuffer& buffer) {
+void PassCommands::bind_resource(std::string_view name, const gpu::Buffer& buffer) {
     bound_.insert_or_assign(std::string(name), &buffer);
     dirty_ = true;
 }
 
-void PassCommands::bind_vertex_and_index_buffers(const gpu::GpuBuffer& vertices,
-                                                 const gpu::GpuBuffer& indices) {
+void PassCommands::bind_vertex_and_index_buffers(const gpu::Buffer& vertices,
+                                                 const gpu::Buffer& indices) {
     const VkDeviceSize offset = 0;
-    if (const VkBuffer buffer = vertices.buffer_handle();
-        std::exchange(vertices_, buffer) != buffer)
+    if (const VkBuffer buffer = vertices.handle(); std::exchange(vertices_, buffer) != buffer)
         vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
-    if (const VkBuffer buffer = indices.buffer_handle(); std::exchange(indices_, buffer) != buffer)
+    if (const VkBuffer buffer = indices.handle(); std::exchange(indices_, buffer) != buffer)
         vkCmdBindIndexBuffer(commands_, buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
@@ -157,7 +156,7 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
 }
 
 void PassCommands::storage_barrier() {
-    gpu::record_memory_barrier(
+    gpu::memory_barrier(
         commands_, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
         {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
          VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT |
@@ -207,10 +206,10 @@ void PassCommands::update_buffer(BufferHandle buffer, std::span<const std::byte>
 
 namespace {
 
-bool is_image_binding(gpu::ShaderBindingKind kind) {
-    using gpu::ShaderBindingKind;
-    return kind == ShaderBindingKind::sampled_image || kind == ShaderBindingKind::texture ||
-           kind == ShaderBindingKind::storage_image;
+bool is_image_binding(gpu::BindingKind kind) {
+    using gpu::BindingKind;
+    return kind == BindingKind::sampled_image || kind == BindingKind::texture ||
+           kind == BindingKind::storage_image;
 }
 
 const char* bound_resource_kind_name(bool image, bool sampler) {
@@ -222,7 +221,7 @@ const char* bound_resource_kind_name(bool image, bool sampler) {
 void PassCommands::check_binding_kind(const gpu::ShaderBinding& binding,
                                       const BoundResource& bound) const {
     const bool wants_image = is_image_binding(binding.kind),
-               wants_sampler = binding.kind == gpu::ShaderBindingKind::sampler,
+               wants_sampler = binding.kind == gpu::BindingKind::sampler,
                image = std::holds_alternative<BoundImageList>(bound),
                sampler = std::holds_alternative<TextureFilter>(bound);
     check(wants_image == image && wants_sampler == sampler, Failure::internal, "pass '", pass_.name,
@@ -234,18 +233,18 @@ void PassCommands::check_binding_kind(const gpu::ShaderBinding& binding,
 void PassCommands::write_image_descriptors(const gpu::ShaderBinding& binding,
                                            const BoundResource& bound,
                                            std::vector<VkDescriptorImageInfo>& infos) {
-    using gpu::ShaderBindingKind;
+    using gpu::BindingKind;
     if (const auto* filter = std::get_if<TextureFilter>(&bound)) {
         infos.push_back({frame_recorder_.sampler_of_filter(*filter), VK_NULL_HANDLE,
                          VK_IMAGE_LAYOUT_UNDEFINED});
         return;
     }
     const auto& [images, count, filter] = std::get<BoundImageList>(bound);
-    const bool stored = binding.kind == ShaderBindingKind::storage_image;
+    const bool stored = binding.kind == BindingKind::storage_image;
     for (std::size_t i = 0; i < binding.count; ++i) {
         const ImageHandle image = images[i < count ? i : 0];
         infos.push_back(
-            {binding.kind == ShaderBindingKind::sampled_image
+            {binding.kind == BindingKind::sampled_image
                  ? frame_recorder_.sampler_of_filter(sampler_filter_of_binding(image, filter))
                  : VK_NULL_HANDLE,
              frame_recorder_.physical_image(image).find_or_create_view(
@@ -257,12 +256,12 @@ void PassCommands::write_image_descriptors(const gpu::ShaderBinding& binding,
 void PassCommands::write_buffer_descriptor(const gpu::ShaderBinding& binding,
                                            const BoundResource& bound,
                                            VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
-    const auto* owned = std::get_if<const gpu::GpuBuffer*>(&bound);
-    buffer = {owned ? (*owned)->buffer_handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
-    if (binding.kind != gpu::ShaderBindingKind::texel_buffer) return;
-    check(owned && (*owned)->texel_buffer_view(), Failure::internal, "pass '", pass_.name, "': '",
+    const auto* owned = std::get_if<const gpu::Buffer*>(&bound);
+    buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
+    if (binding.kind != gpu::BindingKind::texel_buffer) return;
+    check(owned && (*owned)->texel_view(), Failure::internal, "pass '", pass_.name, "': '",
           binding.name, "' wants a buffer of texels");
-    texels = (*owned)->texel_buffer_view();
+    texels = (*owned)->texel_view();
 }
 
 /// Returns the name under which a pass binds the resource of this binding. A list of texels has two
@@ -283,12 +282,12 @@ TextureFilter PassCommands::sampler_filter_of_binding(ImageHandle image,
     const ImageDesc& desc = pass_graph_.list_images()[image.id];
     const bool is_float = desc.format == TexelFormat::r32f || desc.format == TexelFormat::rgba32f;
     if (!is_float || filter == TextureFilter::nearest ||
-        frame_recorder_.recording_device().has_float_filtering())
+        frame_recorder_.recording_device().filters_floats())
         return filter;
     check(desc.format == TexelFormat::r32f && filter == TextureFilter::linear, Failure::no_device,
           "pass '", pass_.name, "' filters '", desc.name,
           "', an image of 32-bit floats, which device '",
-          frame_recorder_.recording_device().device_properties().name, "' cannot");
+          frame_recorder_.recording_device().info().name, "' cannot");
     return TextureFilter::nearest;
 }
 
@@ -319,20 +318,19 @@ void PassCommands::write_bound_descriptors() {
             write.dstSet = set;
             write.dstBinding = binding.binding;
             write.descriptorCount = binding.count;
-            write.descriptorType = gpu::descriptor_type_of_binding(binding.kind);
+            write.descriptorType = gpu::descriptor_type(binding.kind);
             write.pImageInfo = images.data() + images.size();
             write.pBufferInfo = &buffers[i];
             write.pTexelBufferView = &texels[i];
             if (is_work)
                 buffers[i] = frame_recorder_.frame_work_counter()->shader_counts();
-            else if (is_image_binding(binding.kind) ||
-                     binding.kind == gpu::ShaderBindingKind::sampler)
+            else if (is_image_binding(binding.kind) || binding.kind == gpu::BindingKind::sampler)
                 write_image_descriptors(binding, bound->second, images);
             else
                 write_buffer_descriptor(binding, bound->second, buffers[i], texels[i]);
             writes.push_back(write);
         }
-        vkUpdateDescriptorSets(frame_recorder_.recording_device().device_handle(),
+        vkUpdateDescriptorSets(frame_recorder_.recording_device().handle(),
                                static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
                                nullptr);
         vkCmdBindDescriptorSets(commands_, pipeline_->bind_point, pipeline_->layout, 0, 1, &set, 0,

@@ -44,8 +44,8 @@ public:
     /// Selects a raster pipeline. A pass of several layers uses the vertex shader's "#layered"
     /// build where the device can write gl_Layer from a vertex shader. On other devices the body is
     /// called once for each layer. In both cases gl_InstanceIndex tells the layer (see `draw`).
-    void bind_pipeline(gpu::RasterPipelineState state);
-    void bind_pipeline(const gpu::ComputePipelineState& state);
+    void bind_pipeline(gpu::RasterState state);
+    void bind_pipeline(const gpu::ComputeState& state);
     /// Binds an image, which the pass must declare.
     void bind_resource(std::string_view name, ImageHandle image,
                        TextureFilter filter = TextureFilter::nearest) {
@@ -58,7 +58,7 @@ public:
     /// Binds a sampler without an image.
     void bind_resource(std::string_view name, TextureFilter sampler);
     void bind_resource(std::string_view name, BufferHandle buffer);
-    void bind_resource(std::string_view name, const gpu::GpuBuffer& buffer);
+    void bind_resource(std::string_view name, const gpu::Buffer& buffer);
     /// Sets the push constants for all later draws and dispatches of the pass.
     template <typename T>
     void push_constants(const T& value) {
@@ -71,8 +71,7 @@ public:
     void draw_fullscreen_triangle();
     /// Sets the vertex buffer (vertices as in shaders/shared.h) and the buffer of 32-bit indices
     /// for all later draws of the pass.
-    void bind_vertex_and_index_buffers(const gpu::GpuBuffer& vertices,
-                                       const gpu::GpuBuffer& indices);
+    void bind_vertex_and_index_buffers(const gpu::Buffer& vertices, const gpu::Buffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
     /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
@@ -123,8 +122,7 @@ private:
         std::size_t count = 1;
         TextureFilter filter = TextureFilter::nearest;
     };
-    using BoundResource =
-        std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::GpuBuffer*>;
+    using BoundResource = std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::Buffer*>;
     void write_bound_descriptors();
     void run_piece();
     struct WorkGroupRange {

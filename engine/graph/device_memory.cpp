@@ -6,13 +6,12 @@ namespace catoptric::graph {
 
 namespace {
 
-VkMemoryRequirements query_memory_requirements(const gpu::GpuDevice& device,
-                                               const ImageDesc& desc) {
+VkMemoryRequirements query_memory_requirements(const gpu::Device& device, const ImageDesc& desc) {
     const VkImageCreateInfo create = make_image_create_info(desc);
     VkDeviceImageMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vkGetDeviceImageMemoryRequirements(device.device_handle(), &info, &needs);
+    vkGetDeviceImageMemoryRequirements(device.handle(), &info, &needs);
     return needs.memoryRequirements;
 }
 
@@ -25,32 +24,31 @@ VkBufferCreateInfo make_buffer_create_info(const BufferDesc& desc) {
     return create;
 }
 
-VkMemoryRequirements query_memory_requirements(const gpu::GpuDevice& device,
-                                               const BufferDesc& desc) {
+VkMemoryRequirements query_memory_requirements(const gpu::Device& device, const BufferDesc& desc) {
     const VkBufferCreateInfo create = make_buffer_create_info(desc);
     VkDeviceBufferMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vkGetDeviceBufferMemoryRequirements(device.device_handle(), &info, &needs);
+    vkGetDeviceBufferMemoryRequirements(device.handle(), &info, &needs);
     return needs.memoryRequirements;
 }
 
-MemoryRequirements make_memory_requirements(const gpu::GpuDevice& device,
+MemoryRequirements make_memory_requirements(const gpu::Device& device,
                                             const VkMemoryRequirements& needs,
                                             const std::string& name) {
-    const int type = device.find_memory_type_index(needs.memoryTypeBits,
-                                                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    const int type = device.find_memory_type(needs.memoryTypeBits,
+                                             VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
     // Buffers and images are placed in the same heaps. Their offsets are aligned to
     // bufferImageGranularity, so that a buffer and an image never share a page.
-    const auto granularity = device.vulkan_limits().bufferImageGranularity;
+    const auto granularity = device.limits().bufferImageGranularity;
     return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity),
             static_cast<std::uint32_t>(type)};
 }
 
 } // namespace
 
-MemoryRequirementQueries make_device_requirement_queries(const gpu::GpuDevice& device) {
+MemoryRequirementQueries make_device_requirement_queries(const gpu::Device& device) {
     return {[&device](const ImageDesc& desc) {
                 return make_memory_requirements(device, query_memory_requirements(device, desc),
                                                 desc.name);
@@ -61,23 +59,22 @@ MemoryRequirementQueries make_device_requirement_queries(const gpu::GpuDevice& d
             }};
 }
 
-gpu::UniqueBuffer make_unbound_buffer(const gpu::GpuDevice& device, const BufferDesc& desc) {
+gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDesc& desc) {
     const VkBufferCreateInfo create = make_buffer_create_info(desc);
     VkBuffer buffer = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(vkCreateBuffer(device.device_handle(), &create, nullptr, &buffer),
-                                 "create buffer '" + desc.name + "'");
-    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_BUFFER,
-                                           reinterpret_cast<std::uint64_t>(buffer), desc.name);
-    return {device.device_handle(), buffer};
+    gpu::check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer),
+                  "create buffer '" + desc.name + "'");
+    device.set_debug_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer),
+                          desc.name);
+    return {device.handle(), buffer};
 }
 
-ImageWithMemory make_importable_image(const gpu::GpuDevice& device, const ImageDesc& desc) {
+ImageWithMemory make_importable_image(const gpu::Device& device, const ImageDesc& desc) {
     const MemoryRequirements needs = make_device_requirement_queries(device).image(desc);
     ImageWithMemory made{device.allocate(needs.bytes, needs.heap, desc.name),
                          make_physical_image(device, desc)};
-    gpu::throw_unless_vk_success(
-        vkBindImageMemory(device.device_handle(), made.image.image, made.memory, 0),
-        "place image '" + desc.name + "'");
+    gpu::check_vk(vkBindImageMemory(device.handle(), made.image.image, made.memory, 0),
+                  "place image '" + desc.name + "'");
     return made;
 }
 

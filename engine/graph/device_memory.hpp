@@ -7,10 +7,10 @@ namespace catoptric::graph {
 
 /// Returns functions that tell how much memory the device needs for images and buffers of a graph.
 /// The device must outlive the returned functions.
-MemoryRequirementQueries make_device_requirement_queries(const gpu::GpuDevice& device);
+MemoryRequirementQueries make_device_requirement_queries(const gpu::Device& device);
 
 /// Creates a buffer of the graph without memory.
-gpu::UniqueBuffer make_unbound_buffer(const gpu::GpuDevice& device, const BufferDesc& desc);
+gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDesc& desc);
 
 /// An image with its own memory.
 struct ImageWithMemory {
@@ -18,6 +18,6 @@ struct ImageWithMemory {
     PhysicalImage image;
 };
 /// Creates an image to be imported into graphs. Its contents are undefined.
-ImageWithMemory make_importable_image(const gpu::GpuDevice& device, const ImageDesc& desc);
+ImageWithMemory make_importable_image(const gpu::Device& device, const ImageDesc& desc);
 
 } // namespace catoptric::graph

@@ -91,10 +91,9 @@ void SharedGraphMemoryArena::create_resources(CompiledRenderGraph& shape,
         if (!shape.is_allocated_by_runner(i) || p.alone != alone || shape.outlives_frames(i))
             continue;
         resources.images.back() = make_physical_image(memory_device_, desc);
-        gpu::throw_unless_vk_success(vkBindImageMemory(memory_device_.device_handle(),
-                                                       resources.images.back().image,
-                                                       arena.heaps[p.heap], offset_of(p)),
-                                     "place image '" + desc.name + "'");
+        gpu::check_vk(vkBindImageMemory(memory_device_.handle(), resources.images.back().image,
+                                        arena.heaps[p.heap], offset_of(p)),
+                      "place image '" + desc.name + "'");
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b) {
         const MemoryPlacement& p = shape.plan.buffers[b];
@@ -104,10 +103,9 @@ void SharedGraphMemoryArena::create_resources(CompiledRenderGraph& shape,
             shape.outlives_frames(BufferHandle{b}))
             continue;
         resources.buffers.back() = make_unbound_buffer(memory_device_, desc);
-        gpu::throw_unless_vk_success(vkBindBufferMemory(memory_device_.device_handle(),
-                                                        resources.buffers.back(),
-                                                        arena.heaps[p.heap], offset_of(p)),
-                                     "place buffer '" + desc.name + "'");
+        gpu::check_vk(vkBindBufferMemory(memory_device_.handle(), resources.buffers.back(),
+                                         arena.heaps[p.heap], offset_of(p)),
+                      "place buffer '" + desc.name + "'");
     }
     resources.made = true;
 }

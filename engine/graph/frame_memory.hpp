@@ -13,7 +13,7 @@ namespace catoptric::graph {
 /// the slot's next frame is recorded.
 class SharedGraphMemoryArena {
 public:
-    explicit SharedGraphMemoryArena(const gpu::GpuDevice& device) : memory_device_(device) {}
+    explicit SharedGraphMemoryArena(const gpu::Device& device) : memory_device_(device) {}
 
     /// Makes the images and buffers with which the planned graph `shape` runs in this slot, unless
     /// they exist. `shapes`: all planned graphs that need memory. Calls `wait` before it destroys
@@ -35,7 +35,7 @@ private:
     void create_resources(CompiledRenderGraph& shape, CompiledGraphResources& resources,
                           const DeviceHeapAllocations& arena, bool alone);
 
-    const gpu::GpuDevice& memory_device_;
+    const gpu::Device& memory_device_;
     DeviceHeapAllocations shared_;
     std::array<DeviceHeapAllocations, kMaxFramesInFlight> own_;
 };

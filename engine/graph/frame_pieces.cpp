@@ -25,20 +25,19 @@ std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGr
     return name + ")";
 }
 
-gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
+gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device) {
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(
-        vkCreateSemaphore(device.device_handle(), &create, nullptr, &semaphore),
-        "create a semaphore");
-    return {device.device_handle(), semaphore};
+    gpu::check_vk(vkCreateSemaphore(device.handle(), &create, nullptr, &semaphore),
+                  "create a semaphore");
+    return {device.handle(), semaphore};
 }
 
-FramePieces::FramePieces(gpu::GpuDevice& device)
+FramePieces::FramePieces(gpu::Device& device)
     : pieces_device_(device), timeline_(make_timeline_semaphore(device)),
-      fitted_rays_(device.is_cpu_device() ? kFirstRaysOnProcessor : kMostRaysOnOtherDevices) {}
+      fitted_rays_(device.is_cpu() ? kFirstRaysOnProcessor : kMostRaysOnOtherDevices) {}
 
 std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_several) {
     if (slowest_ms > kLongPiece) return std::max(rays / 2, kFirstRaysOnProcessor);
@@ -49,7 +48,7 @@ std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_
 void FramePieces::begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
                               std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays) {
     slot_ = &slot, shape_ = &shape, frame_ = frame, wait_ = wait;
-    if (pieces_device_.is_cpu_device())
+    if (pieces_device_.is_cpu())
         fitted_rays_ = fit_rays_of_piece(fitted_rays_, std::exchange(slowest_ms_, 0),
                                          submitted_ > 0);
     const WorkWatch* const watch = current_watch();
@@ -83,14 +82,14 @@ void FramePieces::submit_and_wait() {
     ++submitted_;
     const std::string doing = "run piece " + std::to_string(submitted_) + " of " +
                               describe_submitted_frame(frame_, *shape_);
-    pieces_device_.check_result_and_abandon_if_lost(
-        vkQueueSubmit2(pieces_device_.vulkan_queue(), 1, &submit, VK_NULL_HANDLE), doing);
+    pieces_device_.check_result(vkQueueSubmit2(pieces_device_.queue(), 1, &submit, VK_NULL_HANDLE),
+                                doing);
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;
     wait.pValues = &piece_;
-    pieces_device_.check_wait_or_abandon(
-        vkWaitSemaphores(pieces_device_.device_handle(), &wait, ~std::uint64_t{0}), doing);
+    pieces_device_.check_wait(vkWaitSemaphores(pieces_device_.handle(), &wait, ~std::uint64_t{0}),
+                              doing);
     const double ms = ms_since(start);
     wait_ms_ += ms;
     end_submission(ms);

@@ -17,7 +17,7 @@ std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_
 /// them the host looks whether the work is to stop (core/watch.hpp).
 class FramePieces {
 public:
-    explicit FramePieces(gpu::GpuDevice& device);
+    explicit FramePieces(gpu::Device& device);
 
     /// Begins a frame of a slot. `wait`: semaphore of the caller for the first piece; may be null.
     /// `all_rays`: most rays that the frame can trace.
@@ -47,7 +47,7 @@ public:
     double wait_ms() const { return wait_ms_; }
 
 private:
-    gpu::GpuDevice& pieces_device_;
+    gpu::Device& pieces_device_;
     gpu::UniqueSemaphore timeline_;
     std::uint64_t fitted_rays_; ///< most rays of a piece without a watch's own bound
     double slowest_ms_ = 0;     ///< slowest submission since the last fit
@@ -71,6 +71,6 @@ private:
 std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGraph& shape);
 
 /// Creates a timeline semaphore with the value 0.
-gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device);
+gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device);
 
 } // namespace catoptric::graph

@@ -9,7 +9,7 @@ namespace catoptric::graph {
 
 namespace {
 
-gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filter) {
+gpu::UniqueSampler make_sampler(const gpu::Device& device, TextureFilter filter) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     create.magFilter = create.minFilter = filter == TextureFilter::nearest ? VK_FILTER_NEAREST
                                                                            : VK_FILTER_LINEAR;
@@ -23,9 +23,8 @@ gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filt
     // Depth is reversed: a fragment passes the test unless it lies behind the stored depth.
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(
-        vkCreateSampler(device.device_handle(), &create, nullptr, &sampler), "create a sampler");
-    return {device.device_handle(), sampler};
+    gpu::check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
+    return {device.handle(), sampler};
 }
 
 std::string describe_image_shape(const ImageDesc& desc) {
@@ -51,14 +50,14 @@ VkRect2D find_pass_render_area(const Pass& pass, VkExtent2D extent) {
 
 /// Stages and accesses on both sides of a barrier.
 struct BarrierSourceAndDestinationScopes {
-    gpu::BarrierAccessScope before, after;
+    gpu::AccessScope before, after;
 };
 
 BarrierSourceAndDestinationScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
     BarrierSourceAndDestinationScopes sides{sync_scope_of_access(barrier.before),
                                             sync_scope_of_access(barrier.after)};
     for (const AccessState& touch : barrier.shared) {
-        const gpu::BarrierAccessScope scope = sync_scope_of_access(touch);
+        const gpu::AccessScope scope = sync_scope_of_access(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
@@ -91,16 +90,16 @@ std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment
 
 } // namespace
 
-FrameRecorder::FrameRecorder(gpu::GpuDevice& device, gpu::PipelineStore& pipelines)
+FrameRecorder::FrameRecorder(gpu::Device& device, gpu::PipelineStore& pipelines)
     : graph_device_(device), pipelines_(pipelines) {
     for (TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear,
                                  TextureFilter::compare, TextureFilter::mipmapped})
         samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
     if (!device.has_debug_labels()) return;
     begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
-        vkGetDeviceProcAddr(device.device_handle(), "vkCmdBeginDebugUtilsLabelEXT"));
+        vkGetDeviceProcAddr(device.handle(), "vkCmdBeginDebugUtilsLabelEXT"));
     end_label_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
-        vkGetDeviceProcAddr(device.device_handle(), "vkCmdEndDebugUtilsLabelEXT"));
+        vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
 void FrameRecorder::record_frame(const Graph& graph, CompiledRenderGraph& shape,
@@ -118,13 +117,13 @@ void FrameRecorder::record_frame(const Graph& graph, CompiledRenderGraph& shape,
         pieces.end_pass(graph.list_passes()[planned.pass].most_rays);
     }
     record_planned_barriers(shape.plan.last, true);
-    gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
+    gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
 }
 
 void FrameRecorder::begin_commands() {
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    gpu::throw_unless_vk_success(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
+    gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
     record_full_barrier();
 }
 
@@ -133,7 +132,7 @@ void FrameRecorder::run_piece() {
     if (end_label_) end_label_(commands_);
     write_timestamp(timing_);
     record_full_barrier();
-    gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
+    gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
     pieces_->submit_and_wait();
     begin_commands();
     write_timestamp(timing_);
@@ -144,24 +143,24 @@ void FrameRecorder::run_piece() {
 std::uint32_t FrameRecorder::read_word(BufferHandle buffer, std::uint64_t offset) {
     run_piece();
     const std::string name = "word of buffer '" + graph_->list_buffers()[buffer.id].name + "'";
-    const gpu::GpuBuffer target(graph_device_, name, sizeof(std::uint32_t),
-                                gpu::BufferUsage::read_back);
-    graph_device_.submit_one_time_commands("read a " + name, [&](VkCommandBuffer commands) {
+    const gpu::Buffer target(graph_device_, name, sizeof(std::uint32_t),
+                             gpu::BufferUsage::read_back);
+    graph_device_.run_commands("read a " + name, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{offset, 0, sizeof(std::uint32_t)};
-        vkCmdCopyBuffer(commands, vulkan_buffer(buffer), target.buffer_handle(), 1, &region);
+        vkCmdCopyBuffer(commands, vulkan_buffer(buffer), target.handle(), 1, &region);
     });
     std::uint32_t word = 0;
-    std::memcpy(&word, target.read_contents().data(), sizeof word);
+    std::memcpy(&word, target.read().data(), sizeof word);
     return word;
 }
 
 /// Records a barrier that completes all earlier work and makes it visible to all later work. It
 /// separates frames and read-backs.
 void FrameRecorder::record_full_barrier() {
-    gpu::record_memory_barrier(commands_,
-                               {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
-                               {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
+    gpu::memory_barrier(commands_,
+                        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+                        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
 }
 
 /// Writes a timestamp. It is exact only if an execution barrier follows: without one, a software
@@ -224,7 +223,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
         pass_in_pieces_ = &pass;
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
-    } else if (pass.layer_count == 1 || graph_device_.supports_layered_rendering()) {
+    } else if (pass.layer_count == 1 || graph_device_.supports_layers()) {
         record_raster_pass(planned, 0, pass.layer_count);
     } else {
         for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer)
@@ -252,10 +251,10 @@ PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
 
 VkBuffer FrameRecorder::vulkan_buffer(BufferHandle buffer) const {
     if (!graph_->is_imported(buffer)) return shape_->vulkan_buffer(buffer, slot_index_);
-    const gpu::GpuBuffer* const outside = graph_->find_imported_resource(buffer);
+    const gpu::Buffer* const outside = graph_->find_imported_resource(buffer);
     check(outside, Failure::internal, "buffer '", graph_->list_buffers()[buffer.id].name,
           "' is imported from nowhere");
-    return outside->buffer_handle();
+    return outside->handle();
 }
 
 void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,

@@ -11,7 +11,7 @@ namespace catoptric::graph {
 /// Records a planned frame into the command buffer of a slot.
 class FrameRecorder {
 public:
-    FrameRecorder(gpu::GpuDevice& device, gpu::PipelineStore& pipelines);
+    FrameRecorder(gpu::Device& device, gpu::PipelineStore& pipelines);
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
     /// `work` counts the frame's work; null: nothing is counted. `pieces`: of this frame, which
@@ -22,7 +22,7 @@ public:
 
     /// Returns the device. Only PassCommands may call this function, while a pass records its
     /// commands.
-    gpu::GpuDevice& recording_device() { return graph_device_; }
+    gpu::Device& recording_device() { return graph_device_; }
     gpu::PipelineStore& pipeline_store() { return pipelines_; }
     /// Returns the counter of the frame's work; null: nothing is counted.
     WorkCounter* frame_work_counter() { return work_; }
@@ -56,7 +56,7 @@ private:
     void record_full_barrier();
     void write_timestamp(PassTiming timing);
 
-    gpu::GpuDevice& graph_device_;
+    gpu::Device& graph_device_;
     gpu::PipelineStore& pipelines_;
     std::array<gpu::UniqueSampler, 4> samplers_;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;

@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::uint32_t kDescriptorSetsPerPool = 256;
 
-gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::GpuDevice& device) {
+gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::Device& device) {
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kDescriptorSetsPerPool},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kDescriptorSetsPerPool},
@@ -20,35 +20,31 @@ gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::GpuDevice& device) {
     create.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     create.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(
-        vkCreateDescriptorPool(device.device_handle(), &create, nullptr, &pool),
-        "create a descriptor pool");
-    return {device.device_handle(), pool};
+    gpu::check_vk(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool),
+                  "create a descriptor pool");
+    return {device.handle(), pool};
 }
 
 } // namespace
 
-FrameInFlightResources::FrameInFlightResources(const gpu::GpuDevice& device)
-    : slot_device_(device) {
+FrameInFlightResources::FrameInFlightResources(const gpu::Device& device) : slot_device_(device) {
     VkCommandPoolCreateInfo create{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     create.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    create.queueFamilyIndex = device.queue_family_index();
+    create.queueFamilyIndex = device.queue_family();
     VkCommandPool handle = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(
-        vkCreateCommandPool(device.device_handle(), &create, nullptr, &handle),
-        "create a command pool");
-    pool_ = {device.device_handle(), handle};
+    gpu::check_vk(vkCreateCommandPool(device.handle(), &create, nullptr, &handle),
+                  "create a command pool");
+    pool_ = {device.handle(), handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    gpu::throw_unless_vk_success(
-        vkAllocateCommandBuffers(device.device_handle(), &allocate, &commands),
-        "allocate a command buffer");
+    gpu::check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &commands),
+                  "allocate a command buffer");
 }
 
 void FrameInFlightResources::reset_commands() {
-    gpu::throw_unless_vk_success(vkResetCommandBuffer(commands, 0), "reset a command buffer");
+    gpu::check_vk(vkResetCommandBuffer(commands, 0), "reset a command buffer");
 }
 
 void FrameInFlightResources::reset(std::uint32_t most_stamps) {
@@ -57,13 +53,12 @@ void FrameInFlightResources::reset(std::uint32_t most_stamps) {
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
         create.queryCount = most_stamps;
         VkQueryPool pool = VK_NULL_HANDLE;
-        gpu::throw_unless_vk_success(
-            vkCreateQueryPool(slot_device_.device_handle(), &create, nullptr, &pool),
-            "create time stamps");
-        queries = {slot_device_.device_handle(), pool};
+        gpu::check_vk(vkCreateQueryPool(slot_device_.handle(), &create, nullptr, &pool),
+                      "create time stamps");
+        queries = {slot_device_.handle(), pool};
         query_count_ = most_stamps;
     }
-    vkResetQueryPool(slot_device_.device_handle(), queries, 0, query_count_);
+    vkResetQueryPool(slot_device_.handle(), queries, 0, query_count_);
     reset_descriptors();
     next_query = 0;
     stamps.clear(), piece_begins.clear();
@@ -71,14 +66,14 @@ void FrameInFlightResources::reset(std::uint32_t most_stamps) {
 
 void FrameInFlightResources::reset_descriptors() {
     for (const auto& pool : descriptor_pools_)
-        vkResetDescriptorPool(slot_device_.device_handle(), pool, 0);
+        vkResetDescriptorPool(slot_device_.handle(), pool, 0);
     next_pool_ = 0;
 }
 
 void FrameInFlightResources::end_piece() {
-    gpu::throw_unless_vk_success(read_stamps(), "read the time stamps of a piece of a frame");
+    gpu::check_vk(read_stamps(), "read the time stamps of a piece of a frame");
     piece_begins.push_back(stamps.size());
-    vkResetQueryPool(slot_device_.device_handle(), queries, 0, query_count_);
+    vkResetQueryPool(slot_device_.handle(), queries, 0, query_count_);
     next_query = 0;
     reset_descriptors();
     reset_commands();
@@ -88,7 +83,7 @@ VkResult FrameInFlightResources::read_stamps() {
     if (next_query == 0) return VK_SUCCESS;
     const std::size_t before = stamps.size();
     stamps.resize(before + next_query);
-    return vkGetQueryPoolResults(slot_device_.device_handle(), queries, 0, next_query,
+    return vkGetQueryPoolResults(slot_device_.handle(), queries, 0, next_query,
                                  8 * std::size_t{next_query}, &stamps[before], 8,
                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 }
@@ -102,12 +97,11 @@ VkDescriptorSet FrameInFlightResources::allocate_descriptor_set(VkDescriptorSetL
         allocate.descriptorSetCount = 1;
         allocate.pSetLayouts = &layout;
         VkDescriptorSet set = VK_NULL_HANDLE;
-        const VkResult result = vkAllocateDescriptorSets(slot_device_.device_handle(), &allocate,
-                                                         &set);
+        const VkResult result = vkAllocateDescriptorSets(slot_device_.handle(), &allocate, &set);
         if (result == VK_SUCCESS) return set;
         const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY ||
                           result == VK_ERROR_FRAGMENTED_POOL;
-        if (fresh || !full) gpu::throw_unless_vk_success(result, "allocate a descriptor set");
+        if (fresh || !full) gpu::check_vk(result, "allocate a descriptor set");
     }
 }
 

@@ -14,7 +14,7 @@ namespace catoptric::graph {
 /// once the frame has ended.
 class FrameInFlightResources {
 public:
-    explicit FrameInFlightResources(const gpu::GpuDevice& device);
+    explicit FrameInFlightResources(const gpu::Device& device);
     /// Empties the command buffer. A frame that failed has left it unfinished, with commands that
     /// use resources which the next frame may destroy.
     void reset_commands();
@@ -48,7 +48,7 @@ public:
 private:
     void reset_descriptors();
 
-    const gpu::GpuDevice& slot_device_;
+    const gpu::Device& slot_device_;
     gpu::UniqueCommandPool pool_;
     std::uint32_t query_count_ = 0;
     std::vector<gpu::UniqueDescriptorPool> descriptor_pools_;

@@ -152,7 +152,7 @@ ImageHandle Graph::import_external_resource(ImageDesc desc, PhysicalImage* outsi
     return handle;
 }
 
-BufferHandle Graph::import_external_resource(BufferDesc desc, const gpu::GpuBuffer* outside) {
+BufferHandle Graph::import_external_resource(BufferDesc desc, const gpu::Buffer* outside) {
     const BufferHandle handle = add_buffer(std::move(desc));
     buffer_lives_.back() = Lifetime::imported;
     outside_buffers_.back() = outside;
@@ -221,7 +221,7 @@ Graph Graph::copy_graph_without_record_callbacks() const {
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;
     for (ImageState& life : outline.lives_) life.outside = nullptr;
-    for (const gpu::GpuBuffer*& outside : outline.outside_buffers_) outside = nullptr;
+    for (const gpu::Buffer*& outside : outline.outside_buffers_) outside = nullptr;
     return outline;
 }
 

@@ -18,7 +18,7 @@
 /// A frame as data: images, buffers and passes in the order in which they run. A frame is declared
 /// (this file), planned (plan.hpp, without a device) and run (graph_runner.hpp, on the device).
 namespace catoptric::gpu {
-class GpuBuffer;
+class Buffer;
 }
 
 namespace catoptric::graph {
@@ -220,7 +220,7 @@ public:
                                          std::optional<ResourceUse> arrives, ResourceUse leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
-    BufferHandle import_external_resource(BufferDesc desc, const gpu::GpuBuffer* outside);
+    BufferHandle import_external_resource(BufferDesc desc, const gpu::Buffer* outside);
     PassBuilder add_pass(std::string name, PassPurpose tag = PassPurpose::none);
 
     /// Returns a handle of the contents at the end of the last frame: on the first, a black image,
@@ -256,7 +256,7 @@ public:
     PhysicalImage* find_imported_resource(std::uint32_t image) const {
         return lives_[image].outside;
     }
-    const gpu::GpuBuffer* find_imported_resource(BufferHandle buffer) const {
+    const gpu::Buffer* find_imported_resource(BufferHandle buffer) const {
         return outside_buffers_[buffer.id];
     }
     /// Returns the content hashes of a persistent image at the start of the frame.
@@ -284,7 +284,7 @@ private:
     std::vector<ImageState> lives_; // one per entry of `images_`
     std::vector<BufferDesc> buffers_;
     std::vector<Lifetime> buffer_lives_; // one per entry of `buffers_`
-    std::vector<const gpu::GpuBuffer*> outside_buffers_;
+    std::vector<const gpu::Buffer*> outside_buffers_;
     std::deque<Pass> passes_; // a deque, because builders hold references
     std::vector<ImageHandle> wanted_images_;
     std::vector<BufferHandle> wanted_buffers_;

@@ -23,15 +23,14 @@ std::vector<std::string> list_pass_names(const CompiledRenderGraph& shape) {
 }
 
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_timestamps(gpu::GpuDevice& device, FrameInFlightResources& slot, GraphFrameTimes& times) {
+void read_timestamps(gpu::Device& device, FrameInFlightResources& slot, GraphFrameTimes& times) {
     const CompiledRenderGraph& shape = *slot.shape;
     const VkResult result = slot.read_stamps();
     if (result != VK_SUCCESS)
-        device.check_result_and_abandon_if_lost(
-            result, "read the time stamps of " + describe_submitted_frame(slot.frame, shape));
+        device.check_result(result, "read the time stamps of " +
+                                        describe_submitted_frame(slot.frame, shape));
     std::vector<double> at = timestamps_to_milliseconds(
-        slot.stamps, device.valid_timestamp_bits(),
-        static_cast<double>(device.vulkan_limits().timestampPeriod));
+        slot.stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
     if (!slot.piece_begins.empty()) at = remove_gaps(at, slot.piece_begins);
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
         const bool isolated = slot.timing == PassTiming::isolated;
@@ -44,7 +43,7 @@ void read_timestamps(gpu::GpuDevice& device, FrameInFlightResources& slot, Graph
 
 } // namespace
 
-GraphRunner::GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+GraphRunner::GraphRunner(gpu::Device& device, gpu::PipelineStore& pipelines,
                          std::uint32_t in_flight, RetainedResources* retained)
     : runner_device_(device), frame_recorder_(device, pipelines), pieces_(device),
       timeline_(make_timeline_semaphore(device)), memory_(device),
@@ -76,10 +75,10 @@ void GraphRunner::discard_persistent_image_contents() {
 }
 
 GraphLimits GraphRunner::limits() const {
-    const VkPhysicalDeviceLimits& limits = runner_device_.vulkan_limits();
+    const VkPhysicalDeviceLimits& limits = runner_device_.limits();
     return {limits.maxImageDimension2D,     limits.maxImageDimensionCube,
             limits.maxImageArrayLayers,     limits.maxFramebufferLayers,
-            runner_device_.memory_budget(), runner_device_.max_allocation_bytes()};
+            runner_device_.memory_budget(), runner_device_.max_allocation()};
 }
 
 CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
@@ -109,7 +108,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
                                                const ExternalSemaphores& outside,
                                                bool counts_work) {
     has_dropped_contents_ = false;
-    runner_device_.check_device_not_abandoned();
+    runner_device_.check_not_abandoned();
     const double waited_before = wait_ms_;
     CompiledRenderGraph& shape = compile_render_graph(graph);
     const std::size_t index = slot_index_of_frame(frame_ + 1);
@@ -195,11 +194,9 @@ void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRende
     submit.pSignalSemaphoreInfos = signals.data();
     runner_device_.submit_uploads();
     slot.submitted = SteadyClock::now();
-    const VkResult result = vkQueueSubmit2(runner_device_.vulkan_queue(), 1, &submit,
-                                           VK_NULL_HANDLE);
+    const VkResult result = vkQueueSubmit2(runner_device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        runner_device_.check_result_and_abandon_if_lost(
-            result, "run " + describe_submitted_frame(frame_ + 1, shape));
+        runner_device_.check_result(result, "run " + describe_submitted_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
@@ -213,11 +210,10 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &slot.frame;
-    const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait,
-                                             ~std::uint64_t{0});
+    const VkResult result = vkWaitSemaphores(runner_device_.handle(), &wait, ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        runner_device_.check_wait_or_abandon(
-            result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
+        runner_device_.check_wait(result,
+                                  "run " + describe_submitted_frame(slot.frame, *slot.shape));
     const double waited = ms_since(begin);
     const double ran = ms_since(slot.submitted);
     slot.times.wall_ms += ran;
@@ -252,10 +248,10 @@ bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket.frame;
-    const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait, 0);
+    const VkResult result = vkWaitSemaphores(runner_device_.handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        runner_device_.check_wait_or_abandon(
-            result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
+        runner_device_.check_wait(result,
+                                  "run " + describe_submitted_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }
 

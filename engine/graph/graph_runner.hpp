@@ -31,7 +31,7 @@ public:
     /// kMaxFramesInFlight. Each has its own command buffer and its own copy of the outputs.
     /// `retained`: where images and buffers that outlive frames are; null: in the runner. The
     /// caller may exchange them for those of other frames after `release_retained`.
-    GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines, std::uint32_t in_flight = 1,
+    GraphRunner(gpu::Device& device, gpu::PipelineStore& pipelines, std::uint32_t in_flight = 1,
                 RetainedResources* retained = nullptr);
     GraphRunner(const GraphRunner&) = delete;
     GraphRunner& operator=(const GraphRunner&) = delete;
@@ -116,7 +116,7 @@ private:
     void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
                       std::size_t slot_index, PassTiming timing, VkSemaphore wait);
 
-    gpu::GpuDevice& runner_device_;
+    gpu::Device& runner_device_;
     FrameRecorder frame_recorder_;
     FramePieces pieces_;
     gpu::UniqueSemaphore timeline_;

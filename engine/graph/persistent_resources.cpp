@@ -18,7 +18,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    gpu::record_image_barrier(commands, barrier);
+    gpu::image_barrier(commands, barrier);
     if (is_depth(desc.format)) {
         const VkClearDepthStencilValue nothing{};
         vkCmdClearDepthStencilImage(commands, image.image, barrier.newLayout, &nothing, 1, &range);
@@ -31,7 +31,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
     barrier.oldLayout = barrier.newLayout,
     barrier.newLayout = image_layout_of_use(ResourceUse::sampled);
-    gpu::record_image_barrier(commands, barrier);
+    gpu::image_barrier(commands, barrier);
 }
 
 } // namespace
@@ -46,16 +46,13 @@ void PersistentResources::create_image(const ImageDesc& desc, PersistentImage& k
     kept.memory = image_device_.allocate(kept.bytes, needs.heap, desc.name);
     for (std::size_t i = 0; i < copies; ++i) {
         kept.copies.push_back(make_physical_image(image_device_, desc));
-        gpu::throw_unless_vk_success(vkBindImageMemory(image_device_.device_handle(),
-                                                       kept.copies[i].image, kept.memory,
-                                                       i * second),
-                                     "place image '" + desc.name + "'");
+        gpu::check_vk(vkBindImageMemory(image_device_.handle(), kept.copies[i].image, kept.memory,
+                                        i * second),
+                      "place image '" + desc.name + "'");
     }
-    image_device_.submit_one_time_commands("clear image '" + desc.name + "'",
-                                           [&](VkCommandBuffer commands) {
-                                               for (const PhysicalImage& copy : kept.copies)
-                                                   clear_image_to_black(commands, copy);
-                                           });
+    image_device_.run_commands("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+        for (const PhysicalImage& copy : kept.copies) clear_image_to_black(commands, copy);
+    });
     kept.stamps = ContentHashPerLayer(desc.layers * desc.mips);
 }
 
@@ -94,15 +91,14 @@ PersistentBuffer& PersistentResources::find_or_create(const BufferDesc& desc,
     kept.memory = image_device_.allocate(kept.bytes, needs.heap, desc.name);
     for (std::size_t i = 0; i < kept.copies.size(); ++i) {
         kept.copies[i] = make_unbound_buffer(image_device_, desc);
-        gpu::throw_unless_vk_success(vkBindBufferMemory(image_device_.device_handle(),
-                                                        kept.copies[i], kept.memory, i * second),
-                                     "place buffer '" + desc.name + "'");
+        gpu::check_vk(
+            vkBindBufferMemory(image_device_.handle(), kept.copies[i], kept.memory, i * second),
+            "place buffer '" + desc.name + "'");
     }
-    image_device_.submit_one_time_commands(
-        "clear buffer '" + desc.name + "'", [&](VkCommandBuffer commands) {
-            for (const gpu::UniqueBuffer& copy : kept.copies)
-                vkCmdFillBuffer(commands, copy, 0, VK_WHOLE_SIZE, 0);
-        });
+    image_device_.run_commands("clear buffer '" + desc.name + "'", [&](VkCommandBuffer commands) {
+        for (const gpu::UniqueBuffer& copy : kept.copies)
+            vkCmdFillBuffer(commands, copy, 0, VK_WHOLE_SIZE, 0);
+    });
     return all_.buffers.emplace(desc.name, std::move(kept)).first->second;
 }
 

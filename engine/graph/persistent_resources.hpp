@@ -19,7 +19,7 @@ struct RetainedResources {
 class PersistentResources {
 public:
     /// `all`: where they are; must outlive this object.
-    PersistentResources(gpu::GpuDevice& device, RetainedResources& all)
+    PersistentResources(gpu::Device& device, RetainedResources& all)
         : image_device_(device), all_(all) {}
 
     /// Called before an image or a buffer is destroyed that frames in flight and planned graphs may
@@ -45,7 +45,7 @@ private:
                                     const ReplaceHandler& release);
     PersistentBuffer& find_or_create(const BufferDesc& desc, const ReplaceHandler& release);
 
-    gpu::GpuDevice& image_device_;
+    gpu::Device& image_device_;
     RetainedResources& all_;
 };
 

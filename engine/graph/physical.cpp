@@ -27,16 +27,15 @@ VkImageCreateInfo make_image_create_info(const ImageDesc& desc) {
     return create;
 }
 
-PhysicalImage make_physical_image(const gpu::GpuDevice& device, const ImageDesc& desc) {
+PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc) {
     const VkImageCreateInfo create = make_image_create_info(desc);
     VkImage image = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(vkCreateImage(device.device_handle(), &create, nullptr, &image),
-                                 "create image '" + desc.name + "'");
-    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_IMAGE,
-                                           reinterpret_cast<std::uint64_t>(image), desc.name);
+    gpu::check_vk(vkCreateImage(device.handle(), &create, nullptr, &image),
+                  "create image '" + desc.name + "'");
+    device.set_debug_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), desc.name);
     PhysicalImage physical;
     physical.desc = desc;
-    physical.owned = {device.device_handle(), image};
+    physical.owned = {device.handle(), image};
     physical.image = image;
     return physical;
 }
@@ -57,8 +56,8 @@ VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& par
     return region;
 }
 
-VkImageView PhysicalImage::find_or_create_view(const gpu::GpuDevice& device,
-                                               gpu::ImageViewType shape, const ImageHandle& part) {
+VkImageView PhysicalImage::find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
+                                               const ImageHandle& part) {
     using gpu::ImageViewType;
     const std::uint32_t layer_count = part.layer_count;
     const ImageViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
@@ -85,12 +84,11 @@ VkImageView PhysicalImage::find_or_create_view(const gpu::GpuDevice& device,
     create.subresourceRange = {image_aspect_of_format(desc.format), part.first_mip, part.mip_count,
                                part.first_layer, layer_count};
     VkImageView handle = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(
-        vkCreateImageView(device.device_handle(), &create, nullptr, &handle),
-        "view image '" + desc.name + "'");
-    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_IMAGE_VIEW,
-                                           reinterpret_cast<std::uint64_t>(handle), desc.name);
-    return views_.emplace(key, gpu::UniqueImageView(device.device_handle(), handle)).first->second;
+    gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle),
+                  "view image '" + desc.name + "'");
+    device.set_debug_name(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(handle),
+                          desc.name);
+    return views_.emplace(key, gpu::UniqueImageView(device.handle(), handle)).first->second;
 }
 
 } // namespace catoptric::graph

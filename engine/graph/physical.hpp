@@ -16,7 +16,7 @@ struct PhysicalImage {
     VkImage image = VK_NULL_HANDLE;
 
     /// Returns the view of the part's layers and mips. Each view is made once.
-    VkImageView find_or_create_view(const gpu::GpuDevice& device, gpu::ImageViewType shape,
+    VkImageView find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
                                     const ImageHandle& part);
 
 private:
@@ -27,7 +27,7 @@ private:
 
 /// Returns the create info of an image of the graph, with every usage that its format allows.
 VkImageCreateInfo make_image_create_info(const ImageDesc& desc);
-PhysicalImage make_physical_image(const gpu::GpuDevice& device, const ImageDesc& desc);
+PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc);
 /// Wraps an image that is owned elsewhere, to be imported into graphs. The image must outlive the
 /// result, which holds its views.
 PhysicalImage wrap_external_image(const ImageDesc& desc, VkImage image);

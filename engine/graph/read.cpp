@@ -60,16 +60,16 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
     const PhysicalImage& source = shape.physical_image_of_handle(image,
                                                                  slot_index_of_frame(ticket.frame));
     const std::uint64_t bytes = count_image_part_bytes(desc, image);
-    gpu::GpuBuffer target(runner_device_, "read-back of " + desc.name, bytes,
-                          gpu::BufferUsage::read_back);
-    runner_device_.submit_one_time_commands(
+    gpu::Buffer target(runner_device_, "read-back of " + desc.name, bytes,
+                       gpu::BufferUsage::read_back);
+    runner_device_.run_commands(
         "read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
             record_copy_to_buffer(
                 commands, source, image,
                 image_layout_of_use(kept ? ResourceUse::sampled : ResourceUse::copy_from),
-                target.buffer_handle());
+                target.handle());
         });
-    std::vector<std::byte> data = target.read_contents();
+    std::vector<std::byte> data = target.read();
     data.resize(bytes);
     return data;
 }
@@ -88,14 +88,12 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
           "' is read after it was released");
     buffer.previous = kept && !slot.stays; // as for images
     const VkBuffer source = shape.vulkan_buffer(buffer, slot_index_of_frame(ticket.frame));
-    gpu::GpuBuffer target(runner_device_, "read-back of " + name, bytes,
-                          gpu::BufferUsage::read_back);
-    runner_device_.submit_one_time_commands(
-        "read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
-            const VkBufferCopy region{0, 0, bytes};
-            vkCmdCopyBuffer(commands, source, target.buffer_handle(), 1, &region);
-        });
-    std::vector<std::byte> data = target.read_contents();
+    gpu::Buffer target(runner_device_, "read-back of " + name, bytes, gpu::BufferUsage::read_back);
+    runner_device_.run_commands("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, bytes};
+        vkCmdCopyBuffer(commands, source, target.handle(), 1, &region);
+    });
+    std::vector<std::byte> data = target.read();
     data.resize(bytes);
     return data;
 }

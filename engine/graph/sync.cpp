@@ -9,7 +9,7 @@ constexpr VkPipelineStageFlags2 kDepthTestStages = VK_PIPELINE_STAGE_2_EARLY_FRA
 
 } // namespace
 
-gpu::BarrierAccessScope sync_scope_of_access(const AccessState& access) {
+gpu::AccessScope sync_scope_of_access(const AccessState& access) {
     if (access.nothing) return {};
     const VkPipelineStageFlags2 shaders = access.raster
                                               ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |

@@ -20,31 +20,31 @@ constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
 
 } // namespace
 
-WorkCounter::WorkCounter(gpu::GpuDevice& device, std::vector<std::string> passes)
+WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes)
     : graph_device_(device) {
     for (std::string& name : passes) passes_.push_back({std::move(name), {}});
     paused_.resize(passes_.size());
-    const std::uint64_t alignment = device.vulkan_limits().minStorageBufferOffsetAlignment;
+    const std::uint64_t alignment = device.limits().minStorageBufferOffsetAlignment;
     stride_ = (kShaderCounterBytes + alignment - 1) / alignment * alignment;
-    buffer_ = gpu::GpuBuffer(device, "counted work", stride_ * passes_.size(),
-                             gpu::BufferUsage::read_back);
+    buffer_ = gpu::Buffer(device, "counted work", stride_ * passes_.size(),
+                          gpu::BufferUsage::read_back);
     if (!device.has_pipeline_statistics() || passes_.empty()) return;
     VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
     create.queryCount = static_cast<std::uint32_t>(passes_.size());
     create.pipelineStatistics = kPipelineStatisticFlags;
     VkQueryPool pool = VK_NULL_HANDLE;
-    gpu::throw_unless_vk_success(vkCreateQueryPool(device.device_handle(), &create, nullptr, &pool),
-                                 "create pipeline statistics");
-    statistics_ = {device.device_handle(), pool};
-    vkResetQueryPool(device.device_handle(), pool, 0, create.queryCount);
+    gpu::check_vk(vkCreateQueryPool(device.handle(), &create, nullptr, &pool),
+                  "create pipeline statistics");
+    statistics_ = {device.handle(), pool};
+    vkResetQueryPool(device.handle(), pool, 0, create.queryCount);
 }
 
 void WorkCounter::begin_pass(VkCommandBuffer commands) {
     if (pass_ == 0) {
-        vkCmdFillBuffer(commands, buffer_.buffer_handle(), 0, VK_WHOLE_SIZE, 0);
-        gpu::record_memory_barrier(
-            commands, gpu::kTransferWriteAccessScope,
+        vkCmdFillBuffer(commands, buffer_.handle(), 0, VK_WHOLE_SIZE, 0);
+        gpu::memory_barrier(
+            commands, gpu::kTransferWrite,
             {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     }
@@ -64,39 +64,38 @@ void WorkCounter::resume_pass(VkCommandBuffer commands) {
     const auto query = static_cast<std::uint32_t>(pass_);
     const std::vector<std::uint64_t> results = read_statistics(query, 1);
     for (std::size_t k = 0; k < kPipelineStatisticCount; ++k) paused_[pass_][k] += results[k];
-    vkResetQueryPool(graph_device_.device_handle(), statistics_, query, 1);
+    vkResetQueryPool(graph_device_.handle(), statistics_, query, 1);
     vkCmdBeginQuery(commands, statistics_, query, 0);
 }
 
 std::vector<std::uint64_t> WorkCounter::read_statistics(std::uint32_t first,
                                                         std::uint32_t count) const {
     std::vector<std::uint64_t> results(kPipelineStatisticCount * count);
-    gpu::throw_unless_vk_success(
-        vkGetQueryPoolResults(graph_device_.device_handle(), statistics_, first, count,
-                              results.size() * sizeof results[0], results.data(),
-                              kPipelineStatisticCount * sizeof results[0],
-                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "read pipeline statistics");
+    gpu::check_vk(vkGetQueryPoolResults(graph_device_.handle(), statistics_, first, count,
+                                        results.size() * sizeof results[0], results.data(),
+                                        kPipelineStatisticCount * sizeof results[0],
+                                        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                  "read pipeline statistics");
     return results;
 }
 
 void WorkCounter::end_pass(VkCommandBuffer commands) {
     if (statistics_) vkCmdEndQuery(commands, statistics_, static_cast<std::uint32_t>(pass_));
     if (++pass_ < passes_.size()) return;
-    gpu::record_memory_barrier(commands,
-                               {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                                    VK_PIPELINE_STAGE_2_TRANSFER_BIT,
-                                VK_ACCESS_2_MEMORY_WRITE_BIT},
-                               {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+    gpu::memory_barrier(commands,
+                        {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+                             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                             VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                         VK_ACCESS_2_MEMORY_WRITE_BIT},
+                        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
 }
 
 VkDescriptorBufferInfo WorkCounter::shader_counts() const {
-    return {buffer_.buffer_handle(), pass_ * stride_, kShaderCounterBytes};
+    return {buffer_.handle(), pass_ * stride_, kShaderCounterBytes};
 }
 
 std::vector<PassWork> WorkCounter::read() {
-    const std::vector<std::byte> bytes = buffer_.read_contents();
+    const std::vector<std::byte> bytes = buffer_.read();
     std::vector<std::uint64_t> results;
     if (statistics_) results = read_statistics(0, static_cast<std::uint32_t>(passes_.size()));
     for (std::size_t i = 0; i < passes_.size(); ++i) {

@@ -17,7 +17,7 @@ namespace catoptric::graph {
 class WorkCounter {
 public:
     /// `passes`: names of the frame's passes, in order of execution.
-    WorkCounter(gpu::GpuDevice& device, std::vector<std::string> passes);
+    WorkCounter(gpu::Device& device, std::vector<std::string> passes);
 
     /// Records the begin and the end of the query for the next pass, outside of a rendering scope.
     void begin_pass(VkCommandBuffer commands);
@@ -36,13 +36,13 @@ public:
 private:
     std::vector<std::uint64_t> read_statistics(std::uint32_t first, std::uint32_t count) const;
 
-    gpu::GpuDevice& graph_device_;
+    gpu::Device& graph_device_;
     std::vector<PassWork> passes_;
     std::size_t pass_ = 0;
     /// Results of the query in ended pieces, for each pass, in the order of its bits.
     std::vector<std::array<std::uint64_t, 4>> paused_;
     std::uint64_t stride_ = 0; ///< bytes between the parts of two passes
-    gpu::GpuBuffer buffer_;
+    gpu::Buffer buffer_;
     gpu::UniqueQueryPool statistics_; ///< null if the device has no pipeline statistics
 };
 

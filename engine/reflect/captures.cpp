@@ -72,9 +72,9 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
     options.face = knobs.capture.face ? *knobs.capture.face
                                       : inputs.scene.common_capture_face_edge();
     if (knobs.capture.stores_floats) {
-        check(inputs.scene.scene_device().has_float_filtering(), Failure::no_device,
+        check(inputs.scene.scene_device().filters_floats(), Failure::no_device,
               "colour=float filters images of 32-bit floats, which device '",
-              inputs.scene.scene_device().device_properties().name, "' cannot; take colour=half");
+              inputs.scene.scene_device().info().name, "' cannot; take colour=half");
         options.colour = TexelFormat::rgba32f;
     }
     if (!knobs.capture.distance) return options;

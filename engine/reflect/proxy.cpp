@@ -34,7 +34,7 @@ add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inp
             cubes.distance.value_or(cubes.colour)); // placeholder: never read without distance
         pass.reads(faces.back(), graph::ResourceUse::sampled);
     }
-    gpu::ComputePipelineState state{"reflect/proxy.comp", {}};
+    gpu::ComputeState state{"reflect/proxy.comp", {}};
     const render::CaptureOptions& options = captures->options.front();
     if (captures->table) {
         state.constants = {{"has_capture_table", 1u},

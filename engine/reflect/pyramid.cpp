@@ -91,8 +91,8 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
     pass.record([top_of_all, runs = std::move(runs)](graph::PassCommands& commands) {
         for (std::uint32_t level = 1; level <= top_of_all; ++level) {
             if (level > 1) commands.storage_barrier();
-            commands.bind_pipeline(gpu::ComputePipelineState{
-                "reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
+            commands.bind_pipeline(
+                gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push_constants(static_cast<std::int32_t>(level));
             for (const PyramidCubeRange& run : runs) {
                 if (level > topmost_level_of_pyramid(run.face)) continue;

@@ -135,8 +135,8 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
                                                                 static_cast<float>(run.face));
                 const bool is_fast = rough == RoughMirrorLookup::fast &&
                                      alpha <= kLargestFittedAlpha;
-                commands.bind_pipeline(gpu::ComputePipelineState{
-                    is_fast ? "rough/fast.comp" : "rough/prefilter.comp", {}});
+                commands.bind_pipeline(
+                    gpu::ComputeState{is_fast ? "rough/fast.comp" : "rough/prefilter.comp", {}});
                 commands.bind_resource("boxes", run.boxes, graph::TextureFilter::mipmapped);
                 commands.bind_resource("level", run.levels.select_image_mip(level - 1));
                 if (is_fast)

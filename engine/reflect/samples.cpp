@@ -72,7 +72,7 @@ void bind_path_starts(graph::PassCommands& commands, const PathStartBuffers& buf
 /// The dispatches of a pass that traces samples of pixels.
 struct SampleTracing {
     graph::PassCommands& commands;
-    gpu::ComputePipelineState state;
+    gpu::ComputeState state;
     std::vector<vec2> offsets; ///< of the samples, each of which has a camera ray
     std::uint32_t groups = 0;  ///< of pixels; with `arguments`, the most
     /// Counts of work groups that only the device knows. The frame is then in one piece.
@@ -113,7 +113,7 @@ struct SampleTracing {
                 commands.read_word(starts.arguments, offsetof(shared::PathStartArguments, count)));
         else
             commands.add_rays(std::uint64_t{most} * kPixelsPerWorkGroup * parameters.path_count);
-        gpu::ComputePipelineState resuming = state;
+        gpu::ComputeState resuming = state;
         resuming.constants.emplace_back("resumes_paths", 1u);
         commands.bind_pipeline(resuming);
         parameters.first_group = 0;
@@ -141,7 +141,7 @@ struct SampleTracing {
                 commands.bind_pipeline(state);
                 dispatch_pixels(first, count);
                 wait_for_last_dispatch();
-                commands.bind_pipeline(gpu::ComputePipelineState{"starts_list.comp"});
+                commands.bind_pipeline(gpu::ComputeState{"starts_list.comp"});
                 if (arguments)
                     commands.dispatch_indirect(*arguments);
                 else
@@ -207,7 +207,7 @@ void declare_path_starts(graph::PassBuilder& pass, const PathStartBuffers& buffe
         .writes(buffers.arguments, ResourceUse::storage);
 }
 
-void trace_samples(graph::PassCommands& commands, gpu::ComputePipelineState state,
+void trace_samples(graph::PassCommands& commands, gpu::ComputeState state,
                    const TracerSettings& tracer, const render::FrameInputs& inputs,
                    const PixelsToTraceList* list, const std::optional<PathStartBuffers>& starts) {
     SampleTracing tracing{.commands = commands,

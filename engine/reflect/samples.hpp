@@ -62,7 +62,7 @@ struct PixelsToTraceList {
 
 /// Traces all samples of a picture's pixels, or of those in the list. `state`: the tracer.
 /// `starts`: buffers of paths that share camera rays, if they do.
-void trace_samples(graph::PassCommands& commands, gpu::ComputePipelineState state,
+void trace_samples(graph::PassCommands& commands, gpu::ComputeState state,
                    const TracerSettings& tracer, const render::FrameInputs& inputs,
                    const PixelsToTraceList* list, const std::optional<PathStartBuffers>& starts);
 

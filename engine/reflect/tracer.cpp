@@ -53,15 +53,14 @@ bool reads_ambient_occlusion(const TracerSettings& tracer, bool listed) {
     return listed && tracer.lighting.ambient_occlusion;
 }
 
-gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
-                                            const render::GpuScene& scene, bool listed,
-                                            bool shares_camera_rays) {
+gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::GpuScene& scene,
+                                    bool listed, bool shares_camera_rays) {
     std::string build;
     for (const auto& [wanted, name] :
          {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"},
           std::pair{shares_camera_rays, "shared"}})
         if (wanted) build += (build.empty() ? "#" : "_") + std::string(name);
-    gpu::ComputePipelineState state{
+    gpu::ComputeState state{
         "raytrace.comp" + build,
         {{"max_depth", tracer.depth},
          {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
@@ -138,7 +137,7 @@ PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
             commands.bind_resource("arguments", list.arguments);
             commands.bind_resource("List", list.pixels);
             const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
-            commands.bind_pipeline(gpu::ComputePipelineState{
+            commands.bind_pipeline(gpu::ComputeState{
                 shader, {{"tracer", number}, {"first_raster", first_raster ? 1u : 0u}}});
             commands.push_constants(size);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
@@ -194,7 +193,7 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
             commands.bind_resource("normals_and_distances", images.normals_and_distances);
             commands.bind_resource("objects_and_roughness", images.objects_and_roughness);
             commands.bind_resource("counters", images.counters);
-            commands.bind_pipeline(gpu::ComputePipelineState{
+            commands.bind_pipeline(gpu::ComputeState{
                 "first_surface.comp",
                 {},
                 scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))});

@@ -51,8 +51,7 @@ ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs&
         {inputs.prefix + "occlusion", TexelFormat::r32f, size.x, size.y});
     const auto bind_and_dispatch = [&scene = inputs.scene, size](PassCommands& commands,
                                                                  const char* shader, auto&& push) {
-        commands.bind_pipeline(
-            gpu::ComputePipelineState{shader, {}, scene.shader_feature_constants()});
+        commands.bind_pipeline(gpu::ComputeState{shader, {}, scene.shader_feature_constants()});
         push();
         commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
     };

@@ -76,10 +76,10 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
                 const TexelRange written = find_defined_texels(area, size, level),
                                  read = find_defined_texels(area, size, level - 1);
                 commands.bind_pipeline(
-                    gpu::ComputePipelineState{"rough/box.comp",
-                                              {{"from_level", level > 1 ? 1u : 0u},
-                                               {"has_area", layers.area ? 1u : 0u},
-                                               {"has_distances", layers.distances ? 1u : 0u}}});
+                    gpu::ComputeState{"rough/box.comp",
+                                      {{"from_level", level > 1 ? 1u : 0u},
+                                       {"has_area", layers.area ? 1u : 0u},
+                                       {"has_distances", layers.distances ? 1u : 0u}}});
                 commands.push_constants(
                     BoxFilterParameters{written.lowest, read.lowest, read.highest});
                 commands.bind_resource("unfiltered", layers.unfiltered);

@@ -56,7 +56,7 @@ struct CaptureCache {
     std::shared_ptr<CaptureCache> before;
     /// Results of the device's comparison of old and new captures: one word per mirror, not 0 if
     /// the captures differ. Valid once the frame has ended.
-    std::shared_ptr<const gpu::GpuBuffer> differing;
+    std::shared_ptr<const gpu::Buffer> differing;
     std::uint64_t frame = 0; ///< number of the frame; the caller sets it
 };
 
@@ -116,22 +116,21 @@ struct FrameCaptureUpdate {
 class CaptureComparisonBufferPool {
 public:
     /// `has_ended`: returns whether the frame with the given number has ended.
-    CaptureComparisonBufferPool(gpu::GpuDevice& device,
-                                std::function<bool(std::uint64_t)> has_ended)
-        : buffer_device_(device), has_ended_(std::move(has_ended)) {}
+    CaptureComparisonBufferPool(gpu::Device& device, std::function<bool(std::uint64_t)> has_ended)
+        : device_(device), has_ended_(std::move(has_ended)) {}
     /// Returns a buffer of zeros, one word a mirror, that neither the host nor the device uses.
-    std::shared_ptr<gpu::GpuBuffer> buffer(std::size_t mirrors);
+    std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
     /// Records that the frame `frame`, just submitted, writes to the buffer. Null is ignored.
-    void mark_comparison_buffer_used(const std::shared_ptr<const gpu::GpuBuffer>& buffer,
+    void mark_comparison_buffer_used(const std::shared_ptr<const gpu::Buffer>& buffer,
                                      std::uint64_t frame);
 
 private:
     struct PooledCaptureComparisonBuffer {
         /// A buffer of comparison results, which can be used again if this is its only owner.
-        std::shared_ptr<gpu::GpuBuffer> buffer;
+        std::shared_ptr<gpu::Buffer> buffer;
         std::uint64_t frame = 0; ///< number of the last frame that wrote to it
     };
-    gpu::GpuDevice& buffer_device_;
+    gpu::Device& device_;
     std::function<bool(std::uint64_t)> has_ended_;
     std::vector<PooledCaptureComparisonBuffer> entries_;
 };

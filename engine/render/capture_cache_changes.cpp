@@ -23,7 +23,7 @@ void read_finished_face_comparisons(const std::shared_ptr<CaptureCache>& capture
     if (!captures) return;
     read_finished_face_comparisons(captures->before, has_ended);
     if (!captures->differing || !has_ended(captures->frame)) return;
-    const std::vector<std::byte> found = captures->differing->read_contents();
+    const std::vector<std::byte> found = captures->differing->read();
     for (std::size_t mirror = 0; mirror < captures->changes.size(); ++mirror) {
         std::uint32_t word = 0;
         std::memcpy(&word, found.data() + sizeof word * mirror, sizeof word);
@@ -40,27 +40,26 @@ void mark_captures_unchanged(CaptureCache& captures) {
     captures.differing = nullptr;
 }
 
-std::shared_ptr<gpu::GpuBuffer> CaptureComparisonBufferPool::buffer(std::size_t mirrors) {
+std::shared_ptr<gpu::Buffer> CaptureComparisonBufferPool::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     // If a caller discards a frame, its buffer is released while the device may still write to it.
     // Such a buffer must not be used yet.
     const auto fits = [&](const PooledCaptureComparisonBuffer& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
-               entry.buffer->size_in_bytes() >= sizeof(std::uint32_t) * mirrors;
+               entry.buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
     };
     auto found = std::ranges::find_if(entries_, fits);
     if (found == entries_.end())
-        found = entries_.insert(found,
-                                {std::make_shared<gpu::GpuBuffer>(buffer_device_, "differing",
-                                                                  sizeof(std::uint32_t) * mirrors,
-                                                                  gpu::BufferUsage::read_back),
-                                 0});
-    found->buffer->write_contents(std::span<const std::uint32_t>(zeros));
+        found = entries_.insert(found, {std::make_shared<gpu::Buffer>(
+                                            device_, "differing", sizeof(std::uint32_t) * mirrors,
+                                            gpu::BufferUsage::read_back),
+                                        0});
+    found->buffer->write(std::span<const std::uint32_t>(zeros));
     return found->buffer;
 }
 
 void CaptureComparisonBufferPool::mark_comparison_buffer_used(
-    const std::shared_ptr<const gpu::GpuBuffer>& buffer, std::uint64_t frame) {
+    const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame) {
     const auto is_it = [&](const PooledCaptureComparisonBuffer& entry) {
         return entry.buffer == buffer;
     };
@@ -97,7 +96,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
             });
     const graph::BufferHandle differing = graph.import_external_resource(
         graph::BufferDesc{inputs.prefix + now.name + ".differing",
-                          feeding.kept->differing->size_in_bytes()},
+                          feeding.kept->differing->bytes()},
         feeding.kept->differing.get());
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + now.name + ".compare");
     std::vector<graph::ImageHandle> images;
@@ -109,7 +108,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
     for (const graph::ImageHandle image : images) pass.reads(image, graph::ResourceUse::sampled);
     pass.writes(differing, graph::ResourceUse::storage_write)
         .record([all = std::move(all), differing](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"differing.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"differing.comp", {}});
             commands.bind_resource("Differing", differing);
             for (const auto& [before, after, push, faces] : all) {
                 commands.bind_resource("colour_before", before.colour);

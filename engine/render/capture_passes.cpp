@@ -113,7 +113,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
             }
             const std::vector<std::uint8_t> shown = find_faces_showing_objects(
                 std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
-                {edge, scene.scene_device().vulkan_limits().subPixelPrecisionBits},
+                {edge, scene.scene_device().limits().subPixelPrecisionBits},
                 scene.list_draw_ranges(), list_occluding_inner_balls(scene, *drawing.looks),
                 is_wanted);
             const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };

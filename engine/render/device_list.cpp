@@ -50,7 +50,7 @@ std::size_t DeviceList::find_free_device_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t DeviceList::upload_changed_pages(gpu::GpuDevice& device, std::size_t slot) {
+std::size_t DeviceList::upload_changed_pages(gpu::Device& device, std::size_t slot) {
     const auto current = std::ranges::find(copies_, version_, &DeviceListCopy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
@@ -58,9 +58,9 @@ std::size_t DeviceList::upload_changed_pages(gpu::GpuDevice& device, std::size_t
     }
     const std::size_t place = find_free_device_copy(slot);
     DeviceListCopy& copy = copies_[place];
-    if (!copy.buffer.buffer_handle() || copy.buffer.size_in_bytes() < data_.size()) {
+    if (!copy.buffer.handle() || copy.buffer.bytes() < data_.size()) {
         copy = {};
-        copy.buffer = gpu::GpuBuffer(device, list_name_, data_.size(), use_);
+        copy.buffer = gpu::Buffer(device, list_name_, data_.size(), use_);
     }
     std::size_t writes = 0;
     for (std::size_t page = 0; page < pages_.size();) {
@@ -71,7 +71,7 @@ std::size_t DeviceList::upload_changed_pages(gpu::GpuDevice& device, std::size_t
             continue;
         }
         const std::size_t end = std::min(page * kComparedPageBytes, data_.size());
-        copy.buffer.write_contents(
+        copy.buffer.write(
             first * kComparedPageBytes,
             std::span(data_).subspan(first * kComparedPageBytes, end - first * kComparedPageBytes));
         ++writes;

@@ -32,17 +32,17 @@ public:
                                         end * sizeof(T));
     }
     /// Writes the current contents for slot `slot` (a frame in flight). No frame may be in flight
-    /// in this slot. Returns the number of writes to device memory. Throws as gpu::GpuBuffer does.
-    std::size_t upload_changed_pages(gpu::GpuDevice& device, std::size_t slot);
+    /// in this slot. Returns the number of writes to device memory. Throws as gpu::Buffer does.
+    std::size_t upload_changed_pages(gpu::Device& device, std::size_t slot);
     /// Returns the buffer that `upload_changed_pages` chose for the slot.
-    const gpu::GpuBuffer& buffer_of_device_copy(std::size_t slot) const {
+    const gpu::Buffer& buffer_of_device_copy(std::size_t slot) const {
         return copies_[*bound_[slot]].buffer;
     }
     std::size_t device_copy_count() const { return copies_.size(); }
 
 private:
     struct DeviceListCopy {
-        gpu::GpuBuffer buffer;
+        gpu::Buffer buffer;
         std::uint64_t version = 0;
     };
 

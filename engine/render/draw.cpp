@@ -85,7 +85,7 @@ void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures)
 
 /// Adds the constants that tell a shader where the captures are stored.
 void add_capture_slot_shader_constants(const MirrorCaptures& captures,
-                                       gpu::ShaderConstantValues& constants) {
+                                       gpu::ShaderConstants& constants) {
     const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
     const float unit = unit_of(captures.options.front());
     const bool same = std::ranges::all_of(
@@ -101,9 +101,9 @@ void add_capture_slot_shader_constants(const MirrorCaptures& captures,
 }
 
 /// Returns the constants of the pass for fragment shaders that draw objects with a colour.
-gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
-                                                         const SceneDrawSettings& drawing) {
-    gpu::ShaderConstantValues features;
+gpu::ShaderConstants make_fragment_shader_constants(const GpuScene& scene,
+                                                    const SceneDrawSettings& drawing) {
+    gpu::ShaderConstants features;
     if (drawing.peeled) features.emplace_back("peels", 1u);
     if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
@@ -117,7 +117,7 @@ gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
 void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                   const MirrorShader& look, const ObjectFilter& wanted,
                   const DrawnObjectParts& parts) {
-    gpu::RasterPipelineState state{"", kBlackMirrorShader, drawing.store};
+    gpu::RasterState state{"", kBlackMirrorShader, drawing.store};
     state.features = make_fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment +
@@ -151,9 +151,9 @@ bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& vi
 /// Draws the parts of blended objects that are not opaque over the picture. The farthest object is
 /// drawn first, and of each object first the triangles that face away. `state`: pipeline state of
 /// opaque objects.
-void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
-                          gpu::RasterPipelineState state, const SceneDrawSettings& drawing,
-                          const ObjectFilter& wanted, const DrawnObjectParts& parts) {
+void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
+                          const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                          const DrawnObjectParts& parts) {
     const shared::View& view = scene.list_views()[drawing.first_view];
     std::vector<std::pair<float, std::size_t>> order; // distance, object
     for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
@@ -202,7 +202,7 @@ void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting)
     commands.bind_resource("probe_distances", lighting.probes->distances, TextureFilter::linear);
 }
 
-void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipelineState state,
+void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, const MirrorDrawNumbers& numbers,
                   const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     std::ranges::copy(scene.shader_feature_constants(first_view),
@@ -224,7 +224,7 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipe
 }
 
 void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& scene,
-                                        gpu::RasterPipelineState state, std::uint32_t first_view,
+                                        gpu::RasterState state, std::uint32_t first_view,
                                         std::uint32_t layers, const MirrorDrawNumbers& numbers,
                                         const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     const shared::View& view = scene.list_views()[first_view];
@@ -242,10 +242,9 @@ void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& 
 
 namespace {
 
-gpu::RasterPipelineState make_diffuse_state(const GpuScene& scene,
-                                            const SceneDrawSettings& drawing) {
-    gpu::RasterPipelineState diffuse{"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
-                                     make_fragment_shader_constants(scene, drawing)};
+gpu::RasterState make_diffuse_state(const GpuScene& scene, const SceneDrawSettings& drawing) {
+    gpu::RasterState diffuse{"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
+                             make_fragment_shader_constants(scene, drawing)};
     const ShadingTracer& tracer = drawing.completing_tracer;
     if (tracer.number == 0) return diffuse;
     diffuse.fragment += "#first";
@@ -287,7 +286,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
         scene.bind_ray_tracing_buffers(commands);
     bind_lighting_images(commands, lighting);
     if (peeled) commands.bind_resource("first_layer", *peeled);
-    gpu::RasterPipelineState diffuse = make_diffuse_state(scene, drawing);
+    gpu::RasterState diffuse = make_diffuse_state(scene, drawing);
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;
         draw_objects(
@@ -340,7 +339,7 @@ void draw_blended_distances(PassCommands& commands, const GpuScene& scene,
                             const SceneDrawSettings& drawing, float alpha,
                             const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
     if (!scene.has_blended_surfaces()) return;
-    gpu::RasterPipelineState state{"", "blended_distance.frag", drawing.store};
+    gpu::RasterState state{"", "blended_distance.frag", drawing.store};
     state.constants.emplace_back("blended_alpha", alpha);
     state.keeps_colour = true;
     scene.bind(commands);

@@ -33,15 +33,14 @@ struct MirrorDrawNumbers {
 /// Draws the wanted objects with this fragment shader and state. Draws each object into those
 /// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
 /// space last.
-void draw_objects(graph::PassCommands& commands, const GpuScene& scene,
-                  gpu::RasterPipelineState state, std::uint32_t first_view, std::uint32_t layers,
-                  const MirrorDrawNumbers& numbers, const ObjectFilter& wanted,
-                  const DrawnObjectParts& parts = {});
+void draw_objects(graph::PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
+                  std::uint32_t first_view, std::uint32_t layers, const MirrorDrawNumbers& numbers,
+                  const ObjectFilter& wanted, const DrawnObjectParts& parts = {});
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
 void draw_objects_with_backface_culling(graph::PassCommands& commands, const GpuScene& scene,
-                                        gpu::RasterPipelineState state, std::uint32_t first_view,
+                                        gpu::RasterState state, std::uint32_t first_view,
                                         std::uint32_t layers, const MirrorDrawNumbers& numbers,
                                         const ObjectFilter& wanted,
                                         const DrawnObjectParts& parts = {});
@@ -51,7 +50,7 @@ struct SceneDrawSettings {
     std::uint32_t first_view = 0, layers = 1;
     ShadingLights lighting;
     std::shared_ptr<const ShaderOfEachMirror> looks; ///< shaders of the mirrors
-    gpu::ShaderConstantValues store; ///< constants for storing distances and surfaces
+    gpu::ShaderConstants store; ///< constants for storing distances and surfaces
     ShadingTracer completing_tracer;
     /// Distances of a first layer; only surfaces behind them are drawn.
     std::optional<graph::ImageHandle> peeled;

@@ -63,12 +63,11 @@ std::vector<bool> find_moving_objects(const scene::Scene& scene) {
 }
 
 /// Returns the scene after checking that it fits on the device.
-const scene::Scene& check_scene_fits_device_limits(const gpu::GpuDevice& device,
+const scene::Scene& check_scene_fits_device_limits(const gpu::Device& device,
                                                    const scene::Scene& scene) {
     check_geometry_limits(scene.name, count_scene_amounts(scene),
-                          {device.max_texel_count(sizeof(vec4)),
-                           device.vulkan_limits().maxStorageBufferRange,
-                           device.max_allocation_bytes(), device.memory_budget()});
+                          {device.max_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
+                           device.max_allocation(), device.memory_budget()});
     return scene;
 }
 
@@ -84,7 +83,7 @@ intersect_object_flag_lists(const std::vector<std::vector<std::uint8_t>>& lists)
 
 } // namespace
 
-GpuScene::GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots)
+GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
     : scene_device_(device),
       space_(make_scene_units(check_scene_fits_device_limits(device, scene))),
       vertices_(find_moving_objects(scene), slots),
@@ -113,7 +112,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     const bool moves_vertices = vertices_.geometry_set_count() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
         material_details_.fill(now, space_, geometry_, vertices_,
-                               scene_device_.max_texel_count(sizeof(std::uint32_t)));
+                               scene_device_.max_texels(sizeof(std::uint32_t)));
     if (changes.has_shape_changes() || changes.materials || moves_vertices) {
         fill_surface_table(now);
         has_lamp_table_ = false;
@@ -350,7 +349,7 @@ std::vector<double> GpuScene::find_needed_face_edges() const {
 
 std::uint32_t GpuScene::common_capture_face_edge() const {
     return choose_common_capture_face_edge(face_needs_,
-                                           scene_device_.vulkan_limits().maxImageDimensionCube);
+                                           scene_device_.limits().maxImageDimensionCube);
 }
 
 void GpuScene::write_scene_buffers_to_device(std::size_t slot) {
@@ -377,7 +376,7 @@ void GpuScene::bind(graph::PassCommands& commands) const {
     vertices_.bind(commands, slot_);
 }
 
-gpu::ShaderConstantValues GpuScene::shader_feature_constants(std::uint32_t view) const {
+gpu::ShaderConstants GpuScene::shader_feature_constants(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", material_details_.has_varying_colours() ? 1u : 0u},
             {"masks", material_details_.has_cut_out_surfaces() ? 1u : 0u},
@@ -395,13 +394,11 @@ gpu::ShaderConstantValues GpuScene::shader_feature_constants(std::uint32_t view)
             {"mirror_tree", uses_bvh_over_mirrors() ? 1u : 0u}};
 }
 
-gpu::ShaderConstantValues
-GpuScene::ray_tracing_feature_constants(SphereIntersectionMode spheres) const {
-    gpu::ShaderConstantValues constants = shader_feature_constants();
-    for (const auto& constant :
-         make_tracer_constants(scene_device_.active_shader_variant_choices(),
-                               tracing_.largest_tree_buffer_bytes(spheres, slot_),
-                               scene_device_.vulkan_limits().maxStorageBufferRange))
+gpu::ShaderConstants GpuScene::ray_tracing_feature_constants(SphereIntersectionMode spheres) const {
+    gpu::ShaderConstants constants = shader_feature_constants();
+    for (const auto& constant : make_tracer_constants(
+             scene_device_.variant_choices(), tracing_.largest_tree_buffer_bytes(spheres, slot_),
+             scene_device_.limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
 }

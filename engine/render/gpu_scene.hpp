@@ -30,7 +30,7 @@ public:
     /// Prepares for a scene, which the first update writes. `scene` at rest fixes the scene units
     /// for all later frames. `slots`: the most frames in flight at once. Throws as
     /// check_geometry_limits (render/limits.hpp) does if the device cannot hold the scene.
-    GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots = 1);
+    GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots = 1);
 
     /// Writes the data that differ from the last update, and nothing else. `now` is
     /// scene::scene_at of the scene given above, possibly with other transforms, materials and
@@ -62,7 +62,7 @@ public:
     const std::vector<std::uint8_t>& shadowless_backdrops_of_light(std::uint32_t light) const {
         return backdrops_[light];
     }
-    const gpu::GpuDevice& scene_device() const { return scene_device_; }
+    const gpu::Device& scene_device() const { return scene_device_; }
     const SceneUnitTransform& scene_units() const { return space_; }
     const std::vector<ObjectDrawRange>& list_draw_ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& list_views() const { return views_; }
@@ -97,23 +97,20 @@ public:
     /// Returns one edge for all cubes: the largest need, limited by the device.
     std::uint32_t common_capture_face_edge() const;
     /// Returns the most cubes in one array on this device.
-    std::uint32_t max_cube_count() const {
-        return scene_device_.vulkan_limits().maxImageArrayLayers / 6;
-    }
+    std::uint32_t max_cube_count() const { return scene_device_.limits().maxImageArrayLayers / 6; }
     /// Returns whether some object has an object space (ObjectDrawRange::own).
     bool has_object_spaces() const { return has_object_spaces_; }
     /// Returns the constants for building shaders that show this view. Features that the scene
     /// lacks cost nothing.
-    gpu::ShaderConstantValues shader_feature_constants(std::uint32_t view = kCameraViewIndex) const;
+    gpu::ShaderConstants shader_feature_constants(std::uint32_t view = kCameraViewIndex) const;
     /// Returns `shader_feature_constants` for the tracer, plus the device's choices that are not
     /// the default (gpu/variants.hpp). Call it after `bind_ray_tracing_buffers` with the same
     /// spheres.
-    gpu::ShaderConstantValues ray_tracing_feature_constants(SphereIntersectionMode spheres) const;
+    gpu::ShaderConstants ray_tracing_feature_constants(SphereIntersectionMode spheres) const;
     /// Returns whether some surface is drawn over what is behind it. On devices that cannot blend
     /// one attachment alone, such surfaces are cut out where their alpha is small.
     bool has_blended_surfaces() const {
-        return material_details_.has_any_blended_material() &&
-               scene_device_.supports_float_colour_blending();
+        return material_details_.has_any_blended_material() && scene_device_.blends_floats();
     }
     /// Returns whether rays pass through some surface.
     bool has_glass() const { return material_details_.has_any_glass_material(); }
@@ -211,7 +208,7 @@ private:
     void fill_frame_uniforms(double ambient);
     void write_scene_buffers_to_device(std::size_t slot);
 
-    gpu::GpuDevice& scene_device_;
+    gpu::Device& scene_device_;
     SceneUnitTransform space_;
     FrameGeometry geometry_;
     NearestTriangleQuery nearest_;

@@ -45,7 +45,7 @@ void record_light_probe_capture(graph::PassCommands& commands, const GpuScene& s
     };
     const std::vector<std::uint8_t> shown = find_faces_showing_objects(
         std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
-        {shared::kLightProbeFace, scene.scene_device().vulkan_limits().subPixelPrecisionBits},
+        {shared::kLightProbeFace, scene.scene_device().limits().subPixelPrecisionBits},
         scene.list_draw_ranges(), {}, is_wanted);
     const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
     const auto is_shown_lamp = [&](std::size_t object) {
@@ -58,7 +58,7 @@ void record_light_probe_capture(graph::PassCommands& commands, const GpuScene& s
     of_lamps.store.emplace_back("leaves_out_emission", 1u);
     draw_scene(commands, scene, drawing, is_other, shown);
     draw_scene(commands, scene, of_lamps, is_shown_lamp, shown);
-    gpu::ShaderConstantValues of_sky = drawing.store;
+    gpu::ShaderConstants of_sky = drawing.store;
     of_sky.emplace_back("blurs_sky", 1u);
     draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
     if (!shows_surfaces) return;
@@ -186,7 +186,7 @@ void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
             commands.bind_resource("grid_texels", probes.images.grid);
             commands.bind_resource("light", probes.images.light);
             commands.bind_resource("distances", probes.images.distances);
-            commands.bind_pipeline(gpu::ComputePipelineState{
+            commands.bind_pipeline(gpu::ComputeState{
                 "probes/light.comp", {{"light_probe_content", probes.images.content}}});
             const struct {
                 shared::LightProbeGrid grid;

@@ -228,7 +228,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
                                              : geometry.attributes);
 }
 
-std::size_t MaterialParameterLists::write(gpu::GpuDevice& device, std::size_t slot) {
+std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot) {
     return detail_words_.upload_changed_pages(device, slot) +
            attributes_.upload_changed_pages(device, slot) +
            texels_.upload_changed_pages(device, slot);

@@ -19,7 +19,7 @@ public:
     void fill(const scene::Scene& now, const SceneUnitTransform& space,
               const FrameGeometry& geometry, const DeviceVertices& vertices, std::uint64_t most);
     /// Writes the changes, like DeviceList::upload_changed_pages.
-    std::size_t write(gpu::GpuDevice& device, std::size_t slot);
+    std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
     bool any_clear_coat() const { return any_clear_coat_; } ///< some surface has a clear coat

@@ -14,7 +14,7 @@ namespace catoptric::render {
 struct MirrorShader {
     std::string fragment; ///< fragment shader; empty: the mirror is black
     std::string variant;  ///< suffix of `fragment`, where no cause of error is removed
-    gpu::ShaderConstantValues constants;
+    gpu::ShaderConstants constants;
     std::shared_ptr<const MirrorCaptures> captures;
     /// Further images that the mirror's shader samples (nearest), by their names in the shader. An
     /// entry has one image, or one for each array of captures.

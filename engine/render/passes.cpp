@@ -226,7 +226,7 @@ ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, Ima
         .reads(hdr, ResourceUse::sampled)
         .writes(picture, ResourceUse::colour, kClearColourBlack)
         .record([=](PassCommands& commands) {
-            commands.bind_pipeline(gpu::RasterPipelineState{"screen.vert", "compose.frag", {}});
+            commands.bind_pipeline(gpu::RasterState{"screen.vert", "compose.frag", {}});
             commands.bind_resource("hdr", hdr);
             commands.push_constants(static_cast<float>(std::exp2(exposure_stops)));
             commands.draw_fullscreen_triangle();

@@ -101,7 +101,7 @@ ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inpu
                                     ImageHandle shadow_map, std::uint32_t edge,
                                     const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
-    check(scene.scene_device().supports_float_colour_blending(), Failure::no_device,
+    check(scene.scene_device().blends_floats(), Failure::no_device,
           "--glass-shadow tint: wanted a device that adds rgba32f colours and blends one "
           "attachment alone, found none of both; render with --glass-shadow none");
     const std::uint32_t faces = scene.shadow_face_count();
@@ -120,7 +120,7 @@ ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inpu
             .record([&scene, light, shadow_map](PassCommands& commands) {
                 scene.bind(commands);
                 commands.bind_resource("shadow_depths", shadow_map, graph::TextureFilter::nearest);
-                gpu::RasterPipelineState state{"", "glass_shadow.frag", {}};
+                gpu::RasterState state{"", "glass_shadow.frag", {}};
                 state.blending = gpu::Blending::sum;
                 draw_objects(commands, scene, state, scene.shadow_view_index(light),
                              scene.drawn_shadow_faces(light), {},

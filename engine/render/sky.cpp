@@ -85,7 +85,7 @@ void DeviceEnvironment::set_environment(
     indices_.set_device_list_contents(std::vector<std::uint32_t>{0, 1, 2});
 }
 
-std::size_t DeviceEnvironment::write(gpu::GpuDevice& device, std::size_t slot) {
+std::size_t DeviceEnvironment::write(gpu::Device& device, std::size_t slot) {
     std::size_t writes = 0;
     for (DeviceList* buffer : {&device_sky_record_, &texels_, &vertices_, &indices_})
         writes += buffer->upload_changed_pages(device, slot);
@@ -103,13 +103,13 @@ void DeviceEnvironment::bind_vertices(graph::PassCommands& commands, std::size_t
 }
 
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
-              std::uint32_t layers, const gpu::ShaderConstantValues& store) {
+              std::uint32_t layers, const gpu::ShaderConstants& store) {
     if (!scene.has_sky()) return;
     commands.bind_pipeline(
-        gpu::RasterPipelineState{.vertex = "sky.vert",
-                                 .fragment = "sky.frag",
-                                 .constants = store,
-                                 .features = scene.shader_feature_constants(first_view)});
+        gpu::RasterState{.vertex = "sky.vert",
+                         .fragment = "sky.frag",
+                         .constants = store,
+                         .features = scene.shader_feature_constants(first_view)});
     commands.push_constants(shared::DrawParameters{.first_view = first_view});
     scene.bind_sky_vertices(commands);
     commands.draw(0, 3, 0, layers);

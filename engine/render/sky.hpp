@@ -23,7 +23,7 @@ public:
     void set_environment(const std::shared_ptr<const scene::Environment>& environment,
                          bool has_lobes, bool casts_shadows);
     /// Writes the changes, like DeviceList::upload_changed_pages.
-    std::size_t write(gpu::GpuDevice& device, std::size_t slot);
+    std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
     void bind_vertices(graph::PassCommands& commands, std::size_t slot) const;
@@ -40,6 +40,6 @@ private:
 /// Draws the environment into pixels that no surface covers, into layers whose views start at
 /// `first_view`. `store`: as in SceneDrawSettings.
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
-              std::uint32_t layers, const gpu::ShaderConstantValues& store);
+              std::uint32_t layers, const gpu::ShaderConstants& store);
 
 } // namespace catoptric::render

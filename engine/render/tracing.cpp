@@ -116,12 +116,11 @@ std::vector<std::uint32_t> list_first_hit_words(const bvh::Bvh& shown,
 
 } // namespace
 
-gpu::ShaderConstantValues make_tracer_constants(const gpu::ShaderVariantChoices& choices,
-                                                std::uint64_t bytes,
-                                                std::uint64_t most_of_storage) {
-    gpu::ShaderConstantValues constants;
+gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, std::uint64_t bytes,
+                                           std::uint64_t most_of_storage) {
+    gpu::ShaderConstants constants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const std::string_view constant = gpu::list_shader_variants()[i].constant;
+        const std::string_view constant = gpu::shader_variants()[i].constant;
         if (choices[i] == 0 || (constant == kBvhInStorageConstant && bytes > most_of_storage))
             continue;
         constants.emplace_back(constant, choices[i]);
@@ -284,8 +283,7 @@ void RayTracingTrees::rebuild_or_refit_ray_tracing_trees(DeviceBvh& hierarchy,
     hierarchy.seen = version_;
 }
 
-void RayTracingTrees::prepare_ray_tracing_trees(gpu::GpuDevice& device,
-                                                const FrameGeometry& geometry,
+void RayTracingTrees::prepare_ray_tracing_trees(gpu::Device& device, const FrameGeometry& geometry,
                                                 std::span<const shared::Surface> surfaces,
                                                 SphereIntersectionMode spheres, bool first_hits,
                                                 std::size_t slot) {
@@ -317,8 +315,8 @@ void RayTracingTrees::prepare_ray_tracing_trees(gpu::GpuDevice& device,
 std::uint64_t RayTracingTrees::largest_tree_buffer_bytes(SphereIntersectionMode spheres,
                                                          std::size_t slot) const {
     const DeviceBvh& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
-    return std::max(hierarchy.node_list.buffer_of_device_copy(slot).size_in_bytes(),
-                    hierarchy.triangles.buffer_of_device_copy(slot).size_in_bytes());
+    return std::max(hierarchy.node_list.buffer_of_device_copy(slot).bytes(),
+                    hierarchy.triangles.buffer_of_device_copy(slot).bytes());
 }
 
 void RayTracingTrees::bind(graph::PassCommands& commands, SphereIntersectionMode spheres,

@@ -24,8 +24,8 @@ enum class SphereIntersectionMode { mesh, exact };
 /// Returns the constants with which the tracer's shaders are built for a device's choices, without
 /// defaults. `bytes`: the size of the nodes or triangles. If it exceeds `most_of_storage`, they are
 /// texel buffers instead of storage buffers.
-gpu::ShaderConstantValues make_tracer_constants(const gpu::ShaderVariantChoices& choices,
-                                                std::uint64_t bytes, std::uint64_t most_of_storage);
+gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, std::uint64_t bytes,
+                                           std::uint64_t most_of_storage);
 
 /// The hierarchies that rays walk. Each is built at its first use for a layout of objects, and
 /// refitted after objects have moved.
@@ -46,7 +46,7 @@ public:
     /// Brings a hierarchy up to date for slot `slot`. Does nothing if nothing changed since the
     /// last call. `surfaces`: by object, scene units. `first_hits`: the list that finds a triangle
     /// of the rasteriser in the hierarchy is needed, too. A build costs O(n log^2 n), a refit O(n).
-    void prepare_ray_tracing_trees(gpu::GpuDevice& device, const FrameGeometry& geometry,
+    void prepare_ray_tracing_trees(gpu::Device& device, const FrameGeometry& geometry,
                                    std::span<const shared::Surface> surfaces,
                                    SphereIntersectionMode spheres, bool first_hits,
                                    std::size_t slot);

@@ -49,7 +49,7 @@ void DeviceVertices::copy_moved_vertices(const FrameGeometry& geometry) {
     moving_.set_device_list_contents(moving);
 }
 
-std::size_t DeviceVertices::write(gpu::GpuDevice& device, std::size_t slot) {
+std::size_t DeviceVertices::write(gpu::Device& device, std::size_t slot) {
     return static_vertices_.upload_changed_pages(device, slot) +
            moving_.upload_changed_pages(device, slot) + indices_.upload_changed_pages(device, slot);
 }

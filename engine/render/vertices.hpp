@@ -25,7 +25,7 @@ public:
     /// Returns the index of the object's first vertex in the buffer that it is drawn from.
     std::uint32_t first_vertex_of_object(std::size_t object) const { return places_[object].first; }
     /// Writes the changes, like DeviceList::upload_changed_pages.
-    std::size_t write(gpu::GpuDevice& device, std::size_t slot);
+    std::size_t write(gpu::Device& device, std::size_t slot);
     /// Binds the static vertices and all indices.
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the vertices of the object and all indices.

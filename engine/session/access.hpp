@@ -22,7 +22,7 @@ namespace catoptric::graph {
 struct ExternalSemaphores;
 } // namespace catoptric::graph
 namespace catoptric::gpu {
-struct ExternalDeviceHandles;
+struct ExternalDevice;
 } // namespace catoptric::gpu
 namespace catoptric::require {
 struct WorkModel;
@@ -50,8 +50,7 @@ struct EngineHooks {
     /// show pictures on this surface.
     std::vector<std::string> instance_extensions = {};
     std::function<std::uint64_t(void* instance)> make_surface = {};
-    const gpu::ExternalDeviceHandles* given =
-        nullptr; ///< device of an embedding program; null: none
+    const gpu::ExternalDevice* given = nullptr; ///< device of an embedding program; null: none
     /// Folder for specialised shaders if EngineOptions::cache is empty, for tests; empty: none.
     std::filesystem::path shader_cache = {};
 };

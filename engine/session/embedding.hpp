@@ -11,11 +11,10 @@ namespace catoptric::session {
 /// Access to the device of an engine and to the graph of a frame. embed/ adds passes to frames.
 /// Tuning chooses other shaders from the next frame on; Engine::device does not report this choice.
 struct EmbeddingEngineAccess {
-    static void choose_engine_shader_variants(Engine& engine,
-                                              const gpu::ShaderVariantChoices& choices) {
-        Access::engine_impl_of(engine).device.set_active_shader_variant_choices(choices);
+    static void choose_engine_shader_variants(Engine& engine, const gpu::VariantChoices& choices) {
+        Access::engine_impl_of(engine).device.set_variant_choices(choices);
     }
-    static gpu::GpuDevice& device_of_engine(const Engine& engine) {
+    static gpu::Device& device_of_engine(const Engine& engine) {
         return Access::engine_impl_of(engine).device;
     }
     static Frame submit_embedded_frame(Session& session, const FrameSpec& spec,

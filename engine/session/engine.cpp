@@ -33,7 +33,7 @@ gpu::DeviceOptions to_device_options(const EngineOptions& options, const EngineH
     if (hooks.given) wanted.given = *hooks.given;
     if (hooks.make_surface)
         wanted.make_surface = [make = hooks.make_surface](auto instance) {
-            return gpu::vulkan_surface_from_integer_handle(make(instance));
+            return gpu::to_surface(make(instance));
         };
     return wanted;
 }
@@ -66,8 +66,8 @@ Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
     : device(to_device_options(options, hooks)),
       pipelines(device, hooks.shader_variants, options.cache,
                 find_shader_cache_folder(options, hooks)),
-      info(to_public_device_info(device.device_properties())) {
-    device.set_active_shader_variant_choices(choose_shader_variants(options, info));
+      info(to_public_device_info(device.info())) {
+    device.set_variant_choices(choose_shader_variants(options, info));
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -76,9 +76,7 @@ Engine::Engine(const EngineOptions& options, const EngineHooks& hooks)
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }
-const std::string& Engine::warning() const {
-    return impl_->pipelines.pipeline_cache().cache_warning();
-}
+const std::string& Engine::warning() const { return impl_->pipelines.pipeline_cache().warning(); }
 bool Engine::usable() const { return !impl_->device.is_abandoned(); }
 void Engine::check_validation() const { impl_->device.check_validation(); }
 
@@ -87,12 +85,12 @@ Engine Access::make_engine(const EngineOptions& options, const EngineHooks& hook
 }
 CompiledPipelines Access::compiled_pipelines(const Engine& engine) {
     const gpu::PipelineStore& pipelines = engine.impl_->pipelines;
-    return {pipelines.count_compiled_pipelines(), pipelines.total_compile_ms()};
+    return {pipelines.pipeline_count(), pipelines.compile_ms()};
 }
 PipelineCacheState Access::pipeline_cache_state_of_engine(const Engine& engine) {
     const gpu::PipelineCache& cache = engine.impl_->pipelines.pipeline_cache();
-    if (!cache.is_stored_in_file()) return PipelineCacheState::none;
-    return cache.loaded_cache_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
+    if (!cache.is_stored()) return PipelineCacheState::none;
+    return cache.loaded_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
 }
 
 std::filesystem::path Access::cache_folder(const Engine& engine) {

@@ -10,7 +10,7 @@ namespace catoptric::session {
 /// State of an engine that its sessions share.
 struct Engine::Impl {
     explicit Impl(const EngineOptions& options, const EngineHooks& hooks = {});
-    gpu::GpuDevice device;
+    gpu::Device device;
     gpu::PipelineStore pipelines;
     DeviceInfo info;
 };

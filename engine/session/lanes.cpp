@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVectorBitsPerLane = 32;
 
-int measure_shader_lanes(gpu::GpuDevice& device) {
+int measure_shader_lanes(gpu::Device& device) {
     gpu::PipelineStore pipelines(device); // separate, so that the engine's counts do not change
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
@@ -22,7 +22,7 @@ int measure_shader_lanes(gpu::GpuDevice& device) {
     graph.add_pass("lanes")
         .writes(lanes, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"lanes.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"lanes.comp", {}});
             commands.bind_resource("Lanes", lanes);
             commands.dispatch(1, 1);
         });
@@ -40,7 +40,7 @@ int count_shader_lanes(const Engine& engine) {
 }
 
 std::string make_vector_width_warning(const Engine& engine) {
-    const std::optional<long> asked = gpu::read_llvmpipe_vector_width_request();
+    const std::optional<long> asked = gpu::llvmpipe_vector_width();
     if (!asked || engine.device().type != "cpu") return "";
     const int bits = kVectorBitsPerLane * count_shader_lanes(engine);
     if (*asked == bits) return "";

@@ -26,8 +26,8 @@ std::string format_for_message(const Json& value) {
 /// Returns the index of the variant, or throws `failure` with `place` in front.
 std::size_t find_variant_index(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
-    for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
+    for (std::size_t i = 0; i < gpu::kVariantCount; ++i) {
+        const gpu::ShaderVariant& variant = gpu::shader_variants()[i];
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
     }
@@ -47,18 +47,18 @@ Json make_device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
-gpu::ShaderVariantChoices read_device_profile(const fs::path& file, const DeviceInfo& device) {
+gpu::VariantChoices read_device_profile(const fs::path& file, const DeviceInfo& device) {
     return parse_device_profile(read_json_text(file, "a device profile", kMaxProfileBytes),
                                 file.string(), device);
 }
 
 /// Returns the choices of the folder's profile, or the defaults if there is no usable profile.
-gpu::ShaderVariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& device) {
+gpu::VariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& device) {
     const fs::path file = folder / make_profile_file_name(device);
     std::error_code error;
     if (!fs::exists(fs::symlink_status(file, error))) return choose_default_variants(device);
     try {
-        const gpu::ShaderVariantChoices choices = read_device_profile(file, device);
+        const gpu::VariantChoices choices = read_device_profile(file, device);
         device.profile = file.filename().string();
         return choices;
     } catch (const Error& refused) {
@@ -70,8 +70,8 @@ gpu::ShaderVariantChoices find_profile_choices(const fs::path& folder, DeviceInf
 
 } // namespace
 
-gpu::ShaderVariantChoices choose_default_variants(const DeviceInfo& device) {
-    gpu::ShaderVariantChoices choices{};
+gpu::VariantChoices choose_default_variants(const DeviceInfo& device) {
+    gpu::VariantChoices choices{};
     // Only a software driver gives each of its threads a contiguous run of work groups.
     const std::size_t groups = find_variant_index("groups", Failure::internal, "variants");
     choices[groups] = device.type == "cpu" ? 0 : 1;
@@ -109,8 +109,8 @@ std::string make_profile_text(const DeviceInfo& device,
     return report::serialise_json(document);
 }
 
-gpu::ShaderVariantChoices parse_device_profile(const std::string& text, const std::string& file,
-                                               const DeviceInfo& device) {
+gpu::VariantChoices parse_device_profile(const std::string& text, const std::string& file,
+                                         const DeviceInfo& device) {
     const Json document = parse_json<Json>(file, text);
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();
@@ -127,38 +127,36 @@ gpu::ShaderVariantChoices parse_device_profile(const std::string& text, const st
     const Json list = member(document, "variants");
     check(list.is_object(), Failure::bad_data, file, ": variants: wanted an object, found ",
           format_for_message(list));
-    gpu::ShaderVariantChoices choices = choose_default_variants(device);
+    gpu::VariantChoices choices = choose_default_variants(device);
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
         const std::size_t i = find_variant_index(name, Failure::bad_data, place);
-        choices[i] = find_choice_index(gpu::list_shader_variants()[i], choice, Failure::bad_data,
-                                       place);
+        choices[i] = find_choice_index(gpu::shader_variants()[i], choice, Failure::bad_data, place);
     }
     return choices;
 }
 
-VariantNames name_variant_choices(const gpu::ShaderVariantChoices& choices) {
+VariantNames name_variant_choices(const gpu::VariantChoices& choices) {
     VariantNames variants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderVariant& variant = gpu::shader_variants()[i];
         variants.emplace_back(variant.name, variant.choices[choices[i]]);
     }
     return variants;
 }
 
-gpu::ShaderVariantChoices parse_variant_choices(const VariantNames& variants,
-                                                const DeviceInfo& device) {
-    gpu::ShaderVariantChoices choices = choose_default_variants(device);
+gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const DeviceInfo& device) {
+    gpu::VariantChoices choices = choose_default_variants(device);
     for (const auto& [name, choice] : variants) {
         const std::size_t i = find_variant_index(name, Failure::usage, "variants");
-        choices[i] = find_choice_index(gpu::list_shader_variants()[i], choice, Failure::usage,
+        choices[i] = find_choice_index(gpu::shader_variants()[i], choice, Failure::usage,
                                        "variants");
     }
     return choices;
 }
 
-gpu::ShaderVariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device) {
-    gpu::ShaderVariantChoices choices = choose_default_variants(device);
+gpu::VariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device) {
+    gpu::VariantChoices choices = choose_default_variants(device);
     if (!options.variants.empty()) {
         choices = parse_variant_choices(options.variants, device);
     } else if (!options.profile.empty()) {

@@ -31,13 +31,12 @@ std::vector<std::uint32_t> pack_rgba8(const measure::Picture& display) {
 /// Writes data into a buffer. The buffer grows to a power of two, so that changing sizes seldom
 /// need a new buffer.
 template <typename T>
-void write_to_growing_buffer(gpu::GpuDevice& device, gpu::GpuBuffer& buffer,
-                             const std::string& name, const std::vector<T>& data,
-                             gpu::BufferUsage use) {
+void write_to_growing_buffer(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
+                             const std::vector<T>& data, gpu::BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
-    if (buffer.size_in_bytes() < bytes || !buffer.buffer_handle())
-        buffer = gpu::GpuBuffer(device, name, std::bit_ceil(bytes), use);
-    buffer.write_contents(std::span<const T>(data));
+    if (buffer.bytes() < bytes || !buffer.handle())
+        buffer = gpu::Buffer(device, name, std::bit_ceil(bytes), use);
+    buffer.write(std::span<const T>(data));
 }
 
 } // namespace
@@ -60,7 +59,7 @@ WindowScreen::WindowScreen(Engine& engine)
 WindowScreen::~WindowScreen() = default;
 
 bool WindowScreen::lost() const { return screen_impl_->swapchain.is_surface_lost(); }
-uvec2 WindowScreen::size() const { return screen_impl_->swapchain.size_in_pixels(); }
+uvec2 WindowScreen::size() const { return screen_impl_->swapchain.size(); }
 double WindowScreen::acquire_ms() const { return screen_impl_->acquire_ms; }
 double WindowScreen::present_ms() const { return screen_impl_->present_ms; }
 
@@ -71,10 +70,10 @@ bool WindowScreen::fit_to_window(uvec2 window) {
     if (window.x == 0 || window.y == 0) return false;
     self.swapchain.wait_idle();
     self.images.clear();
-    if (!self.swapchain.create_swapchain_images(window)) return false;
+    if (!self.swapchain.create_images(window)) return false;
     self.window = window;
-    const uvec2 size = self.swapchain.size_in_pixels();
-    for (const auto image : self.swapchain.swapchain_images())
+    const uvec2 size = self.swapchain.size();
+    for (const auto image : self.swapchain.images())
         self.images.push_back(graph::wrap_external_image(
             {"window", self.swapchain.texel_format(), size.x, size.y}, image));
     self.fits = true;
@@ -89,7 +88,7 @@ void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverag
     self.font_size = size;
     std::vector<std::uint8_t> padded = coverage; // padded to whole words
     padded.resize((padded.size() + 3) / 4 * 4);
-    gpu::upload_to_buffer(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
+    gpu::upload(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
 }
 
 Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
@@ -110,8 +109,8 @@ Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScre
         image = onto.acquire();
         if (!image) return graph::ExternalSemaphores{};
         onto.add(graph, spec, showing, index);
-        return graph::ExternalSemaphores{onto.swapchain.image_acquired_semaphore(),
-                                         onto.swapchain.rendering_done_semaphore(*image)};
+        return graph::ExternalSemaphores{onto.swapchain.acquired_semaphore(),
+                                         onto.swapchain.rendered_semaphore(*image)};
     });
     slot.runner = &runner, slot.ticket = frame.impl_->ticket;
     onto.fits = image && onto.present();
@@ -149,7 +148,7 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
     if (showing.canvas) canvas = pack_rgba8(*showing.canvas);
     write_to_growing_buffer(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
 
-    const uvec2 size = swapchain.size_in_pixels();
+    const uvec2 size = swapchain.size();
     const auto picture = [&](std::size_t part) {
         return frame.parts.at(part == WindowPictures::kCanvasPicture ? 0 : part).outputs.display;
     };
@@ -168,7 +167,7 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
     pass.writes(target, graph::ResourceUse::colour, graph::ClearValue{0, 0, 0, 1})
         .record([&slot, this, first, second, screening, size,
                  draws = overlay.draws](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::RasterPipelineState{"screen.vert", "screen.frag", {}});
+            commands.bind_pipeline(gpu::RasterState{"screen.vert", "screen.frag", {}});
             commands.bind_resource("first", first);
             commands.bind_resource("second", second);
             commands.bind_resource("Canvas", slot.canvas);
@@ -176,9 +175,9 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
             commands.bind_vertex_and_index_buffers(slot.vertices, slot.indices);
             commands.draw(0, 3);
             if (draws.empty()) return;
-            commands.bind_pipeline(gpu::RasterPipelineState{.vertex = "overlay.vert",
-                                                            .fragment = "overlay.frag",
-                                                            .blending = gpu::Blending::cover});
+            commands.bind_pipeline(gpu::RasterState{.vertex = "overlay.vert",
+                                                    .fragment = "overlay.frag",
+                                                    .blending = gpu::Blending::cover});
             commands.bind_resource("Corners", slot.vertices);
             commands.bind_resource("Font", font);
             commands.push_constants(shared::OverlayParameters{size, font_size});

@@ -24,15 +24,15 @@ struct WindowScreen::Impl {
 
     /// Buffers that one frame in flight reads.
     struct OverlayFrameBuffers {
-        gpu::GpuBuffer vertices, indices, canvas;
+        gpu::Buffer vertices, indices, canvas;
         const graph::GraphRunner* runner = nullptr; ///< runner of the frame that reads them
         graph::SubmittedFrameTicket ticket;
     };
 
-    gpu::GpuDevice& device;
+    gpu::Device& device;
     gpu::Swapchain swapchain;
     std::vector<graph::PhysicalImage> images; ///< images of the swapchain
-    gpu::GpuBuffer font;
+    gpu::Buffer font;
     uvec2 font_size{1, 1};
     std::array<OverlayFrameBuffers, 3> slots;
     std::size_t next_slot = 0;

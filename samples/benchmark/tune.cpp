@@ -29,7 +29,7 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
     const auto session = std::make_shared<Session>(engine, request.scene);
     std::vector<BenchmarkSubject> subjects;
-    const auto add = [&](const std::string& name, const gpu::ShaderVariantChoices& choices) {
+    const auto add = [&](const std::string& name, const gpu::VariantChoices& choices) {
         BenchmarkSubject subject = make_frame_benchmark_subject(session, request,
                                                                 options.iterations);
         subject.work = [&engine, choices, work = std::move(subject.work)] {
@@ -40,18 +40,18 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
         subject.caller.clear();
         subjects.push_back(std::move(subject));
     };
-    const gpu::ShaderVariantChoices defaults = choose_default_variants(engine.device());
+    const gpu::VariantChoices defaults = choose_default_variants(engine.device());
     add("default", defaults);
-    for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        gpu::ShaderVariantChoices choices = defaults;
+    for (std::size_t i = 0; i < gpu::kVariantCount; ++i) {
+        gpu::VariantChoices choices = defaults;
         choices[i] = 1 - choices[i];
-        add(std::string(gpu::list_shader_variants()[i].name), choices);
+        add(std::string(gpu::shader_variants()[i].name), choices);
     }
     const measure::BenchmarkRun run = run_benchmarks(subjects, meter, options, {}, {});
     EmbeddingEngineAccess::choose_engine_shader_variants(engine, defaults);
     TuningResult tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
-    for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
+    for (std::size_t i = 0; i < gpu::kVariantCount; ++i) {
+        const gpu::ShaderVariant& variant = gpu::shader_variants()[i];
         tuned.tried.push_back({.variant = std::string(variant.name),
                                .choice = std::string(variant.choices[1 - defaults[i]]),
                                .standard = std::string(variant.choices[defaults[i]]),

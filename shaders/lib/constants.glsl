@@ -40,7 +40,7 @@
 #define HAS_SHADOW_MAP_CONSTANT 37
 #define HAS_CAPTURE_TABLE_CONSTANT 38
 #define FIRST_RASTER_CONSTANT 39
-// Constants for features that a gpu::GpuDevice lacks:
+// Constants for features that a gpu::Device lacks:
 #define TEXELS_IN_STORAGE_CONSTANT 30
 #define DISTANCES_BY_GATHER_CONSTANT 31
 #define COUNTS_LANES_CONSTANT 57

@@ -1,6 +1,6 @@
 // Texel lists: lists that each invocation reads at a different index. Texel lists are uniform texel buffers, because a
 // software driver reads storage buffers lane by lane (docs/performance.md). On devices that allow few texels in a
-// buffer (gpu::GpuDevice::needs_storage_buffers_for_texels), the same data is bound as storage buffers.
+// buffer (gpu::Device::texels_in_storage), the same data is bound as storage buffers.
 #ifndef CATOPTRIC_TEXELS_GLSL
 #define CATOPTRIC_TEXELS_GLSL
 

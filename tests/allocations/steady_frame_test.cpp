@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrameAllocationTest,
                          });
 
 TEST_P(SteadyFrameAllocationTest, EachFrameMakesTheSameNumberOfAllocations) {
-    gpu::GpuDevice device({}); // without the validation layer, whose allocations would count
+    gpu::Device device({}); // without the validation layer, whose allocations would count
     gpu::PipelineStore pipelines(device);
     const scene::Scene scene = scene::make_cornell();
     render::GpuScene gpu_scene(device, scene);

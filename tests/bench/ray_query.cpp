@@ -106,8 +106,8 @@ int main(int argc, char** argv) try {
     const std::vector<bvh::Triangle> triangles = test::list_built_in_triangles();
     test::RandomNumbers numbers(7);
     std::printf("walk on %s, ray query on %s; %zu triangles\n",
-                test::get_test_device().device.device_properties().driver.c_str(),
-                device->device_name().c_str(), triangles.size());
+                test::get_test_device().device.info().driver.c_str(), device->device_name().c_str(),
+                triangles.size());
     compare_with_ray_query("camera", triangles, make_camera_rays(scene, space), query, rounds);
     compare_with_ray_query(
         "scattered", triangles,

@@ -10,7 +10,7 @@ namespace test {
 
 namespace {
 
-using gpu::throw_unless_vk_success;
+using gpu::check_vk;
 
 constexpr VkBufferUsageFlags kBuildInputUsage =
     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
@@ -34,9 +34,8 @@ DriverRayQuery::DriverRayQuery(const RayQueryDevice& device) : device_(device) {
     set.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set.pBindings = bindings.data();
     VkDescriptorSetLayout set_handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(
-        vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_handle),
-        "create a set layout");
+    check_vk(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_handle),
+             "create a set layout");
     set_layout_ = {device_.handle(), set_handle};
 
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(std::uint32_t)};
@@ -46,18 +45,16 @@ DriverRayQuery::DriverRayQuery(const RayQueryDevice& device) : device_(device) {
     layout.pushConstantRangeCount = 1;
     layout.pPushConstantRanges = &push;
     VkPipelineLayout layout_handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(
-        vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_handle),
-        "create a pipeline layout");
+    check_vk(vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_handle),
+             "create a pipeline layout");
     pipeline_layout_ = {device_.handle(), layout_handle};
 
     VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     module.codeSize = sizeof(ray_query_spirv);
     module.pCode = ray_query_spirv;
     VkShaderModule module_handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(
-        vkCreateShaderModule(device_.handle(), &module, nullptr, &module_handle),
-        "create a shader module");
+    check_vk(vkCreateShaderModule(device_.handle(), &module, nullptr, &module_handle),
+             "create a shader module");
     const gpu::UniqueShaderModule owned(device_.handle(), module_handle);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -66,7 +63,7 @@ DriverRayQuery::DriverRayQuery(const RayQueryDevice& device) : device_(device) {
     create.stage.pName = "main";
     create.layout = layout_handle;
     VkPipeline handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(
+    check_vk(
         vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &handle),
         "create the pipeline of the ray query");
     pipeline_ = {device_.handle(), handle};
@@ -100,8 +97,8 @@ DriverRayQuery::build(VkAccelerationStructureTypeKHR type,
     create.type = type;
     const auto make = device_.find_extension_function<PFN_vkCreateAccelerationStructureKHR>(
         "vkCreateAccelerationStructureKHR");
-    throw_unless_vk_success(make(device_.handle(), &create, nullptr, &result.handle),
-                            "create an acceleration structure");
+    check_vk(make(device_.handle(), &create, nullptr, &result.handle),
+             "create an acceleration structure");
     VkPhysicalDeviceAccelerationStructurePropertiesKHR limits{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits};
@@ -170,8 +167,8 @@ void DriverRayQuery::trace(const AccelerationStructure& triangles, const RayQuer
     create.poolSizeCount = 2;
     create.pPoolSizes = sizes;
     VkDescriptorPool handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &handle),
-                            "create a descriptor pool");
+    check_vk(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &handle),
+             "create a descriptor pool");
     const gpu::UniqueDescriptorPool pool(device_.handle(), handle);
     const VkDescriptorSetLayout layout = set_layout_;
     VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
@@ -179,8 +176,8 @@ void DriverRayQuery::trace(const AccelerationStructure& triangles, const RayQuer
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkAllocateDescriptorSets(device_.handle(), &allocate, &set),
-                            "allocate a descriptor set");
+    check_vk(vkAllocateDescriptorSets(device_.handle(), &allocate, &set),
+             "allocate a descriptor set");
     VkWriteDescriptorSetAccelerationStructureKHR structure{
         VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
     structure.accelerationStructureCount = 1;

@@ -9,7 +9,7 @@ namespace test {
 
 namespace {
 
-using gpu::throw_unless_vk_success;
+using gpu::check_vk;
 
 constexpr std::array kDeviceExtensions{VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
                                        VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
@@ -43,9 +43,9 @@ Function find_instance_function(VkInstance instance, const char* function) {
 std::unique_ptr<RayQueryDevice> RayQueryDevice::open(std::string& reason) {
     std::unique_ptr<RayQueryDevice> result(new RayQueryDevice);
     bool has_debug_utils = false;
-    result->instance_ = gpu::make_vulkan_instance(true, {}, has_debug_utils);
+    result->instance_ = gpu::make_instance(true, {}, has_debug_utils);
     if (has_debug_utils) result->make_ray_query_debug_messenger();
-    for (VkPhysicalDevice device : gpu::list_physical_devices(result->instance_)) {
+    for (VkPhysicalDevice device : gpu::physical_devices(result->instance_)) {
         const gpu::DeviceProperties info = gpu::describe_device(device);
         result->name_ = info.name + ", " + info.driver;
         if (info.missing.empty() && has_ray_query(device)) {
@@ -75,7 +75,7 @@ void RayQueryDevice::make_ray_query_debug_messenger() {
     create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     create.pfnUserCallback = record_validation_message;
     create.pUserData = &messages_;
-    throw_unless_vk_success(
+    check_vk(
         find_instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(
             instance_, "vkCreateDebugUtilsMessengerEXT")(instance_, &create, nullptr, &messenger_),
         "create the validation messenger");
@@ -103,8 +103,8 @@ void RayQueryDevice::make_ray_query_device() {
     create.pQueueCreateInfos = &queues;
     create.enabledExtensionCount = static_cast<std::uint32_t>(kDeviceExtensions.size());
     create.ppEnabledExtensionNames = kDeviceExtensions.data();
-    throw_unless_vk_success(vkCreateDevice(physical_, &create, nullptr, &device_),
-                            "open device '" + name_ + "' with ray queries");
+    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_),
+             "open device '" + name_ + "' with ray queries");
     vkGetDeviceQueue(device_, queues.queueFamilyIndex, 0, &queue_);
     make_ray_query_command_buffer(queues.queueFamilyIndex);
 }
@@ -114,15 +114,13 @@ void RayQueryDevice::make_ray_query_command_buffer(std::uint32_t queue_family) {
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family;
     VkCommandPool handle = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateCommandPool(device_, &pool, nullptr, &handle),
-                            "create a command pool");
+    check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
     command_pool_ = {{device_}, handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    throw_unless_vk_success(vkAllocateCommandBuffers(device_, &allocate, &commands_),
-                            "allocate a command buffer");
+    check_vk(vkAllocateCommandBuffers(device_, &allocate, &commands_), "allocate a command buffer");
 }
 
 RayQueryMemory RayQueryDevice::make_ray_query_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
@@ -131,7 +129,7 @@ RayQueryMemory RayQueryDevice::make_ray_query_memory(std::uint64_t bytes, VkBuff
     create.size = std::max<std::uint64_t>(bytes, 16);
     create.usage = usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     VkBuffer buffer = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkCreateBuffer(device_, &create, nullptr, &buffer), "create a buffer");
+    check_vk(vkCreateBuffer(device_, &create, nullptr, &buffer), "create a buffer");
     RayQueryMemory result;
     result.buffer = {{device_}, buffer};
     VkMemoryRequirements needs;
@@ -150,12 +148,10 @@ RayQueryMemory RayQueryDevice::make_ray_query_memory(std::uint64_t bytes, VkBuff
         check(++allocate.memoryTypeIndex < kinds.memoryTypeCount, Failure::internal,
               "no memory that both sides see");
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    throw_unless_vk_success(vkAllocateMemory(device_, &allocate, nullptr, &memory),
-                            "allocate memory");
+    check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory), "allocate memory");
     result.memory = {{device_}, memory};
-    throw_unless_vk_success(vkBindBufferMemory(device_, buffer, memory, 0), "bind memory");
-    throw_unless_vk_success(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &result.mapped),
-                            "map memory");
+    check_vk(vkBindBufferMemory(device_, buffer, memory, 0), "bind memory");
+    check_vk(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &result.mapped), "map memory");
     if (contents) std::memcpy(result.mapped, contents, bytes);
     VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
     address.buffer = buffer;

@@ -49,15 +49,14 @@ public:
     void submit_and_wait(Record&& record) const {
         VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
         begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        gpu::throw_unless_vk_success(vkBeginCommandBuffer(commands_, &begin),
-                                     "begin a command buffer");
+        gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
         record(commands_);
-        gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
+        gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
         VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
         info.commandBufferCount = 1;
         info.pCommandBuffers = &commands_;
-        gpu::throw_unless_vk_success(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "submit");
-        gpu::throw_unless_vk_success(vkQueueWaitIdle(queue_), "wait");
+        gpu::check_vk(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "submit");
+        gpu::check_vk(vkQueueWaitIdle(queue_), "wait");
     }
 
 private:

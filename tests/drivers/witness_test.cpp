@@ -289,9 +289,8 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
     const std::unique_ptr<test::RayQueryDevice> device = test::RayQueryDevice::open(reason);
     std::optional<test::DriverRayQuery> ray_query;
     if (device) ray_query.emplace(*device);
-    std::cout << "[ MEASURED ] walk on "
-              << test::get_test_device().device.device_properties().driver << ", Embree "
-              << RTC_VERSION_STRING << ", "
+    std::cout << "[ MEASURED ] walk on " << test::get_test_device().device.info().driver
+              << ", Embree " << RTC_VERSION_STRING << ", "
               << (device ? "ray query on " + device->device_name() : reason) << "\n";
     std::size_t rays = 0, found = 0;
     for (const WitnessRayBatch& batch : batches()) {

@@ -34,7 +34,7 @@ TEST_F(DeviceLostInFlightTest, WaitReportsTheLostDevice) {
         std::string wrong;
         const VulkanCallFault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
         const WatchedRun watched = here.run(fault, [&](session::Engine&) {
-            gpu::GpuDevice device({});
+            gpu::Device device({});
             gpu::PipelineStore pipelines(device);
             graph::GraphRunner runner(device, pipelines, 3);
             std::vector<graph::SubmittedFrameTicket> tickets;

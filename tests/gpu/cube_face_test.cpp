@@ -77,9 +77,9 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     std::vector<vec4> directions;
     for (int i = 0; i < 4096; ++i)
         directions.emplace_back(vec3(normal(random), normal(random), normal(random)), 0.0f);
-    gpu::GpuBuffer asked(device, "directions", directions.size() * sizeof(vec4),
-                         gpu::BufferUsage::plain);
-    asked.write_contents(std::span<const vec4>(directions));
+    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
+                      gpu::BufferUsage::plain);
+    asked.write(std::span<const vec4>(directions));
 
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
@@ -94,7 +94,7 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
         .reads(*cubes.distance, graph::ResourceUse::sampled)
         .writes(found, graph::ResourceUse::storage_write)
         .record([&, cubes, found](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/cube_sample.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
             commands.bind_resource("colour_cubes", cubes.colour, graph::TextureFilter::linear);
             commands.bind_resource("distance_cubes", *cubes.distance,
                                    graph::TextureFilter::nearest);

@@ -16,7 +16,7 @@ TEST(Device, UnknownIndexIsRefusedWithTheNumberOfDevices) {
     const std::size_t count = gpu::list_devices().size();
     for (const std::string wanted : {"99", std::to_string(count).c_str()})
         test::expect_error(
-            [&] { gpu::GpuDevice device({.wanted = wanted}); }, Failure::usage,
+            [&] { gpu::Device device({.wanted = wanted}); }, Failure::usage,
             {"no device '" + wanted + "'", "there are " + std::to_string(count), "counted from 0"});
 }
 
@@ -24,18 +24,17 @@ TEST(Device, UnknownNameIsRefusedWithTheNearestName) {
     std::string name = gpu::list_devices().front().name;
     name.front() = '?';
     test::expect_error(
-        [&] { gpu::GpuDevice device({.wanted = name}); }, Failure::usage,
+        [&] { gpu::Device device({.wanted = name}); }, Failure::usage,
         {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
 }
 
 TEST(Device, DeviceIsChosenByIndexOrPartOfItsName) {
     const gpu::DeviceProperties first = gpu::list_devices().front();
-    EXPECT_EQ(gpu::GpuDevice({.wanted = "0"}).device_properties().name, first.name);
-    EXPECT_EQ(gpu::GpuDevice({.wanted = first.name.substr(0, 4)}).device_properties().name,
-              first.name);
+    EXPECT_EQ(gpu::Device({.wanted = "0"}).info().name, first.name);
+    EXPECT_EQ(gpu::Device({.wanted = first.name.substr(0, 4)}).info().name, first.name);
     std::string capitals = first.name;
     std::ranges::transform(capitals, capitals.begin(), ::toupper);
-    EXPECT_EQ(gpu::GpuDevice({.wanted = capitals}).device_properties().name, first.name);
+    EXPECT_EQ(gpu::Device({.wanted = capitals}).info().name, first.name);
 }
 
 TEST(Device, ListNamesDriverVersionAndThreads) {
@@ -75,13 +74,13 @@ TEST(Device, ResultsOfVulkanAreNamedAsVulkanNamesThem) {
 }
 
 TEST(Device, MessagesOfTheValidationLayerAreErrors) {
-    gpu::GpuDevice device({.validate = true});
+    gpu::Device device({.validate = true});
     device.check_validation();
     VkFenceCreateInfo create{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     create.flags = 0x40; // no flag of a fence
     VkFence fence = VK_NULL_HANDLE;
-    ASSERT_EQ(vkCreateFence(device.device_handle(), &create, nullptr, &fence), VK_SUCCESS);
-    vkDestroyFence(device.device_handle(), fence, nullptr);
+    ASSERT_EQ(vkCreateFence(device.handle(), &create, nullptr, &fence), VK_SUCCESS);
+    vkDestroyFence(device.handle(), fence, nullptr);
     ASSERT_EQ(device.validation_messages().size(), 1u);
     EXPECT_THAT(device.validation_messages().front(),
                 testing::HasSubstr("VUID-VkFenceCreateInfo-flags-parameter"));
@@ -91,7 +90,7 @@ TEST(Device, MessagesOfTheValidationLayerAreErrors) {
 }
 
 TEST(Device, LayeredRenderingCanBeSwitchedOff) {
-    EXPECT_FALSE(gpu::GpuDevice({.layered = false}).supports_layered_rendering());
+    EXPECT_FALSE(gpu::Device({.layered = false}).supports_layers());
 }
 
 TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {

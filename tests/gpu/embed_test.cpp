@@ -32,9 +32,9 @@ std::string usage_error_text(Call&& call) {
 /// Returns the handles of the device that the other tests use. The instance is a placeholder,
 /// because no function reads it.
 embed::Device list_handles_of_test_device() {
-    const gpu::GpuDevice& own = test::get_test_device().device;
-    return {reinterpret_cast<VkInstance>(std::uintptr_t{1}), own.physical_device(),
-            own.device_handle(), own.vulkan_queue(), own.queue_family_index()};
+    const gpu::Device& own = test::get_test_device().device;
+    return {reinterpret_cast<VkInstance>(std::uintptr_t{1}), own.physical_device(), own.handle(),
+            own.queue(), own.queue_family()};
 }
 
 /// An image that belongs to the caller, as the target of frames. `read` returns its content, given
@@ -48,19 +48,18 @@ public:
                                                       .width = size.x,
                                                       .height = size.y})) {
         VkMemoryRequirements wants;
-        vkGetImageMemoryRequirements(device_.device_handle(), image_.image, &wants);
+        vkGetImageMemoryRequirements(device_.handle(), image_.image, &wants);
         memory_ = device_.allocate(
             wants.size,
-            static_cast<std::uint32_t>(device_.find_memory_type_index(wants.memoryTypeBits, 0)),
+            static_cast<std::uint32_t>(device_.find_memory_type(wants.memoryTypeBits, 0)),
             "target");
-        gpu::throw_unless_vk_success(
-            vkBindImageMemory(device_.device_handle(), image_.image, memory_, 0), "bind");
+        gpu::check_vk(vkBindImageMemory(device_.handle(), image_.image, memory_, 0), "bind");
     }
     VkImage image_handle() const { return image_.image; }
     measure::Picture read_image_content(VkImageLayout left_in) {
-        gpu::GpuBuffer buffer(device_, "seen", 4 * image_size_.x * image_size_.y,
-                              gpu::BufferUsage::read_back);
-        device_.submit_one_time_commands("look at a target", [&](VkCommandBuffer commands) {
+        gpu::Buffer buffer(device_, "seen", 4 * image_size_.x * image_size_.y,
+                           gpu::BufferUsage::read_back);
+        device_.run_commands("look at a target", [&](VkCommandBuffer commands) {
             VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
             barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
             barrier.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
@@ -74,9 +73,9 @@ public:
             const VkBufferImageCopy all{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                         .imageExtent = {image_size_.x, image_size_.y, 1}};
             vkCmdCopyImageToBuffer(commands, image_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                   buffer.buffer_handle(), 1, &all);
+                                   buffer.handle(), 1, &all);
         });
-        const std::vector<std::byte> bytes = buffer.read_contents();
+        const std::vector<std::byte> bytes = buffer.read();
         measure::Picture picture(static_cast<int>(image_size_.x), static_cast<int>(image_size_.y));
         for (std::size_t i = 0; i < 3 * picture.pixels.size(); ++i)
             picture.pixels[i / 3][static_cast<int>(i % 3)] = static_cast<float>(
@@ -86,7 +85,7 @@ public:
     }
 
 private:
-    gpu::GpuDevice& device_ = test::get_test_device().device;
+    gpu::Device& device_ = test::get_test_device().device;
     uvec2 image_size_;
     gpu::UniqueMemory memory_;
     graph::PhysicalImage image_;

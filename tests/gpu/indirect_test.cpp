@@ -29,7 +29,7 @@ std::vector<std::uint32_t> dispatch_and_count_groups(std::uint32_t groups, bool 
                declared ? graph::ResourceUse::indirect : graph::ResourceUse::storage_read)
         .writes(counts, graph::ResourceUse::storage)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.bind_resource("Counts", counts);
             commands.push_constants(kDispatchedWorkGroups);
             commands.dispatch_indirect(arguments, 4);

@@ -235,7 +235,7 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
 }
 
 TEST(KernelGeometry, N21_OneAndTwoDriverThreadsAgree) {
-    if (!test::get_test_device().device.is_cpu_device())
+    if (!test::get_test_device().device.is_cpu())
         GTEST_SKIP() << "only a software driver can be told its number of threads";
     const auto checksum = [](const char* threads) {
         const test::ProcessResult ended = test::run_process(

@@ -23,8 +23,7 @@ struct SelfHitCounts {
 /// Traces 1000 rays from random points of the triangle into random directions, and counts their
 /// hits on the same triangle.
 void count_self_hits_of_leaving_rays(const bvh::Triangle& triangle, test::RandomNumbers& numbers,
-                                     SelfHitCounts& count,
-                                     const gpu::ShaderConstantValues& rules = {}) {
+                                     SelfHitCounts& count, const gpu::ShaderConstants& rules = {}) {
     constexpr std::size_t kSpawnedRayCount = 1000;
     DeviceRayTracer kernel(std::span(&triangle, 1));
     kernel.rules = rules;

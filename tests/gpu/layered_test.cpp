@@ -52,7 +52,7 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
             .record([&gpu_scene, mirror](graph::PassCommands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
-                    commands.bind_pipeline(gpu::RasterPipelineState{
+                    commands.bind_pipeline(gpu::RasterState{
                         "scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag", {}});
                     for (std::size_t i = 0; i < gpu_scene.list_draw_ranges().size(); ++i) {
                         const render::ObjectDrawRange& range = gpu_scene.list_draw_ranges()[i];

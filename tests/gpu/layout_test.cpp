@@ -115,8 +115,8 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
     constexpr std::size_t kLayoutWordCount = 128;
     std::vector<std::uint32_t> words;
     for (std::size_t i = 0; i < kLayoutWordCount; ++i) words.push_back(layout_input_word(i));
-    gpu::GpuBuffer input(device, "input", 4 * kLayoutWordCount, gpu::BufferUsage::plain);
-    input.write_contents(std::span<const std::uint32_t>(words));
+    gpu::Buffer input(device, "input", 4 * kLayoutWordCount, gpu::BufferUsage::plain);
+    input.write(std::span<const std::uint32_t>(words));
     std::vector<std::uint32_t> expected;
     std::vector<std::string> names;
     for (const SharedStructMember& member : kSharedStructMembers)
@@ -136,7 +136,7 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
                   "Placements", "Traces", "AllCounters", "Grids", "Extents"})
                 commands.bind_resource(name, input);
             commands.bind_resource("Words", output);
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/layout.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/layout.comp", {}});
             commands.dispatch(1, 1);
         });
     graph.mark_as_graph_output(output);

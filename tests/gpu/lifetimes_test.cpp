@@ -82,7 +82,7 @@ TEST(Kept, LayersAreWrittenOneByOne) {
             graph.add_pass("fill")
                 .writes(part, ResourceUse::storage_write)
                 .record([=](graph::PassCommands& c) {
-                    c.bind_pipeline(gpu::ComputePipelineState{"tests/start.comp", {}});
+                    c.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
                     c.bind_resource("after", part);
                     c.push_constants(static_cast<float>(layer + 1));
                     c.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
@@ -146,14 +146,14 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
     auto& [device, pipelines] = test::get_test_device();
     constexpr std::uint32_t kLifetimeTestFrames = 6, kFrameSlotCount = 3;
     graph::GraphRunner runner(device, pipelines, kFrameSlotCount);
-    std::vector<gpu::GpuBuffer> targets;
+    std::vector<gpu::Buffer> targets;
     for (std::uint32_t i = 0; i < kFrameSlotCount; ++i)
         targets.emplace_back(device, "read-back", kStepImageWidth * kHeight * sizeof(float),
                              gpu::BufferUsage::read_back);
     std::vector<graph::SubmittedFrameTicket> tickets;
     const auto expect_read = [&](std::uint32_t frame) {
         runner.wait_for_frame(tickets[frame]);
-        const std::vector<std::byte> bytes = targets[frame % kFrameSlotCount].read_contents();
+        const std::vector<std::byte> bytes = targets[frame % kFrameSlotCount].read();
         std::vector<float> values(kStepImageWidth * kHeight);
         std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
         EXPECT_EQ(values, expected_start_texels(static_cast<float>(frame)));
@@ -162,9 +162,9 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
         if (frame >= kFrameSlotCount) expect_read(frame - kFrameSlotCount);
         graph::Graph graph;
         const graph::ImageHandle image = test::add_step_image(graph, "image");
-        const gpu::GpuBuffer& target = targets[frame % kFrameSlotCount];
+        const gpu::Buffer& target = targets[frame % kFrameSlotCount];
         const graph::BufferHandle out = graph.import_external_resource(
-            {target.buffer_name(), target.size_in_bytes()}, &target);
+            {target.name(), target.bytes()}, &target);
         add_start_pass(graph, image, static_cast<float>(frame));
         graph.add_pass("copy")
             .reads(image, ResourceUse::copy_from)
@@ -255,7 +255,7 @@ TEST(Mips, MipsAreSampledAsOneImage) {
             .reads(image, ResourceUse::sampled)
             .writes(out, ResourceUse::storage_write)
             .record([=](graph::PassCommands& commands) {
-                commands.bind_pipeline(gpu::ComputePipelineState{"tests/lod.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/lod.comp", {}});
                 commands.bind_resource("before", image, graph::TextureFilter::mipmapped);
                 commands.bind_resource("after", out);
                 commands.push_constants(lod);
@@ -298,7 +298,7 @@ TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
             .writes(unread, ResourceUse::storage_write)
             .writes(out, ResourceUse::storage_write)
             .record([=](graph::PassCommands& commands) {
-                commands.bind_pipeline(gpu::ComputePipelineState{"tests/start.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
                 for (const graph::ImageHandle& after : {unread, out}) {
                     commands.bind_resource("after", after);
                     commands.push_constants(1.0f);

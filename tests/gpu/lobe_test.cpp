@@ -30,8 +30,8 @@ std::vector<vec4> make_random_lobe_inputs(std::size_t count) {
 
 std::vector<LobeAnswer> evaluate_lobes_on_device(const std::vector<vec4>& asked) {
     auto& [device, pipelines] = test::get_test_device();
-    gpu::GpuBuffer input;
-    upload_to_buffer(device, input, "asked", asked, gpu::BufferUsage::plain);
+    gpu::Buffer input;
+    upload(device, input, "asked", asked, gpu::BufferUsage::plain);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle out = graph.add_buffer(
@@ -41,7 +41,7 @@ std::vector<LobeAnswer> evaluate_lobes_on_device(const std::vector<vec4>& asked)
         .record([&](graph::PassCommands& commands) {
             commands.bind_resource("Asked", input);
             commands.bind_resource("Answers", out);
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/lobe.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/lobe.comp", {}});
             commands.push_constants(static_cast<std::uint32_t>(asked.size()));
             commands.dispatch(static_cast<std::uint32_t>((asked.size() + 63) / 64), 1);
         });

@@ -17,7 +17,7 @@ std::uint32_t run_loop_shader(std::uint32_t wanted) {
     graph.add_pass("spin")
         .writes(counts, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.bind_resource("Counts", counts);
             commands.push_constants(wanted);
             commands.dispatch(4, 1);
@@ -36,7 +36,7 @@ TEST(LoopLimit, LongLoopsRunOrStopAtTheKnownLimit) {
     constexpr std::uint32_t kWantedLoopTurns = 70000, kLimit = 65535;
     const std::uint32_t turns = run_loop_shader(kWantedLoopTurns);
     RecordProperty("turns", static_cast<int>(turns));
-    const gpu::DeviceProperties& info = test::get_test_device().device.device_properties();
+    const gpu::DeviceProperties& info = test::get_test_device().device.info();
     std::cout << "[ MEASURED ] " << turns << " of " << kWantedLoopTurns << " turns on " << info.name
               << ", " << info.driver << "\n";
     if (turns == kWantedLoopTurns) GTEST_SKIP() << "this device does not stop loops";

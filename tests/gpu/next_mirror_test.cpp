@@ -33,15 +33,14 @@ std::vector<NextMirrorAnswer> list_next_mirror_answers(const std::vector<shared:
                                                        const std::vector<NextMirrorRay>& rays,
                                                        bool by_tree) {
     auto& [device, pipelines] = test::get_test_device();
-    gpu::GpuBuffer input, mirrors, tree, frame;
-    upload_to_buffer(device, input, "rays", rays, gpu::BufferUsage::plain);
-    upload_to_buffer(device, mirrors, "probes", render::pack_structs_into_texels(probes),
-                     gpu::BufferUsage::texels);
-    upload_to_buffer(device, tree, "tree", render::build_mirror_tree(probes),
-                     gpu::BufferUsage::texels);
+    gpu::Buffer input, mirrors, tree, frame;
+    upload(device, input, "rays", rays, gpu::BufferUsage::plain);
+    upload(device, mirrors, "probes", render::pack_structs_into_texels(probes),
+           gpu::BufferUsage::texels);
+    upload(device, tree, "tree", render::build_mirror_tree(probes), gpu::BufferUsage::texels);
     const auto count = static_cast<std::uint32_t>(probes.size());
-    upload_to_buffer(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
-                     gpu::BufferUsage::uniform);
+    upload(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
+           gpu::BufferUsage::uniform);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle out = graph.add_buffer(
@@ -54,8 +53,8 @@ std::vector<NextMirrorAnswer> list_next_mirror_answers(const std::vector<shared:
             commands.bind_resource("mirror_nodes", tree);
             commands.bind_resource("Rays", input);
             commands.bind_resource("Answers", out);
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/next_mirror.comp",
-                                                             {{"mirror_tree", by_tree ? 1u : 0u}}});
+            commands.bind_pipeline(
+                gpu::ComputeState{"tests/next_mirror.comp", {{"mirror_tree", by_tree ? 1u : 0u}}});
             commands.push_constants(static_cast<std::uint32_t>(rays.size()));
             commands.dispatch(static_cast<std::uint32_t>((rays.size() + 63) / 64), 1);
         });

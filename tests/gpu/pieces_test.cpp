@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, FramePiecesOf,
                                          "hybrid:face=32,rays=4,force=unknown"));
 
 TEST(FramePieces, HoldAtMost32768RaysOnAProcessor) {
-    if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
+    if (!test::get_test_device().device.is_cpu()) GTEST_SKIP() << "the device is no cpu";
     std::vector<std::pair<std::uint64_t, std::uint64_t>> told;
     render_in_pieces("raytrace:depth=1,rays=40", 0, told);
     ASSERT_FALSE(told.empty());
@@ -83,7 +83,7 @@ TEST(FramePieces, HoldAtMost32768RaysOnAProcessor) {
 }
 
 TEST(FramePieces, HoldUpTo262144RaysOnAProcessor) {
-    if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
+    if (!test::get_test_device().device.is_cpu()) GTEST_SKIP() << "the device is no cpu";
     session::Request request = test::make_test_request(scene::make_cornell(), {"raytrace:depth=1"},
                                                        {1024, 1024});
     session::Session session(test::get_test_engine(), request.scene);
@@ -148,7 +148,7 @@ TEST(FramePieces, RunStopsWithinAFrame) {
     const session::Watcher watcher{.on_frame = [&](int, int) { ++frames; },
                                    .on_piece = [&](std::uint64_t, std::uint64_t) { stop = 2; },
                                    .stop = &stop};
-    if (!test::get_test_device().device.is_cpu_device()) GTEST_SKIP() << "the device is no cpu";
+    if (!test::get_test_device().device.is_cpu()) GTEST_SKIP() << "the device is no cpu";
     test::expect_error([&] { session::run(session, request, watcher); }, Failure::interrupted,
                        {"stopped by signal 2"});
     EXPECT_EQ(frames, 0);

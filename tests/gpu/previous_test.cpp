@@ -111,7 +111,7 @@ graph::BufferHandle add_buffer_step(graph::Graph& graph, std::uint32_t number) {
         .reads(before, graph::ResourceUse::storage_read)
         .writes(buffer, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/step_buffer.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/step_buffer.comp", {}});
             commands.bind_resource("Before", before);
             commands.bind_resource("After", buffer);
             commands.push_constants(number);

@@ -15,8 +15,8 @@
 namespace {
 
 using namespace catoptric;
+using gpu::BindingKind;
 using gpu::ImageViewType;
-using gpu::ShaderBindingKind;
 
 gpu::ShaderReflection reflect_shader(const char* name) {
     return gpu::reflect_spirv(name, gpu::find_shader(name).words);
@@ -57,14 +57,14 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
     struct ExpectedBinding {
         const char* name;
         std::uint32_t binding;
-        ShaderBindingKind kind;
+        BindingKind kind;
     };
     for (const auto& [name, binding, kind] :
-         {ExpectedBinding{"frame", 0, ShaderBindingKind::uniform_buffer},
-          ExpectedBinding{"Views", 1, ShaderBindingKind::storage_buffer},
-          ExpectedBinding{"bvh_nodes", 9, ShaderBindingKind::texel_buffer},
-          ExpectedBinding{"picture", 12, ShaderBindingKind::storage_image},
-          ExpectedBinding{"counters", 14, ShaderBindingKind::storage_buffer}}) {
+         {ExpectedBinding{"frame", 0, BindingKind::uniform_buffer},
+          ExpectedBinding{"Views", 1, BindingKind::storage_buffer},
+          ExpectedBinding{"bvh_nodes", 9, BindingKind::texel_buffer},
+          ExpectedBinding{"picture", 12, BindingKind::storage_image},
+          ExpectedBinding{"counters", 14, BindingKind::storage_buffer}}) {
         const gpu::ShaderBinding* one = find_binding(found, name);
         ASSERT_TRUE(one) << name;
         EXPECT_EQ(one->binding, binding) << name;
@@ -145,11 +145,11 @@ TEST(Reflection, ShapesOfImagesAreFound) {
     const gpu::ShaderReflection parallax = reflect_shader("reflect/parallax.frag");
     ASSERT_TRUE(find_binding(parallax, "colour_cubes") && find_binding(parallax, "distance_cubes"));
     EXPECT_EQ(find_binding(parallax, "colour_cubes")->shape, ImageViewType::cube_array);
-    EXPECT_EQ(find_binding(parallax, "colour_cubes")->kind, ShaderBindingKind::texture);
+    EXPECT_EQ(find_binding(parallax, "colour_cubes")->kind, BindingKind::texture);
     EXPECT_EQ(find_binding(parallax, "colour_cubes")->count, shared::kMaxCubeArrays);
     ASSERT_TRUE(find_binding(reflect_shader("reflect/planar.frag"), "mirrored"));
     EXPECT_EQ(find_binding(reflect_shader("reflect/planar.frag"), "mirrored")->kind,
-              ShaderBindingKind::sampled_image);
+              BindingKind::sampled_image);
     const gpu::ShaderReflection diffuse = reflect_shader("diffuse.frag");
     ASSERT_TRUE(find_binding(diffuse, "shadow_map"));
     EXPECT_EQ(find_binding(diffuse, "shadow_map")->shape, ImageViewType::flat_array);
@@ -187,7 +187,7 @@ TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
 
 /// A graph of one dispatch into a buffer of 16 words.
 void make_and_run_dispatch(
-    const gpu::ComputePipelineState& state,
+    const gpu::ComputeState& state,
     const std::function<void(graph::PassCommands&, graph::BufferHandle)>& prepare) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
@@ -221,7 +221,7 @@ TEST(Binding, ImageBoundAsABufferIsRefused) {
     graph.add_pass("mixed")
         .writes(image, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.push_constants(1u);
             commands.bind_resource("Counts", image);
             commands.dispatch(1, 1);
@@ -271,10 +271,10 @@ TEST(Binding, PushConstantsOfThePipelineBeforeAreChecked) {
                 commands.bind_resource(name, counts);
             commands.push_constants(1u);
             for (int turn = 0; turn < 2; ++turn) {
-                commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
                 commands.dispatch(1, 1);
             }
-            commands.bind_pipeline(gpu::ComputePipelineState{"trace_list.comp#first", {}});
+            commands.bind_pipeline(gpu::ComputeState{"trace_list.comp#first", {}});
             commands.dispatch(1, 1);
         });
     graph.mark_as_graph_output(counts);

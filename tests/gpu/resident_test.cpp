@@ -13,7 +13,7 @@ using namespace catoptric;
 
 constexpr uvec2 kResidentPictureSize{24, 24};
 
-gpu::GpuDevice& resident_test_device() { return test::get_test_device().device; }
+gpu::Device& resident_test_device() { return test::get_test_device().device; }
 
 /// Returns the linear picture of the resident scene as bytes.
 std::vector<std::byte> render_resident_scene(render::GpuScene& scene,
@@ -222,8 +222,8 @@ TEST(Resident, SceneTooLargeForTheDeviceIsRefused) {
     }
 }
 
-std::vector<std::uint32_t> read_buffer_words(const gpu::GpuBuffer& buffer, std::size_t count) {
-    const std::vector<std::byte> bytes = buffer.read_contents();
+std::vector<std::uint32_t> read_buffer_words(const gpu::Buffer& buffer, std::size_t count) {
+    const std::vector<std::byte> bytes = buffer.read();
     std::vector<std::uint32_t> result(count);
     std::memcpy(result.data(), bytes.data(), count * sizeof(std::uint32_t));
     return result;

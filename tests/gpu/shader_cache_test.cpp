@@ -42,9 +42,8 @@ protected:
         ADD_FAILURE() << "no constant " << name;
         return 0;
     }
-    static ShaderWords find_in(gpu::SpecialisedShaderCache& cache, const ConstantBits& constants) {
-        return cache.find_or_specialise("reflect/parallax.frag", parallax_shader_words(),
-                                        constants);
+    static ShaderWords find_in(gpu::ShaderCache& cache, const ConstantBits& constants) {
+        return cache.specialised("reflect/parallax.frag", parallax_shader_words(), constants);
     }
     static ShaderWords specialise_without_cache(const ConstantBits& constants) {
         return gpu::specialise_shader("reflect/parallax.frag", parallax_shader_words(), constants);
@@ -58,13 +57,13 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
     const ShaderWords without = specialise_without_cache(off), with = specialise_without_cache(on);
     ASSERT_NE(without, with);
     {
-        gpu::SpecialisedShaderCache first(folder);
+        gpu::ShaderCache first(folder);
         EXPECT_EQ(find_in(first, off), without);
         EXPECT_EQ(find_in(first, on), with) << "a key without the values of constants";
         EXPECT_EQ(first.count_stored(), 2u);
         EXPECT_EQ(first.count_loaded(), 0u);
     }
-    gpu::SpecialisedShaderCache next(folder);
+    gpu::ShaderCache next(folder);
     EXPECT_EQ(find_in(next, on), with);
     EXPECT_EQ(find_in(next, off), without);
     EXPECT_EQ(next.count_loaded(), 2u);
@@ -72,7 +71,7 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
     // A different shader with the same constants has its own file in the cache.
     ShaderWords other(parallax_shader_words().begin(), parallax_shader_words().end());
     other[2] ^= 1; // the word of the SPIR-V header that names the generator
-    const ShaderWords of_other = next.find_or_specialise("other", other, on);
+    const ShaderWords of_other = next.specialised("other", other, on);
     EXPECT_EQ(of_other, gpu::specialise_shader("other", other, on));
     EXPECT_EQ(next.count_stored(), 1u);
 }
@@ -80,9 +79,9 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
 TEST_F(ShaderCache, FoldersThatDoNotExistAreMade) {
     const ConstantBits constants{{find_constant_id("peels"), 1}};
     const fs::path inner = folder / "a" / "b";
-    EXPECT_EQ(find_in(*std::make_unique<gpu::SpecialisedShaderCache>(inner), constants),
+    EXPECT_EQ(find_in(*std::make_unique<gpu::ShaderCache>(inner), constants),
               specialise_without_cache(constants));
-    gpu::SpecialisedShaderCache next(inner);
+    gpu::ShaderCache next(inner);
     find_in(next, constants);
     EXPECT_EQ(next.count_loaded(), 1u);
 }
@@ -90,7 +89,7 @@ TEST_F(ShaderCache, FoldersThatDoNotExistAreMade) {
 TEST_F(ShaderCache, BrokenFilesAreMadeAgain) {
     const ConstantBits constants{{find_constant_id("peels"), 1}};
     const ShaderWords wanted = specialise_without_cache(constants);
-    find_in(*std::make_unique<gpu::SpecialisedShaderCache>(folder), constants);
+    find_in(*std::make_unique<gpu::ShaderCache>(folder), constants);
     ASSERT_EQ(list_stored_files().size(), 1u);
     const fs::path file = list_stored_files()[0];
     std::stringstream whole;
@@ -100,7 +99,7 @@ TEST_F(ShaderCache, BrokenFilesAreMadeAgain) {
     for (const std::string& broken :
          {std::string(), whole.str().substr(0, 30), whole.str() + "x", flipped}) {
         std::ofstream(file, std::ios::binary) << broken;
-        gpu::SpecialisedShaderCache cache(folder);
+        gpu::ShaderCache cache(folder);
         EXPECT_EQ(find_in(cache, constants), wanted);
         EXPECT_EQ(cache.count_loaded(), 0u);
         EXPECT_EQ(cache.count_stored(), 1u);
@@ -113,7 +112,7 @@ TEST_F(ShaderCache, FolderThatCannotBeWrittenHasNoEffect) {
     std::ofstream(folder / "file") << "not a folder";
     const ConstantBits constants{{find_constant_id("peels"), 1}};
     for (const fs::path& place : {folder / "file", fs::path()}) {
-        gpu::SpecialisedShaderCache cache(place);
+        gpu::ShaderCache cache(place);
         EXPECT_EQ(find_in(cache, constants), specialise_without_cache(constants));
         EXPECT_EQ(cache.count_stored() + cache.count_loaded(), 0u);
     }
@@ -124,7 +123,7 @@ TEST_F(ShaderCache, FilesThatWereWrittenFirstAreRemoved) {
     const std::uint32_t id = find_constant_id("peels");
     std::uintmax_t bytes_each = 0;
     const auto store = [&](std::uint32_t value, std::uintmax_t largest) {
-        gpu::SpecialisedShaderCache cache(folder, largest);
+        gpu::ShaderCache cache(folder, largest);
         find_in(cache, {{id, value}});
         for (const fs::path& file : list_stored_files()) bytes_each = fs::file_size(file);
         return cache.count_stored();

@@ -14,31 +14,31 @@ using namespace catoptric;
 
 class StagedUploadTest : public testing::TestWithParam<bool> {
 protected:
-    gpu::GpuDevice& staging_device() { return test::get_test_device(GetParam()).device; }
+    gpu::Device& staging_device() { return test::get_test_device(GetParam()).device; }
 };
 INSTANTIATE_TEST_SUITE_P(Buffers, StagedUploadTest, testing::Values(false, true),
                          [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
 
 TEST_P(StagedUploadTest, BufferReturnsTheWrittenData) {
-    ASSERT_EQ(staging_device().needs_staged_uploads(), GetParam());
+    ASSERT_EQ(staging_device().needs_staging(), GetParam());
     std::vector<std::uint32_t> words(1000);
     std::iota(words.begin(), words.end(), 17u);
-    gpu::GpuBuffer buffer(staging_device(), "words", 4 * words.size(), gpu::BufferUsage::plain);
-    buffer.write_contents(std::span<const std::uint32_t>(words));
+    gpu::Buffer buffer(staging_device(), "words", 4 * words.size(), gpu::BufferUsage::plain);
+    buffer.write(std::span<const std::uint32_t>(words));
     const std::vector<std::uint32_t> part{1, 2, 3};
-    buffer.write_contents(4 * 100, std::as_bytes(std::span(part)));
+    buffer.write(4 * 100, std::as_bytes(std::span(part)));
     std::ranges::copy(part, words.begin() + 100);
-    const std::vector<std::byte> read = buffer.read_contents();
+    const std::vector<std::byte> read = buffer.read();
     ASSERT_EQ(read.size(), 4 * words.size());
     EXPECT_EQ(std::memcmp(read.data(), words.data(), read.size()), 0);
 }
 
 TEST_P(StagedUploadTest, WriteBeyondTheEndIsRefused) {
-    gpu::GpuBuffer buffer(staging_device(), "short", 32, gpu::BufferUsage::plain);
+    gpu::Buffer buffer(staging_device(), "short", 32, gpu::BufferUsage::plain);
     const std::vector<std::uint32_t> words(5);
-    test::expect_error([&] { buffer.write_contents(16, std::as_bytes(std::span(words))); },
+    test::expect_error([&] { buffer.write(16, std::as_bytes(std::span(words))); },
                        Failure::internal, {"buffer 'short' has 32 bytes", "[16, 36)"});
-    buffer.write_contents(12, std::as_bytes(std::span(words)));
+    buffer.write(12, std::as_bytes(std::span(words)));
 }
 
 /// Tests the limit on texels, which is checked before memory is allocated. The limit counts texels,
@@ -47,54 +47,52 @@ TEST_P(StagedUploadTest, MoreTexelsThanTheDeviceAllowsAreRefused) {
     for (const auto& [use, bytes] : {std::pair{gpu::BufferUsage::words, 4u},
                                      {gpu::BufferUsage::quads, 16u},
                                      {gpu::BufferUsage::texels, 16u}}) {
-        const std::uint64_t most = staging_device().max_texel_count(bytes);
-        test::expect_error(
-            [&] { gpu::GpuBuffer(staging_device(), "list", (most + 1) * bytes, use); },
-            Failure::exhausted,
-            {"buffer 'list' wants " + std::to_string(most + 1) + " texels, the device allows " +
-             std::to_string(most)});
+        const std::uint64_t most = staging_device().max_texels(bytes);
+        test::expect_error([&] { gpu::Buffer(staging_device(), "list", (most + 1) * bytes, use); },
+                           Failure::exhausted,
+                           {"buffer 'list' wants " + std::to_string(most + 1) +
+                            " texels, the device allows " + std::to_string(most)});
     }
 }
 
 TEST_P(StagedUploadTest, EmptyBufferCanBeMadeAndWritten) {
-    gpu::GpuBuffer buffer;
-    gpu::upload_to_buffer(staging_device(), buffer, "empty", std::vector<float>{},
-                          gpu::BufferUsage::plain);
-    EXPECT_TRUE(buffer.buffer_handle());
-    EXPECT_GE(buffer.size_in_bytes(), 16u);
+    gpu::Buffer buffer;
+    gpu::upload(staging_device(), buffer, "empty", std::vector<float>{}, gpu::BufferUsage::plain);
+    EXPECT_TRUE(buffer.handle());
+    EXPECT_GE(buffer.bytes(), 16u);
 }
 
 TEST_P(StagedUploadTest, UploadGrowsTheBuffer) {
-    gpu::GpuBuffer buffer;
-    gpu::upload_to_buffer(staging_device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
-                          gpu::BufferUsage::plain);
+    gpu::Buffer buffer;
+    gpu::upload(staging_device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
+                gpu::BufferUsage::plain);
     std::vector<std::uint32_t> longer(100, 9u);
-    gpu::upload_to_buffer(staging_device(), buffer, "list", longer, gpu::BufferUsage::plain);
-    ASSERT_EQ(buffer.size_in_bytes(), 400u);
-    EXPECT_EQ(std::memcmp(buffer.read_contents().data(), longer.data(), 400), 0);
+    gpu::upload(staging_device(), buffer, "list", longer, gpu::BufferUsage::plain);
+    ASSERT_EQ(buffer.bytes(), 400u);
+    EXPECT_EQ(std::memcmp(buffer.read().data(), longer.data(), 400), 0);
 }
 
 /// The write of 40 MB is larger than the staging ring.
 TEST_P(StagedUploadTest, LargeWritesArriveWhole) {
     std::vector<std::uint32_t> words(10'000'003);
     std::iota(words.begin(), words.end(), 3u);
-    gpu::GpuBuffer buffer(staging_device(), "large", 4 * words.size(), gpu::BufferUsage::plain);
-    buffer.write_contents(std::span<const std::uint32_t>(words));
-    EXPECT_EQ(std::memcmp(buffer.read_contents().data(), words.data(), 4 * words.size()), 0);
+    gpu::Buffer buffer(staging_device(), "large", 4 * words.size(), gpu::BufferUsage::plain);
+    buffer.write(std::span<const std::uint32_t>(words));
+    EXPECT_EQ(std::memcmp(buffer.read().data(), words.data(), 4 * words.size()), 0);
 }
 
 TEST_P(StagedUploadTest, OverlappingWritesHappenInOrder) {
     std::vector<std::uint32_t> expected(1000, 0u);
-    gpu::GpuBuffer buffer(staging_device(), "list", 4 * expected.size(), gpu::BufferUsage::plain);
-    buffer.write_contents(std::span<const std::uint32_t>(expected));
+    gpu::Buffer buffer(staging_device(), "list", 4 * expected.size(), gpu::BufferUsage::plain);
+    buffer.write(std::span<const std::uint32_t>(expected));
     for (std::uint32_t k = 0; k < 200; ++k) {
         const std::size_t first = 3 * k, count = 400 - 2 * k;
         const std::vector<std::uint32_t> part(count, k + 1);
-        buffer.write_contents(4 * first, std::as_bytes(std::span(part)));
+        buffer.write(4 * first, std::as_bytes(std::span(part)));
         std::ranges::fill_n(expected.begin() + static_cast<std::ptrdiff_t>(first),
                             static_cast<std::ptrdiff_t>(count), k + 1);
     }
-    const std::vector<std::byte> read = buffer.read_contents();
+    const std::vector<std::byte> read = buffer.read();
     EXPECT_EQ(std::memcmp(read.data(), expected.data(), read.size()), 0);
 }
 
@@ -102,19 +100,18 @@ TEST_P(StagedUploadTest, OverlappingWritesHappenInOrder) {
 /// device are finished first.
 TEST_P(StagedUploadTest, BufferCanBeDestroyedRightAfterAWrite) {
     const std::vector<std::uint32_t> words(50'000, 7u);
-    gpu::GpuBuffer kept(staging_device(), "kept", 4 * words.size(), gpu::BufferUsage::plain);
+    gpu::Buffer kept(staging_device(), "kept", 4 * words.size(), gpu::BufferUsage::plain);
     for (int k = 0; k < 5; ++k) {
-        gpu::GpuBuffer gone(staging_device(), "gone", 4 * words.size(), gpu::BufferUsage::plain);
-        gone.write_contents(std::span<const std::uint32_t>(words));
+        gpu::Buffer gone(staging_device(), "gone", 4 * words.size(), gpu::BufferUsage::plain);
+        gone.write(std::span<const std::uint32_t>(words));
         if (k % 2) staging_device().submit_uploads();
-        gpu::GpuBuffer other = std::move(gone);
+        gpu::Buffer other = std::move(gone);
         other = {};
-        other = gpu::GpuBuffer(staging_device(), "other", 4 * words.size(),
-                               gpu::BufferUsage::plain);
-        other.write_contents(std::span<const std::uint32_t>(words));
+        other = gpu::Buffer(staging_device(), "other", 4 * words.size(), gpu::BufferUsage::plain);
+        other.write(std::span<const std::uint32_t>(words));
     }
-    kept.write_contents(std::span<const std::uint32_t>(words));
-    EXPECT_EQ(std::memcmp(kept.read_contents().data(), words.data(), 4 * words.size()), 0);
+    kept.write(std::span<const std::uint32_t>(words));
+    EXPECT_EQ(std::memcmp(kept.read().data(), words.data(), 4 * words.size()), 0);
     staging_device().check_validation();
 }
 

@@ -21,7 +21,7 @@ inline void add_start_pass(graph::Graph& graph, graph::ImageHandle after, float 
     graph.add_pass("start/" + graph.list_images()[after.id].name)
         .writes(after, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/start.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
             commands.bind_resource("after", after);
             commands.push_constants(number);
             commands.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
@@ -34,7 +34,7 @@ inline void add_step_pass(graph::Graph& graph, const std::string& name, graph::I
         .reads(before, ResourceUse::sampled)
         .writes(after, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/step.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/step.comp", {}});
             commands.bind_resource("before", before);
             commands.bind_resource("after", after);
             commands.push_constants(number);

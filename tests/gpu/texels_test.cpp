@@ -54,15 +54,15 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     append_words_of(texels[kAskedStructCount], expected);
 
     auto& [device, pipelines] = test::get_test_device();
-    gpu::GpuBuffer surface_list, probe_list, detail_list, attribute_list, texture_list;
+    gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
     using gpu::BufferUsage;
-    upload_to_buffer(device, surface_list, "surfaces", render::pack_structs_into_texels(surfaces),
-                     BufferUsage::texels);
-    upload_to_buffer(device, probe_list, "probes", render::pack_structs_into_texels(probes),
-                     BufferUsage::texels);
-    upload_to_buffer(device, detail_list, "details", details, BufferUsage::quads);
-    upload_to_buffer(device, attribute_list, "attributes", attributes, BufferUsage::texels);
-    upload_to_buffer(device, texture_list, "texels", texels, BufferUsage::words);
+    upload(device, surface_list, "surfaces", render::pack_structs_into_texels(surfaces),
+           BufferUsage::texels);
+    upload(device, probe_list, "probes", render::pack_structs_into_texels(probes),
+           BufferUsage::texels);
+    upload(device, detail_list, "details", details, BufferUsage::quads);
+    upload(device, attribute_list, "attributes", attributes, BufferUsage::texels);
+    upload(device, texture_list, "texels", texels, BufferUsage::words);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle output = graph.add_buffer({"output", 4 * expected.size()});
@@ -75,7 +75,7 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
             commands.bind_resource("attribute_texels", attribute_list);
             commands.bind_resource("texture_words", texture_list);
             commands.bind_resource("Words", output);
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/texels.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/texels.comp", {}});
             commands.push_constants(kAskedStructCount);
             commands.dispatch(1, 1);
         });

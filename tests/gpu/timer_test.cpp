@@ -127,8 +127,7 @@ TEST(Timing, FirstRoundIsReplacedByLaterFrames) {
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     // This number of work groups keeps a graphics card of 10,000 lanes busy.
-    const std::uint32_t kWorkGroupCount = test::get_test_device().device.is_cpu_device() ? 256
-                                                                                         : 16384;
+    const std::uint32_t kWorkGroupCount = test::get_test_device().device.is_cpu() ? 256 : 16384;
     std::vector<double> one, four;
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
@@ -141,7 +140,7 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
             graph.add_pass((i % 2 ? "four/" : "one/") + std::to_string(i))
                 .writes(counts, graph::ResourceUse::storage)
                 .record([=](graph::PassCommands& commands) {
-                    commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
+                    commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
                     commands.bind_resource("Counts", counts);
                     commands.push_constants(4000u);
                     commands.dispatch(groups, 1);

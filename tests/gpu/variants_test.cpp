@@ -15,11 +15,11 @@ using testing::Not;
 
 /// Returns the names of the bindings of the ray tracing shader when it is built with these
 /// constants.
-std::vector<std::string> list_bindings_with_constants(const gpu::ShaderConstantValues& constants) {
+std::vector<std::string> list_bindings_with_constants(const gpu::ShaderConstants& constants) {
     std::vector<std::string> names;
     for (const gpu::ShaderBinding& binding :
          test::get_test_device()
-             .pipelines.find_or_make_compute_pipeline({"raytrace.comp", {}, constants})
+             .pipelines.compute_pipeline({"raytrace.comp", {}, constants})
              .bindings)
         names.push_back(binding.name);
     return names;
@@ -31,14 +31,14 @@ TEST(Variants, EachVariantIsAConstantOfTheRayTracer) {
         for (const gpu::SpecialisationConstant& constant :
              gpu::reflect_spirv(build, gpu::find_shader(build).words).constants)
             known.push_back(constant.name);
-    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
+    for (const gpu::ShaderVariant& variant : gpu::shader_variants())
         EXPECT_THAT(known, Contains(std::string(variant.constant)));
 }
 
 TEST(Variants, UnusedNodeBuffersAreNotBound) {
     const std::vector<std::string> texels = list_bindings_with_constants({}),
                                    stored = list_bindings_with_constants({{"bvh_in_storage", 1u}});
-    if (!test::get_test_device().device.needs_storage_buffers_for_texels()) {
+    if (!test::get_test_device().device.texels_in_storage()) {
         EXPECT_THAT(texels, testing::IsSupersetOf({"bvh_nodes", "bvh_triangles"}));
         EXPECT_THAT(texels, Not(Contains("bvh_nodes_in_storage")));
     }
@@ -72,7 +72,7 @@ void expect_same_bytes(const std::vector<vec3>& a, const std::vector<vec3>& b) {
 
 TEST(Variants, EachVariantRendersTheSameBytes) {
     const std::vector<vec3> wanted = render_with_variants("raytrace:depth=3", {});
-    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants()) {
+    for (const gpu::ShaderVariant& variant : gpu::shader_variants()) {
         SCOPED_TRACE(variant.name);
         expect_same_bytes(
             wanted, render_with_variants("raytrace:depth=3", {{std::string(variant.name),
@@ -83,7 +83,7 @@ TEST(Variants, EachVariantRendersTheSameBytes) {
 /// Tests all variants together in `hybrid`, which traces only a list of pixels.
 TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
     session::VariantNames all;
-    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
+    for (const gpu::ShaderVariant& variant : gpu::shader_variants())
         all.emplace_back(variant.name, variant.choices[1]);
     expect_same_bytes(render_with_variants("hybrid:face=16", {}),
                       render_with_variants("hybrid:face=16", all));

@@ -65,9 +65,9 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
     const graph::ImageHandle pyramid = find_image_by_name(graph, "pyramid"),
                              colour = find_image_by_name(graph, "capture/cubes.colour");
     const graph::ImageHandle distance = find_image_by_name(graph, "capture/cubes.distance");
-    gpu::GpuBuffer asked(device, "directions", directions.size() * sizeof(vec4),
-                         gpu::BufferUsage::plain);
-    asked.write_contents(std::span<const vec4>(directions));
+    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
+                      gpu::BufferUsage::plain);
+    asked.write(std::span<const vec4>(directions));
     std::array<graph::BufferHandle, 2> found;
     for (int i = 0; i < 2; ++i) {
         found[i] = graph.add_buffer(
@@ -77,7 +77,7 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
             .reads(distance, graph::ResourceUse::sampled)
             .writes(found[i], graph::ResourceUse::storage_write)
             .record([=, &asked, count = directions.size()](graph::PassCommands& commands) {
-                commands.bind_pipeline(gpu::ComputePipelineState{"tests/cube_sample.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
                 commands.bind_resource("colour_cubes", colour, graph::TextureFilter::linear);
                 commands.bind_resource("distance_cubes", distance,
                                        i == 0 ? graph::TextureFilter::linear

@@ -246,7 +246,7 @@ TEST(RoughLookups, SearchesThatTheDriverStopsAreMarked) {
                                      [](const auto& pixel) { return std::isnan(pixel.x); });
     };
     EXPECT_EQ(count_marked("16"), 0);
-    EXPECT_EQ(count_marked("1024") > 0, test::get_test_device().device.is_cpu_device());
+    EXPECT_EQ(count_marked("1024") > 0, test::get_test_device().device.is_cpu());
 }
 
 /// `auto` does not choose `planar` for flat rough mirrors, because it knows only its error for

@@ -59,7 +59,7 @@ reflect::TechniqueOutputs add_temporal_picture(graph::Graph& graph,
             commands.bind_resource("normals_and_distances", first.normals_and_distances);
             commands.bind_resource("history", history);
             commands.bind_resource("mean", mean);
-            commands.bind_pipeline(gpu::ComputePipelineState{"tests/temporal.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/temporal.comp", {}});
             commands.push_constants(eyes);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
         });

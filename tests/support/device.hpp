@@ -25,7 +25,7 @@ using namespace catoptric;
 /// A device with its pipelines, for tests that build their own render graphs.
 struct TestDevice {
     explicit TestDevice(const gpu::DeviceOptions& options) : device(options), pipelines(device) {}
-    gpu::GpuDevice device;
+    gpu::Device device;
     gpu::PipelineStore pipelines;
 };
 
@@ -104,16 +104,14 @@ inline session::Engine& get_test_engine(bool layered = true) {
 /// filtered with weights of full precision. Mesa's software driver does so. Vulkan asks for less:
 /// divisions within 2.5 units in the last place, and as many bits of positions in a pixel and of
 /// weights as `subPixelPrecisionBits` and `subTexelPrecisionBits` say (8 on most graphics cards).
-inline bool computes_like_cpp() { return get_test_device().device.is_cpu_device(); }
+inline bool computes_like_cpp() { return get_test_device().device.is_cpu(); }
 
 /// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
 /// limits/limits_test.cpp tests the error on devices that do not support it.
-inline bool has_float_colour() { return get_test_device().device.has_float_filtering(); }
+inline bool has_float_colour() { return get_test_device().device.filters_floats(); }
 /// Returns whether the device draws blended surfaces. Others draw them opaque, and cut them out
 /// where their alpha is below the cutoff.
-inline bool has_blended_surfaces() {
-    return get_test_device().device.supports_float_colour_blending();
-}
+inline bool has_blended_surfaces() { return get_test_device().device.blends_floats(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
 inline graph::GraphFrameTimes run_graph(graph::GraphRunner& runner, const graph::Graph& graph,

@@ -67,17 +67,16 @@ public:
     explicit DeviceRayTracer(bvh::Bvh hierarchy)
         : bvh_(std::move(hierarchy)),
           runner_(get_test_device().device, get_test_device().pipelines) {
-        upload_to_buffer(get_test_device().device, nodes_, "nodes", bvh_.nodes,
-                         gpu::BufferUsage::texels);
-        upload_to_buffer(get_test_device().device, triangles_, "triangles", bvh_.triangles,
-                         gpu::BufferUsage::texels);
+        upload(get_test_device().device, nodes_, "nodes", bvh_.nodes, gpu::BufferUsage::texels);
+        upload(get_test_device().device, triangles_, "triangles", bvh_.triangles,
+               gpu::BufferUsage::texels);
     }
     explicit DeviceRayTracer(std::span<const bvh::Triangle> triangles)
         : DeviceRayTracer(bvh::build(triangles)) {}
 
     /// Robustness rules that the shader leaves out, as constants of shaders/lib/plain.glsl. Without
     /// a rule, a test shows the errors that the rule prevents.
-    gpu::ShaderConstantValues rules{};
+    gpu::ShaderConstants rules{};
 
     const bvh::Bvh& traversed_bvh() const { return bvh_; }
 
@@ -104,13 +103,13 @@ public:
 private:
     std::vector<DeviceHit> trace_rays(const std::vector<DeviceRay>& rays, std::uint32_t skipped,
                                       const std::vector<vec4>& lows, std::uint32_t occluded) {
-        gpu::ShaderConstantValues constants = rules;
+        gpu::ShaderConstants constants = rules;
         const bool object_spaces = bvh_.nodes[2].x > 0; // tree with instances (bvh/tlas.hpp)
         constants.emplace_back("object_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_sphere_primitives() ? 1u : 0u);
-        upload_to_buffer(get_test_device().device, lows_, "lows",
-                         lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
-                         gpu::BufferUsage::plain);
+        upload(get_test_device().device, lows_, "lows",
+               lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
+               gpu::BufferUsage::plain);
         return run_ray_shader<DeviceHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
                                          std::array{list_size_as_uint32(rays), skipped, occluded});
     }
@@ -128,10 +127,10 @@ private:
     }
 
     template <typename Out, typename In, typename Push>
-    std::vector<Out> run_ray_shader(const char* shader, const gpu::ShaderConstantValues& constants,
+    std::vector<Out> run_ray_shader(const char* shader, const gpu::ShaderConstants& constants,
                                     const char* input, const std::vector<In>& in,
                                     const char* output, const Push& push) {
-        upload_to_buffer(get_test_device().device, input_, "input", in, gpu::BufferUsage::plain);
+        upload(get_test_device().device, input_, "input", in, gpu::BufferUsage::plain);
         graph::Graph graph;
         const graph::BufferHandle out = graph.add_buffer({"output", in.size() * sizeof(Out)});
         graph.add_pass("kernel")
@@ -142,7 +141,7 @@ private:
                 commands.bind_resource(input, input_);
                 commands.bind_resource("Lows", lows_);
                 commands.bind_resource(output, out);
-                commands.bind_pipeline(gpu::ComputePipelineState{shader, constants});
+                commands.bind_pipeline(gpu::ComputeState{shader, constants});
                 commands.push_constants(push);
                 commands.dispatch((list_size_as_uint32(in) + 63) / 64, 1);
             });
@@ -153,7 +152,7 @@ private:
 
     bvh::Bvh bvh_;
     graph::GraphRunner runner_;
-    gpu::GpuBuffer nodes_, triangles_, input_, lows_;
+    gpu::Buffer nodes_, triangles_, input_, lows_;
 };
 
 inline std::uint32_t bits_of_float(float x) { return std::bit_cast<std::uint32_t>(x); }

@@ -29,7 +29,7 @@ session::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (bu
 /// times as long as the default.
 measure::ShaderVariantTrial make_shader_variant_trial(std::size_t variant,
                                                       const std::vector<double>& ratios) {
-    const gpu::ShaderVariant& row = gpu::list_shader_variants()[variant];
+    const gpu::ShaderVariant& row = gpu::shader_variants()[variant];
     measure::ShaderVariantTrial one{.variant = std::string(row.name),
                                     .choice = std::string(row.choices[1]),
                                     .standard = std::string(row.choices[0]),
@@ -47,7 +47,7 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
                              make_shader_variant_trial(1, kSlowerRoundRatios),
                              make_shader_variant_trial(2, kMixedRoundRatios)});
     EXPECT_EQ(session::parse_device_profile(text, "p.json", make_device_info()),
-              (gpu::ShaderVariantChoices{1, 0, 0}));
+              (gpu::VariantChoices{1, 0, 0}));
     const json document = json::parse(text);
     EXPECT_EQ(document["variants"],
               (json{{"groups", "in order"}, {"hierarchy", "texel"}, {"pixels", "blocks"}}));
@@ -99,7 +99,7 @@ TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
     good["variants"] = json::object(); // variants that are left out have their defaults
     EXPECT_EQ(session::parse_device_profile(good.dump(), "p.json", make_device_info()),
-              gpu::ShaderVariantChoices{});
+              gpu::VariantChoices{});
 }
 
 TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
@@ -122,7 +122,7 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     session::EngineOptions options;
     options.profiles = folder;
     session::DeviceInfo device = make_device_info();
-    EXPECT_EQ(session::choose_shader_variants(options, device), gpu::ShaderVariantChoices{})
+    EXPECT_EQ(session::choose_shader_variants(options, device), gpu::VariantChoices{})
         << "there is none";
     EXPECT_EQ(device.profile + device.warning, "");
     EXPECT_THAT(device.variants,
@@ -130,8 +130,7 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
                                      Pair("pixels", "blocks")));
     const std::string name = session::make_profile_file_name(device);
     write_profile_file(name, make_valid_profile_text());
-    EXPECT_EQ(session::choose_shader_variants(options, device),
-              (gpu::ShaderVariantChoices{1, 0, 0}));
+    EXPECT_EQ(session::choose_shader_variants(options, device), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
@@ -140,7 +139,7 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
                                      {make_shader_variant_trial(0, kFasterRoundRatios)})}) {
         write_profile_file(name, text);
         device = make_device_info();
-        EXPECT_EQ(session::choose_shader_variants(options, device), gpu::ShaderVariantChoices{});
+        EXPECT_EQ(session::choose_shader_variants(options, device), gpu::VariantChoices{});
         EXPECT_EQ(device.profile, "");
         EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
         EXPECT_THAT(device.warning, testing::HasSubstr("; shaders are as by default"));
@@ -157,7 +156,7 @@ TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
     write_profile_file("other.json", session::make_profile_text(
                                          make_device_info("another"),
                                          {make_shader_variant_trial(0, kFasterRoundRatios)}));
-    EXPECT_EQ(choose("good.json"), (gpu::ShaderVariantChoices{1, 0, 0}));
+    EXPECT_EQ(choose("good.json"), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
     test::expect_error([&] { choose("other.json"); }, Failure::bad_data, {"device.driver: "});
@@ -178,7 +177,7 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
         session::DeviceInfo device = make_device_info();
         device.type = type;
-        const gpu::ShaderVariantChoices choices = session::choose_shader_variants({}, device);
+        const gpu::VariantChoices choices = session::choose_shader_variants({}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
         EXPECT_THAT(device.variants, testing::Contains(Pair("hierarchy", "texel"))) << type;
         EXPECT_EQ(choices, session::choose_default_variants(device));
@@ -189,12 +188,12 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
 
 TEST(Variants, ChoicesOtherThanDefaultsBecomeShaderConstants) {
     EXPECT_TRUE(render::make_tracer_constants({}, 16, 128).empty());
-    const gpu::ShaderConstantValues all = render::make_tracer_constants({1, 1, 1}, 128, 128);
+    const gpu::ShaderConstants all = render::make_tracer_constants({1, 1, 1}, 128, 128);
     EXPECT_THAT(
         all, testing::ElementsAre(Pair("groups_in_order", testing::VariantWith<std::uint32_t>(1U)),
                                   Pair("bvh_in_storage", testing::VariantWith<std::uint32_t>(1U)),
                                   Pair("pixels_in_rows", testing::VariantWith<std::uint32_t>(1U))));
-    const gpu::ShaderConstantValues large = render::make_tracer_constants({0, 1, 0}, 129, 128);
+    const gpu::ShaderConstants large = render::make_tracer_constants({0, 1, 0}, 129, 128);
     EXPECT_TRUE(large.empty()) << "more bytes than a storage buffer may have";
 }
 
