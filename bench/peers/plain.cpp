@@ -10,7 +10,7 @@ using gpu::check_vk;
 
 namespace {
 
-VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
+VkImageAspectFlags image_aspect(TexelFormat format) {
     return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
@@ -43,7 +43,7 @@ GeneralLayoutVulkanImage::GeneralLayoutVulkanImage(gpu::Device& device, TexelFor
         VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
         barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         barrier.image = image;
-        barrier.subresourceRange = {image_aspect_of_format(format), 0, 1, 0, layers};
+        barrier.subresourceRange = {image_aspect(format), 0, 1, 0, layers};
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                              VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1,
                              &barrier);
@@ -56,7 +56,7 @@ VkImageView GeneralLayoutVulkanImage::view(VkImageViewType type, std::uint32_t f
     create.image = image_;
     create.viewType = type;
     create.format = gpu::to_vk_format(format_);
-    create.subresourceRange = {image_aspect_of_format(format_), 0, 1, first, count};
+    create.subresourceRange = {image_aspect(format_), 0, 1, first, count};
     VkImageView view = VK_NULL_HANDLE;
     check_vk(vkCreateImageView(peer_device_, &create, nullptr, &view), "view a plain image");
     views_.emplace_back(peer_device_, view);
@@ -65,7 +65,7 @@ VkImageView GeneralLayoutVulkanImage::view(VkImageViewType type, std::uint32_t f
 
 void GeneralLayoutVulkanImage::copy(VkCommandBuffer commands, const gpu::Buffer& to) const {
     VkBufferImageCopy region{};
-    region.imageSubresource = {image_aspect_of_format(format_), 0, 0, 1};
+    region.imageSubresource = {image_aspect(format_), 0, 0, 1};
     region.imageExtent = {extent_.width, extent_.height, 1};
     vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
 }

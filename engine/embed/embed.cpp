@@ -27,10 +27,9 @@ graph::ResourceUse resource_use_for_vulkan_layout(VkImageLayout layout) {
 void add_copy_pass_to_caller_image(session::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
         .name = "target", .format = TexelFormat::rgba8_unorm, .width = size.x, .height = size.y};
-    frame.target = std::make_shared<graph::PhysicalImage>(
-        graph::wrap_external_image(desc, target.image));
+    frame.target = std::make_shared<graph::PhysicalImage>(graph::wrap_image(desc, target.image));
     const graph::ImageHandle display = frame.parts.front().outputs.display;
-    const graph::ImageHandle image = frame.graph.import_external_resource(
+    const graph::ImageHandle image = frame.graph.import_resource(
         desc, frame.target.get(), std::nullopt, resource_use_for_vulkan_layout(target.leaves));
     frame.graph.add_pass("target")
         .reads(display, graph::ResourceUse::copy_from)

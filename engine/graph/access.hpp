@@ -25,18 +25,18 @@ struct ResourceAccess {
 
     /// Returns the layer after the last, in 64 bits: the sum can exceed 32 bits for an invalid
     /// access.
-    std::uint64_t end_layer_of_access() const { return std::uint64_t{first_layer} + layer_count; }
-    std::uint64_t end_mip_of_access() const { return std::uint64_t{first_mip} + mip_count; }
+    std::uint64_t end_layer() const { return std::uint64_t{first_layer} + layer_count; }
+    std::uint64_t end_mip() const { return std::uint64_t{first_mip} + mip_count; }
 };
 
 /// Returns the accesses of the pass: images in order of declaration, then buffers.
-std::vector<ResourceAccess> list_pass_accesses(const Pass& pass);
+std::vector<ResourceAccess> pass_accesses(const Pass& pass);
 
 /// The accesses of every pass of a graph, gathered once.
 class GraphAccesses {
 public:
     explicit GraphAccesses(const Graph& graph);
-    std::span<const ResourceAccess> accesses_of_pass(std::size_t pass) const {
+    std::span<const ResourceAccess> of_pass(std::size_t pass) const {
         return {all_.data() + first_[pass], all_.data() + first_[pass + 1]};
     }
 
@@ -46,7 +46,7 @@ private:
 };
 
 /// Returns the access state that an access of this pass leaves on its image or buffer.
-AccessState make_access_state(const ResourceAccess& access, const Pass& pass);
+AccessState access_state(const ResourceAccess& access, const Pass& pass);
 
 constexpr bool is_attachment(ResourceUse use) {
     return use == ResourceUse::colour || use == ResourceUse::depth;
@@ -56,17 +56,17 @@ constexpr bool is_attachment(ResourceUse use) {
 /// 'args'".
 std::string describe_access(const Graph& graph, const ResourceAccess& access);
 /// Returns a range of an image's layers as text: "layers [6,12)", with the mip if the image has
-/// several. `first` and `end` are numbers as in `for_each_contiguous_layer_range`. The range is cut
+/// several. `first` and `end` are numbers as in `for_each_range`. The range is cut
 /// at the end of its first mip.
-std::string format_layer_range(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
+std::string format_layers(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
 /// Returns the name of the image or buffer in single quotes: "'cubes'".
-std::string quote_resource_name(const Graph& graph, const ResourceAccess& access);
+std::string quoted_name(const Graph& graph, const ResourceAccess& access);
 
 /// Calls visit(first, end) for the layers of each mip of `part`, a part of an image with `layers`
 /// layers. Layer l of mip m has the number m * layers + l. A part with all layers is visited as one
 /// range.
 template <typename Part, typename Visit>
-void for_each_contiguous_layer_range(const Part& part, std::uint32_t layers, const Visit& visit) {
+void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) {
     if (part.layer_count == layers)
         return visit(part.first_mip * layers, (part.first_mip + part.mip_count) * layers);
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
@@ -75,82 +75,69 @@ void for_each_contiguous_layer_range(const Part& part, std::uint32_t layers, con
 
 /// A value for each layer of each mip of every image of a graph, and for every buffer.
 template <typename T>
-class ValuesPerSubresource {
+class SubresourceValues {
 public:
-    explicit ValuesPerSubresource(const Graph& graph, const T& value = {})
-        : image_count_(graph.list_images().size()) {
-        entries_.reserve(image_count_ + graph.list_buffers().size());
-        for (const ImageDesc& desc : graph.list_images())
+    explicit SubresourceValues(const Graph& graph, const T& value = {})
+        : image_count_(graph.images().size()) {
+        entries_.reserve(image_count_ + graph.buffers().size());
+        for (const ImageDesc& desc : graph.images())
             entries_.push_back({RunLengthArray<T>(desc.layers * desc.mips, value), desc.layers});
-        entries_.resize(image_count_ + graph.list_buffers().size(),
-                        {RunLengthArray<T>(1, value), 1});
+        entries_.resize(image_count_ + graph.buffers().size(), {RunLengthArray<T>(1, value), 1});
     }
-    RunLengthArray<T>& layer_runs_of_resource(const ResourceAccess& a) {
-        return mip_layer_values_of_resource(a).runs;
-    }
-    const RunLengthArray<T>& layer_runs_of_resource(const ResourceAccess& a) const {
-        return mip_layer_values_of_resource(a).runs;
-    }
-    std::uint32_t layer_count_of_resource(const ResourceAccess& a) const {
-        return mip_layer_values_of_resource(a).layers;
-    }
+    RunLengthArray<T>& runs(const ResourceAccess& a) { return entry(a).runs; }
+    const RunLengthArray<T>& runs(const ResourceAccess& a) const { return entry(a).runs; }
+    std::uint32_t layer_count(const ResourceAccess& a) const { return entry(a).layers; }
 
     /// Calls visit(first, end, value) for each run of layers with equal values among the layers of
     /// the access.
     template <typename Visit>
-    void for_each_subresource_value(const ResourceAccess& a, const Visit& visit) const {
-        const ValuesPerMipAndLayer& e = mip_layer_values_of_resource(a);
-        for_each_contiguous_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+    void for_each(const ResourceAccess& a, const Visit& visit) const {
+        const LayerRuns& e = entry(a);
+        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.for_each_run(first, end, visit);
         });
     }
     template <typename Visit>
-    void modify_each_subresource_value(const ResourceAccess& a, const Visit& visit) {
-        ValuesPerMipAndLayer& e = entries_[value_index(a)];
-        for_each_contiguous_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
-            e.runs.modify_each_equal_run(first, end, visit);
+    void modify(const ResourceAccess& a, const Visit& visit) {
+        LayerRuns& e = entries_[value_index(a)];
+        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+            e.runs.modify_runs(first, end, visit);
         });
     }
-    void set_subresource_values_of_access(const ResourceAccess& a, const T& value) {
-        modify_each_subresource_value(a,
-                                      [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    void set(const ResourceAccess& a, const T& value) {
+        modify(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
     /// Returns whether some layer of the access has the value.
-    bool has_any_equal_value(const ResourceAccess& a, const T& value) const {
+    bool has_any(const ResourceAccess& a, const T& value) const {
         bool found = false;
-        for_each_subresource_value(
-            a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        for_each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
         return found;
     }
 
 private:
-    struct ValuesPerMipAndLayer {
+    struct LayerRuns {
         RunLengthArray<T> runs;
         std::uint32_t layers;
     };
     std::size_t value_index(const ResourceAccess& a) const {
         return a.is_buffer ? image_count_ + a.id : a.id;
     }
-    ValuesPerMipAndLayer& mip_layer_values_of_resource(const ResourceAccess& a) {
-        return entries_[value_index(a)];
-    }
-    const ValuesPerMipAndLayer& mip_layer_values_of_resource(const ResourceAccess& a) const {
-        return entries_[value_index(a)];
-    }
+    LayerRuns& entry(const ResourceAccess& a) { return entries_[value_index(a)]; }
+    const LayerRuns& entry(const ResourceAccess& a) const { return entries_[value_index(a)]; }
 
     std::size_t image_count_;
-    std::vector<ValuesPerMipAndLayer> entries_; // images, then buffers
+    std::vector<LayerRuns> entries_; // images, then buffers
 };
 
 /// Returns an access to a part of an image. Its use is left at the default.
-ResourceAccess make_access_to_image_part(const ImageHandle& image);
+ResourceAccess part_access(const ImageHandle& image);
 /// Returns an access to all layers and mips of an image. The use of the access is left at the
 /// default.
-ResourceAccess make_access_to_whole_image(const Graph& graph, std::uint32_t image);
+ResourceAccess whole_image(const Graph& graph, std::uint32_t image);
 /// Returns an access to all of the image or buffer of an access, in this frame.
 ResourceAccess whole_resource(const Graph& graph, const ResourceAccess& part);
 /// Returns a table that is true for each image layer and each buffer that is an output of the
 /// graph.
-ValuesPerSubresource<char> mark_output_image_parts(const Graph& graph);
+SubresourceValues<char> output_parts(const Graph& graph);
 
 } // namespace catoptric::graph

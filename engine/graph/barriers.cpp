@@ -9,57 +9,53 @@ namespace catoptric::graph {
 namespace {
 
 /// The accesses so far in this frame to one layer of an image, or to a buffer.
-struct SubresourceAccessHistory {
-    AccessStateCode write = kNoAccessState; // the last write in this frame; kNoAccessState: none
-    AccessStateList readers; // distinct readers since that write or the last layout change
+struct AccessHistory {
+    AccessCode write = kNoAccess; // the last write in this frame; kNoAccess: none
+    AccessList readers;           // distinct readers since that write or the last layout change
 
     /// Returns the earlier accesses that the next write must wait for. For an image, all of them
     /// have its present layout.
-    AccessStateList accesses_to_wait_for_before_write() const {
+    AccessList awaited_by_write() const {
         if (!readers.empty()) return readers;
-        return write == kNoAccessState ? AccessStateList() : AccessStateList(write);
+        return write == kNoAccess ? AccessList() : AccessList(write);
     }
-    friend bool operator==(const SubresourceAccessHistory&,
-                           const SubresourceAccessHistory&) = default;
+    friend bool operator==(const AccessHistory&, const AccessHistory&) = default;
 };
 
 /// Returns the accesses that a read must wait for. The result is empty if an earlier read by the
 /// same kind of access already waited.
-AccessStateList accesses_to_wait_for_before_read(const SubresourceAccessHistory& state,
-                                                 AccessStateCode touch, bool is_buffer) {
-    if (state.readers.contains_access_state(touch)) return {};
-    if (state.readers.empty() || is_buffer) return AccessStateList(state.write);
+AccessList awaited_by_read(const AccessHistory& state, AccessCode touch, bool is_buffer) {
+    if (state.readers.contains(touch)) return {};
+    if (state.readers.empty() || is_buffer) return AccessList(state.write);
     // The layout stays the same, and only the shader stage differs. The barrier names the earlier
     // reader, because `before` must name the present layout. The earlier reader itself waited for
     // the write.
-    if (decode_access_use(state.readers.first_access_state()) == decode_access_use(touch))
-        return AccessStateList(state.readers.first_access_state());
+    if (decode_use(state.readers.first()) == decode_use(touch))
+        return AccessList(state.readers.first());
     return state.readers; // a layout change counts as a write
 }
 
-void record_access_in_history(SubresourceAccessHistory& state, AccessStateCode touch,
-                              bool is_buffer) {
-    if (make_access_state(touch).write) {
+void record_access(AccessHistory& state, AccessCode touch, bool is_buffer) {
+    if (access_state(touch).write) {
         state = {.write = touch, .readers = {}};
         return;
     }
     const bool moved = !state.readers.empty() &&
-                       decode_access_use(state.readers.first_access_state()) !=
-                           decode_access_use(touch);
+                       decode_use(state.readers.first()) != decode_use(touch);
     if (moved && !is_buffer) state.readers.remove_all();
-    state.readers.add_access_state(touch);
+    state.readers.add(touch);
 }
 
-std::vector<AccessState> list_access_states(AccessStateSet set) {
+std::vector<AccessState> to_states(AccessSet set) {
     std::vector<AccessState> touches;
     for (; set; set &= set - 1)
-        touches.push_back(make_access_state(static_cast<AccessStateCode>(std::countr_zero(set))));
+        touches.push_back(access_state(static_cast<AccessCode>(std::countr_zero(set))));
     return touches;
 }
 
 /// Returns whether barrier `next` covers only the layers, or only the mips, that follow those of
 /// barrier `last`, so that both can be merged.
-bool can_barriers_merge(const PlannedBarrier& last, const PlannedBarrier& next) {
+bool can_merge(const PlannedBarrier& last, const PlannedBarrier& next) {
     if (last.is_buffer || next.is_buffer || last.id != next.id || last.previous != next.previous)
         return false;
     if (last.before != next.before || last.after != next.after || last.shared != next.shared)
@@ -73,7 +69,7 @@ bool can_barriers_merge(const PlannedBarrier& last, const PlannedBarrier& next) 
 
 /// Adds a barrier. If it continues the last barrier, both are merged.
 void append_barrier(std::vector<PlannedBarrier>& barriers, PlannedBarrier&& barrier) {
-    if (barriers.empty() || !can_barriers_merge(barriers.back(), barrier)) {
+    if (barriers.empty() || !can_merge(barriers.back(), barrier)) {
         barriers.push_back(std::move(barrier));
         return;
     }
@@ -87,8 +83,8 @@ void append_barrier(std::vector<PlannedBarrier>& barriers, PlannedBarrier&& barr
 /// Calls visit(first mip, mips, first layer, layers) for rectangles that cover the numbers [first,
 /// end) of an image with `layers` layers.
 template <typename Visit>
-void for_each_subresource_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t layers,
-                                    const Visit& visit) {
+void for_each_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t layers,
+                        const Visit& visit) {
     while (first < end) {
         const std::uint32_t mip = first / layers, layer = first % layers;
         const std::uint32_t mips = layer == 0 ? (end - first) / layers : 0;
@@ -100,89 +96,83 @@ void for_each_subresource_rectangle(std::uint32_t first, std::uint32_t end, std:
 
 /// Returns the access history, at the beginning of a frame, of an image whose contents are ready
 /// for every shader stage that accesses it by this use.
-SubresourceAccessHistory make_history_with_readers(ResourceUse use) {
+AccessHistory reader_history(ResourceUse use) {
     const AccessState compute{.nothing = false, .use = use, .write = false, .raster = false};
     AccessState raster = compute;
     raster.raster = true;
-    SubresourceAccessHistory state{.write = kNoAccessState,
-                                   .readers = AccessStateList(encode_access_state(compute))};
-    state.readers.add_access_state(encode_access_state(raster));
+    AccessHistory state{.write = kNoAccess, .readers = AccessList(encode_access(compute))};
+    state.readers.add(encode_access(raster));
     return state;
 }
 
 /// Returns the state of an image at the start of a frame.
-SubresourceAccessHistory access_history_at_frame_start(const Graph& graph, std::uint32_t image) {
+AccessHistory start_history(const Graph& graph, std::uint32_t image) {
     if (graph.image_lifetime(image) == Lifetime::persistent)
-        return make_history_with_readers(ResourceUse::sampled);
-    if (graph.image_lifetime(image) == Lifetime::imported && graph.resource_use_on_import(image))
-        return make_history_with_readers(*graph.resource_use_on_import(image));
+        return reader_history(ResourceUse::sampled);
+    if (graph.image_lifetime(image) == Lifetime::imported && graph.use_on_import(image))
+        return reader_history(*graph.use_on_import(image));
     return {};
 }
 
 /// Tracks the access state of every image and buffer from the first pass of a frame to the last.
-class BarrierPlanningTracker {
+class BarrierPlanner {
 public:
-    BarrierPlanningTracker(const Graph& graph, const GraphPlan& plan)
-        : tracked_graph_(graph), plan_(plan), states_(graph),
-          previous_(graph, make_history_with_readers(ResourceUse::sampled)), users_(plan) {
+    BarrierPlanner(const Graph& graph, const GraphPlan& plan)
+        : graph_(graph), plan_(plan), states_(graph),
+          previous_(graph, reader_history(ResourceUse::sampled)), users_(plan) {
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-            if (const SubresourceAccessHistory state = access_history_at_frame_start(graph, i);
-                !state.accesses_to_wait_for_before_write().empty())
-                states_.set_subresource_values_of_access(make_access_to_whole_image(graph, i),
-                                                         state);
+            if (const AccessHistory state = start_history(graph, i);
+                !state.awaited_by_write().empty())
+                states_.set(whole_image(graph, i), state);
     }
 
-    void track_access_and_plan_barriers(const ResourceAccess& access, const AccessState& touch,
-                                        std::vector<PlannedBarrier>& barriers) {
-        const AccessStateCode code = encode_access_state(touch);
-        const auto visit = [&](std::uint32_t first, std::uint32_t end,
-                               SubresourceAccessHistory& state) {
-            if (state.accesses_to_wait_for_before_write().empty())
-                emit_layer_barriers(access, first, end, {}, touch,
-                                    list_access_states(users_.unfinished_accesses_in_memory(
-                                        memory_placement(access))),
-                                    barriers);
+    void plan_access(const ResourceAccess& access, const AccessState& touch,
+                     std::vector<PlannedBarrier>& barriers) {
+        const AccessCode code = encode_access(touch);
+        const auto visit = [&](std::uint32_t first, std::uint32_t end, AccessHistory& state) {
+            if (state.awaited_by_write().empty())
+                emit_barriers(access, first, end, {}, touch,
+                              to_states(users_.unfinished_accesses(memory_placement(access))),
+                              barriers);
             else
-                add_barriers_for_pending_accesses(
-                    access, first, end,
-                    touch.write ? state.accesses_to_wait_for_before_write()
-                                : accesses_to_wait_for_before_read(state, code, access.is_buffer),
-                    touch, barriers);
-            record_access_in_history(state, code, access.is_buffer);
+                add_barriers(access, first, end,
+                             touch.write ? state.awaited_by_write()
+                                         : awaited_by_read(state, code, access.is_buffer),
+                             touch, barriers);
+            record_access(state, code, access.is_buffer);
         };
-        (access.previous ? previous_ : states_).modify_each_subresource_value(access, visit);
+        (access.previous ? previous_ : states_).modify(access, visit);
     }
 
     /// Records the last accesses to a resource, after the last pass that accesses it.
-    void record_last_users_of_memory(const ResourceAccess& access) {
+    void record_last_users(const ResourceAccess& access) {
         if (memory_placement(access).alone) return; // no later resource uses its memory
-        AccessStateSet touches = 0;
-        states_.layer_runs_of_resource(access).for_each_run(
-            [&](std::uint32_t, std::uint32_t, const SubresourceAccessHistory& state) {
-                const AccessStateList latest = state.accesses_to_wait_for_before_write();
-                for (std::size_t i = 0; i < latest.size(); ++i)
-                    touches |= access_state_set_of_code(latest[i]);
+        AccessSet touches = 0;
+        states_.runs(access).for_each_run(
+            [&](std::uint32_t, std::uint32_t, const AccessHistory& state) {
+                const AccessList latest = state.awaited_by_write();
+                for (std::size_t i = 0; i < latest.size(); ++i) touches |= to_access_set(latest[i]);
             });
-        users_.record_last_accesses_to_memory(memory_placement(access), touches);
+        users_.record(memory_placement(access), touches);
     }
 
     /// Adds a barrier to this use for each layer of the access, even if the frame itself does not
     /// need the barrier, because work after the frame relies on the layout. `untouched`: also for
     /// layers that no pass accessed.
-    void plan_layer_transition_to_use(const ResourceAccess& access, ResourceUse use, bool untouched,
-                                      std::vector<PlannedBarrier>& barriers) {
-        const SubresourceAccessHistory start = access.is_buffer ? SubresourceAccessHistory()
-                                                                : access_history_at_frame_start(
-                                                                      tracked_graph_, access.id);
+    void plan_transition(const ResourceAccess& access, ResourceUse use, bool untouched,
+                         std::vector<PlannedBarrier>& barriers) {
+        const AccessHistory start = access.is_buffer ? AccessHistory()
+                                                     : start_history(graph_, access.id);
         const AccessState touch{.nothing = false, .use = use};
-        states_.for_each_subresource_value(access, [&](std::uint32_t first, std::uint32_t end,
-                                                       const SubresourceAccessHistory& state) {
-            if (!untouched && state == start) return;
-            AccessStateList latest = state.accesses_to_wait_for_before_write();
-            // No pass accessed these layers, so the barrier may discard their contents.
-            if (latest.empty()) latest.add_access_state(kNoAccessState);
-            add_barriers_for_pending_accesses(access, first, end, latest, touch, barriers);
-        });
+        states_.for_each(access,
+                         [&](std::uint32_t first, std::uint32_t end, const AccessHistory& state) {
+                             if (!untouched && state == start) return;
+                             AccessList latest = state.awaited_by_write();
+                             // No pass accessed these layers, so the barrier may discard their
+                             // contents.
+                             if (latest.empty()) latest.add(kNoAccess);
+                             add_barriers(access, first, end, latest, touch, barriers);
+                         });
     }
 
     const MemoryPlacement& memory_placement(const ResourceAccess& access) const {
@@ -190,81 +180,77 @@ public:
     }
 
 private:
-    void add_barriers_for_pending_accesses(const ResourceAccess& access, std::uint32_t first,
-                                           std::uint32_t end, const AccessStateList& awaited,
-                                           const AccessState& touch,
-                                           std::vector<PlannedBarrier>& barriers) const {
+    void add_barriers(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
+                      const AccessList& awaited, const AccessState& touch,
+                      std::vector<PlannedBarrier>& barriers) const {
         if (awaited.empty()) return;
         std::vector<AccessState> others;
-        for (std::size_t i = 1; i < awaited.size(); ++i)
-            others.push_back(make_access_state(awaited[i]));
-        emit_layer_barriers(access, first, end, make_access_state(awaited.first_access_state()),
-                            touch, others, barriers);
+        for (std::size_t i = 1; i < awaited.size(); ++i) others.push_back(access_state(awaited[i]));
+        emit_barriers(access, first, end, access_state(awaited.first()), touch, others, barriers);
     }
 
-    void emit_layer_barriers(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
-                             const AccessState& before, const AccessState& after,
-                             const std::vector<AccessState>& shared,
-                             std::vector<PlannedBarrier>& barriers) const {
+    void emit_barriers(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
+                       const AccessState& before, const AccessState& after,
+                       const std::vector<AccessState>& shared,
+                       std::vector<PlannedBarrier>& barriers) const {
         // A buffer has no layout, so it needs no barrier if there is nothing to wait for.
         if (access.is_buffer && before.nothing && shared.empty()) return;
-        for_each_subresource_rectangle(first, end, states_.layer_count_of_resource(access),
-                                       [&](std::uint32_t first_mip, std::uint32_t mips,
-                                           std::uint32_t first_layer, std::uint32_t layers) {
-                                           append_barrier(barriers, {.is_buffer = access.is_buffer,
-                                                                     .id = access.id,
-                                                                     .previous = access.previous,
-                                                                     .first_layer = first_layer,
-                                                                     .layer_count = layers,
-                                                                     .first_mip = first_mip,
-                                                                     .mip_count = mips,
-                                                                     .before = before,
-                                                                     .after = after,
-                                                                     .shared = shared});
-                                       });
+        for_each_rectangle(first, end, states_.layer_count(access),
+                           [&](std::uint32_t first_mip, std::uint32_t mips,
+                               std::uint32_t first_layer, std::uint32_t layers) {
+                               append_barrier(barriers, {.is_buffer = access.is_buffer,
+                                                         .id = access.id,
+                                                         .previous = access.previous,
+                                                         .first_layer = first_layer,
+                                                         .layer_count = layers,
+                                                         .first_mip = first_mip,
+                                                         .mip_count = mips,
+                                                         .before = before,
+                                                         .after = after,
+                                                         .shared = shared});
+                           });
     }
 
-    const Graph& tracked_graph_;
+    const Graph& graph_;
     const GraphPlan& plan_;
-    ValuesPerSubresource<SubresourceAccessHistory> states_, previous_;
-    LastUsersOfSharedMemory users_;
+    SubresourceValues<AccessHistory> states_, previous_;
+    MemoryUsers users_;
 };
 
-void add_output_barriers(const ResourceAccess& whole, const ValuesPerSubresource<char>& wanted,
-                         BarrierPlanningTracker& tracker, std::vector<PlannedBarrier>& barriers) {
+void add_output_barriers(const ResourceAccess& whole, const SubresourceValues<char>& wanted,
+                         BarrierPlanner& tracker, std::vector<PlannedBarrier>& barriers) {
     const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
         if (!is_wanted) return;
-        for_each_subresource_rectangle(
-            first, end, wanted.layer_count_of_resource(whole),
-            [&](std::uint32_t first_mip, std::uint32_t mips, std::uint32_t first_layer,
-                std::uint32_t layers) {
-                ResourceAccess part = whole;
-                part.first_mip = first_mip, part.mip_count = mips;
-                part.first_layer = first_layer, part.layer_count = layers;
-                tracker.plan_layer_transition_to_use(part, ResourceUse::copy_from, true, barriers);
-            });
+        for_each_rectangle(first, end, wanted.layer_count(whole),
+                           [&](std::uint32_t first_mip, std::uint32_t mips,
+                               std::uint32_t first_layer, std::uint32_t layers) {
+                               ResourceAccess part = whole;
+                               part.first_mip = first_mip, part.mip_count = mips;
+                               part.first_layer = first_layer, part.layer_count = layers;
+                               tracker.plan_transition(part, ResourceUse::copy_from, true,
+                                                       barriers);
+                           });
     };
-    wanted.layer_runs_of_resource(whole).for_each_run(leave);
+    wanted.runs(whole).for_each_run(leave);
 }
 
-void add_frame_end_barriers(const Graph& graph, BarrierPlanningTracker& tracker, GraphPlan& plan) {
-    const ValuesPerSubresource<char> wanted = mark_output_image_parts(graph);
+void add_end_barriers(const Graph& graph, BarrierPlanner& tracker, GraphPlan& plan) {
+    const SubresourceValues<char> wanted = output_parts(graph);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
-        const ResourceAccess whole = make_access_to_whole_image(graph, i);
+        const ResourceAccess whole = whole_image(graph, i);
         const bool stays = graph.image_lifetime(i) ==
                            Lifetime::persistent; // also if no pass touches it
         switch (plan.images[i].used || stays ? graph.image_lifetime(i) : Lifetime::frame) {
         case Lifetime::frame: add_output_barriers(whole, wanted, tracker, plan.last); break;
         case Lifetime::previous:
-            tracker.plan_layer_transition_to_use(whole, ResourceUse::sampled, true, plan.last);
+            tracker.plan_transition(whole, ResourceUse::sampled, true, plan.last);
             break;
         case Lifetime::persistent:
-            tracker.plan_layer_transition_to_use(whole, ResourceUse::sampled, false, plan.last);
+            tracker.plan_transition(whole, ResourceUse::sampled, false, plan.last);
             break;
         case Lifetime::imported:
-            tracker.plan_layer_transition_to_use(
-                whole, graph.resource_use_on_release(i),
-                graph.resource_use_on_import(i) != graph.resource_use_on_release(i), plan.last);
+            tracker.plan_transition(whole, graph.use_on_release(i),
+                                    graph.use_on_import(i) != graph.use_on_release(i), plan.last);
             break;
         }
     }
@@ -274,26 +260,25 @@ void add_frame_end_barriers(const Graph& graph, BarrierPlanningTracker& tracker,
         if (lifetime == Lifetime::frame)
             add_output_barriers(whole, wanted, tracker, plan.last);
         else
-            tracker.plan_layer_transition_to_use(whole, ResourceUse::copy_from, false, plan.last);
+            tracker.plan_transition(whole, ResourceUse::copy_from, false, plan.last);
     }
 }
 
 } // namespace
 
 void plan_barriers(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
-    BarrierPlanningTracker tracker(graph, plan);
+    BarrierPlanner tracker(graph, plan);
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
         PlannedPass& planned = plan.passes[position];
-        const Pass& pass = graph.list_passes()[planned.pass];
-        const std::span<const ResourceAccess> uses = all.accesses_of_pass(planned.pass);
+        const Pass& pass = graph.passes()[planned.pass];
+        const std::span<const ResourceAccess> uses = all.of_pass(planned.pass);
         planned.barriers.reserve(uses.size());
         for (const ResourceAccess& a : uses)
-            tracker.track_access_and_plan_barriers(a, make_access_state(a, pass), planned.barriers);
+            tracker.plan_access(a, access_state(a, pass), planned.barriers);
         for (const ResourceAccess& a : uses)
-            if (tracker.memory_placement(a).last == position)
-                tracker.record_last_users_of_memory(a);
+            if (tracker.memory_placement(a).last == position) tracker.record_last_users(a);
     }
-    add_frame_end_barriers(graph, tracker, plan);
+    add_end_barriers(graph, tracker, plan);
 }
 
 } // namespace catoptric::graph

@@ -38,7 +38,7 @@ class PassCommands {
 public:
     PassCommands(FrameRecorder& recorder, const Graph& graph, const Pass& pass,
                  VkCommandBuffer commands, std::uint32_t first_layer, std::uint32_t layer_count)
-        : frame_recorder_(recorder), pass_graph_(graph), pass_(pass), commands_(commands),
+        : recorder_(recorder), graph_(graph), pass_(pass), commands_(commands),
           first_layer_(first_layer), layer_count_(layer_count) {}
 
     /// Selects a raster pipeline. A pass of several layers uses the vertex shader's "#layered"
@@ -47,18 +47,18 @@ public:
     void bind_pipeline(gpu::RasterState state);
     void bind_pipeline(const gpu::ComputeState& state);
     /// Binds an image, which the pass must declare.
-    void bind_resource(std::string_view name, ImageHandle image,
-                       TextureFilter filter = TextureFilter::nearest) {
-        bind_resource(name, std::span(&image, 1), filter);
+    void bind(std::string_view name, ImageHandle image,
+              TextureFilter filter = TextureFilter::nearest) {
+        bind(name, std::span(&image, 1), filter);
     }
     /// Binds 1 to kMaxBoundImages images to an array. If the shader's array is longer, the first
     /// image fills its other entries.
-    void bind_resource(std::string_view name, std::span<const ImageHandle> images,
-                       TextureFilter filter = TextureFilter::nearest);
+    void bind(std::string_view name, std::span<const ImageHandle> images,
+              TextureFilter filter = TextureFilter::nearest);
     /// Binds a sampler without an image.
-    void bind_resource(std::string_view name, TextureFilter sampler);
-    void bind_resource(std::string_view name, BufferHandle buffer);
-    void bind_resource(std::string_view name, const gpu::Buffer& buffer);
+    void bind(std::string_view name, TextureFilter sampler);
+    void bind(std::string_view name, BufferHandle buffer);
+    void bind(std::string_view name, const gpu::Buffer& buffer);
     /// Sets the push constants for all later draws and dispatches of the pass.
     template <typename T>
     void push_constants(const T& value) {
@@ -68,10 +68,10 @@ public:
     }
     /// Draws three vertices without attributes. screen.vert makes them a triangle that covers the
     /// whole picture.
-    void draw_fullscreen_triangle();
+    void draw_fullscreen();
     /// Sets the vertex buffer (vertices as in shaders/shared.h) and the buffer of 32-bit indices
     /// for all later draws of the pass.
-    void bind_vertex_and_index_buffers(const gpu::Buffer& vertices, const gpu::Buffer& indices);
+    void bind_geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
     /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
@@ -97,7 +97,7 @@ public:
     /// As above, for at most this many rays in a dispatch that cannot be split.
     void add_rays(std::uint64_t rays);
     /// Returns the most rays of a piece of the frame.
-    std::uint64_t most_rays_of_piece() const;
+    std::uint64_t rays_per_piece() const;
     /// Returns a word of a buffer that the pass declares, as the passes and dispatches before left
     /// it. The host waits for them, so call it only if the frame is in pieces anyway.
     std::uint32_t read_word(BufferHandle buffer, std::uint64_t offset);
@@ -117,13 +117,13 @@ public:
     void update_buffer(BufferHandle buffer, std::span<const std::byte> bytes);
 
 private:
-    struct BoundImageList {
+    struct BoundImages {
         std::array<ImageHandle, kMaxBoundImages> images{};
         std::size_t count = 1;
         TextureFilter filter = TextureFilter::nearest;
     };
-    using BoundResource = std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::Buffer*>;
-    void write_bound_descriptors();
+    using BoundResource = std::variant<BoundImages, TextureFilter, VkBuffer, const gpu::Buffer*>;
+    void write_descriptors();
     void run_piece();
     struct WorkGroupRange {
         uvec2 along{0};        ///< work groups along x and y
@@ -133,19 +133,19 @@ private:
     WorkGroupRange begin_range(std::uint32_t first, std::uint32_t groups,
                                std::uint64_t rays_per_group);
     /// Adds to the counted work of the pass, if the frame counts work.
-    void add_counted_work(WorkKind kind, std::uint64_t count = 1);
-    void check_pass_declares_resource(ImageHandle image, std::string_view name) const;
-    void check_pass_declares_resource(BufferHandle buffer, std::string_view name) const;
-    void check_binding_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
+    void add_work(WorkKind kind, std::uint64_t count = 1);
+    void check_declared(ImageHandle image, std::string_view name) const;
+    void check_declared(BufferHandle buffer, std::string_view name) const;
+    void check_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
     void write_image_descriptors(const gpu::ShaderBinding& binding, const BoundResource& bound,
                                  std::vector<VkDescriptorImageInfo>& infos);
-    static std::string_view bound_name_of_binding(const gpu::ShaderBinding& binding);
-    TextureFilter sampler_filter_of_binding(ImageHandle image, TextureFilter filter) const;
+    static std::string_view bound_name(const gpu::ShaderBinding& binding);
+    TextureFilter sampler_filter(ImageHandle image, TextureFilter filter) const;
     void write_buffer_descriptor(const gpu::ShaderBinding& binding, const BoundResource& bound,
                                  VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 
-    FrameRecorder& frame_recorder_;
-    const Graph& pass_graph_;
+    FrameRecorder& recorder_;
+    const Graph& graph_;
     const Pass& pass_;
     VkCommandBuffer commands_;
     std::uint32_t first_layer_, layer_count_;

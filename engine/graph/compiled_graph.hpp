@@ -17,12 +17,12 @@ struct PersistentImage {
     /// Device images: this frame's and the last frame's if the image has a `previous`, else one.
     std::vector<PhysicalImage> copies;
     gpu::UniqueMemory memory;
-    std::uint64_t bytes = 0;    ///< bytes of `memory`
-    std::size_t last = 0;       ///< index of the copy that holds the last frame
-    bool valid = false;         ///< whether a last frame exists
-    ContentHashPerLayer stamps; ///< content hashes of a persistent image
+    std::uint64_t bytes = 0; ///< bytes of `memory`
+    std::size_t last = 0;    ///< index of the copy that holds the last frame
+    bool valid = false;      ///< whether a last frame exists
+    LayerHashes stamps;      ///< content hashes of a persistent image
 
-    PhysicalImage& persistent_image_of_frame(bool previous) {
+    PhysicalImage& copy(bool previous) {
         return lifetime == Lifetime::persistent ? copies[0] : copies[previous ? last : 1 - last];
     }
 };
@@ -39,7 +39,7 @@ struct PersistentBuffer {
 
 /// Device images and buffers of a graph, indexed by their number in the graph. Entries are empty if
 /// their memory is owned elsewhere.
-struct CompiledGraphResources {
+struct GraphResources {
     std::vector<PhysicalImage> images;
     std::vector<gpu::UniqueBuffer> buffers;
     bool made = false;
@@ -47,15 +47,15 @@ struct CompiledGraphResources {
 
 /// A planned graph. After its first frame, it also has the images and buffers with which its frames
 /// run.
-struct CompiledRenderGraph {
+struct CompiledGraph {
     Graph outline; ///< the graph without the passes' callbacks
     std::uint64_t hash = 0;
     GraphPlan plan;
     /// Whether a frame with this plan has run. Only such plans count for the size of memory.
     bool ran = false;
 
-    CompiledGraphResources shared; ///< resources that live within a frame
-    std::array<CompiledGraphResources, kMaxFramesInFlight>
+    GraphResources shared; ///< resources that live within a frame
+    std::array<GraphResources, kMaxFramesInFlight>
         own; ///< outputs of a frame, a copy for each slot
     /// For each image number, the image that outlives frames, as the last submitted frame used it;
     /// null for other images.
@@ -79,16 +79,15 @@ struct CompiledRenderGraph {
         kept_buffers.assign(kept_buffers.size(), nullptr);
     }
     /// Returns whether the image is used and the runner owns its memory.
-    bool is_allocated_by_runner(std::uint32_t image) const {
+    bool owns_memory(std::uint32_t image) const {
         return plan.images[image].used && outline.image_lifetime(image) != Lifetime::imported;
     }
-    bool is_allocated_by_runner(BufferHandle buffer) const {
+    bool owns_memory(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
     /// Returns the device image for `image` in a frame of this slot (frame in flight).
-    PhysicalImage& physical_image_of_handle(ImageHandle image, std::size_t slot) {
-        if (PersistentImage* const k = kept[image.id])
-            return k->persistent_image_of_frame(image.previous);
+    PhysicalImage& physical_image(ImageHandle image, std::size_t slot) {
+        if (PersistentImage* const k = kept[image.id]) return k->copy(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }
     VkBuffer vulkan_buffer(BufferHandle buffer, std::size_t slot) const {

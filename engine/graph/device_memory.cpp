@@ -6,8 +6,8 @@ namespace catoptric::graph {
 
 namespace {
 
-VkMemoryRequirements query_memory_requirements(const gpu::Device& device, const ImageDesc& desc) {
-    const VkImageCreateInfo create = make_image_create_info(desc);
+VkMemoryRequirements query_requirements(const gpu::Device& device, const ImageDesc& desc) {
+    const VkImageCreateInfo create = image_create_info(desc);
     VkDeviceImageMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
@@ -15,7 +15,7 @@ VkMemoryRequirements query_memory_requirements(const gpu::Device& device, const 
     return needs.memoryRequirements;
 }
 
-VkBufferCreateInfo make_buffer_create_info(const BufferDesc& desc) {
+VkBufferCreateInfo buffer_create_info(const BufferDesc& desc) {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = desc.bytes;
     create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -24,8 +24,8 @@ VkBufferCreateInfo make_buffer_create_info(const BufferDesc& desc) {
     return create;
 }
 
-VkMemoryRequirements query_memory_requirements(const gpu::Device& device, const BufferDesc& desc) {
-    const VkBufferCreateInfo create = make_buffer_create_info(desc);
+VkMemoryRequirements query_requirements(const gpu::Device& device, const BufferDesc& desc) {
+    const VkBufferCreateInfo create = buffer_create_info(desc);
     VkDeviceBufferMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
@@ -33,9 +33,8 @@ VkMemoryRequirements query_memory_requirements(const gpu::Device& device, const 
     return needs.memoryRequirements;
 }
 
-MemoryRequirements make_memory_requirements(const gpu::Device& device,
-                                            const VkMemoryRequirements& needs,
-                                            const std::string& name) {
+MemoryRequirements to_requirements(const gpu::Device& device, const VkMemoryRequirements& needs,
+                                   const std::string& name) {
     const int type = device.find_memory_type(needs.memoryTypeBits,
                                              VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
@@ -48,19 +47,17 @@ MemoryRequirements make_memory_requirements(const gpu::Device& device,
 
 } // namespace
 
-MemoryRequirementQueries make_device_requirement_queries(const gpu::Device& device) {
+MemorySizer device_sizer(const gpu::Device& device) {
     return {[&device](const ImageDesc& desc) {
-                return make_memory_requirements(device, query_memory_requirements(device, desc),
-                                                desc.name);
+                return to_requirements(device, query_requirements(device, desc), desc.name);
             },
             [&device](const BufferDesc& desc) {
-                return make_memory_requirements(device, query_memory_requirements(device, desc),
-                                                desc.name);
+                return to_requirements(device, query_requirements(device, desc), desc.name);
             }};
 }
 
 gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDesc& desc) {
-    const VkBufferCreateInfo create = make_buffer_create_info(desc);
+    const VkBufferCreateInfo create = buffer_create_info(desc);
     VkBuffer buffer = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer),
                   "create buffer '" + desc.name + "'");
@@ -70,7 +67,7 @@ gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDes
 }
 
 ImageWithMemory make_importable_image(const gpu::Device& device, const ImageDesc& desc) {
-    const MemoryRequirements needs = make_device_requirement_queries(device).image(desc);
+    const MemoryRequirements needs = device_sizer(device).image(desc);
     ImageWithMemory made{device.allocate(needs.bytes, needs.heap, desc.name),
                          make_physical_image(device, desc)};
     gpu::check_vk(vkBindImageMemory(device.handle(), made.image.image, made.memory, 0),

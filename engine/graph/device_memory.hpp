@@ -7,7 +7,7 @@ namespace catoptric::graph {
 
 /// Returns functions that tell how much memory the device needs for images and buffers of a graph.
 /// The device must outlive the returned functions.
-MemoryRequirementQueries make_device_requirement_queries(const gpu::Device& device);
+MemorySizer device_sizer(const gpu::Device& device);
 
 /// Creates a buffer of the graph without memory.
 gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDesc& desc);

@@ -13,46 +13,45 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view pass_purpose_to_text(PassPurpose tag) {
+std::string_view purpose_name(PassPurpose tag) {
     return tag == PassPurpose::scene ? "scene" : "none";
 }
 
 /// Returns a count with its noun: "1 pass", "2 passes".
-std::string format_count_with_plural_noun(std::size_t count, const std::string& thing,
-                                          const std::string& plural) {
+std::string format_count(std::size_t count, const std::string& thing, const std::string& plural) {
     return std::to_string(count) + " " + (count == 1 ? thing : thing + plural);
 }
 
-const Pass& pass_of_planned_pass(const Graph& graph, const PlannedPass& planned) {
-    return graph.list_passes()[planned.pass];
+const Pass& pass_of(const Graph& graph, const PlannedPass& planned) {
+    return graph.passes()[planned.pass];
 }
 
 /// Finds which images and buffers of a plan share memory.
-class ResourcesSharingMemory {
+class MemorySharers {
 public:
-    ResourcesSharingMemory(const Graph& graph, const GraphPlan& plan) {
+    MemorySharers(const Graph& graph, const GraphPlan& plan) {
         for (std::size_t i = 0; i < plan.images.size(); ++i)
-            add_resource_to_memory_sharers(plan.images[i], graph.list_images()[i].name);
+            add(plan.images[i], graph.images()[i].name);
         for (std::size_t b = 0; b < plan.buffers.size(); ++b)
-            add_resource_to_memory_sharers(plan.buffers[b], graph.list_buffers()[b].name);
-        for (ResourcesSharingHeapMemory& heap : heaps_) {
+            add(plan.buffers[b], graph.buffers()[b].name);
+        for (HeapRanges& heap : heaps_) {
             std::ranges::sort(heap.begins);
             std::ranges::sort(heap.ends);
         }
     }
     /// Returns the number of other resources whose memory overlaps that of `mine`.
-    std::size_t count_resources_sharing_memory(const MemoryPlacement& mine) const {
+    std::size_t count(const MemoryPlacement& mine) const {
         if (!mine.used || mine.bytes == 0) return 0;
-        const ResourcesSharingHeapMemory& heap = heaps_[mine.heap];
+        const HeapRanges& heap = heaps_[mine.heap];
         const auto begun = std::ranges::lower_bound(heap.begins, mine.offset + mine.bytes);
         const auto ended = std::ranges::upper_bound(heap.ends, mine.offset);
         return static_cast<std::size_t>(begun - heap.begins.begin()) -
                static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // `mine` itself
     }
     /// Returns the names of the first `limit` resources that share memory with `mine`.
-    std::vector<std::string_view> names_of_resources_sharing_memory(const MemoryPlacement& mine,
-                                                                    std::size_t limit) const {
-        const std::size_t wanted = std::min(limit, count_resources_sharing_memory(mine));
+    std::vector<std::string_view> first_names(const MemoryPlacement& mine,
+                                              std::size_t limit) const {
+        const std::size_t wanted = std::min(limit, count(mine));
         std::vector<std::string_view> names;
         for (std::size_t i = 0; i < all_.size() && names.size() < wanted; ++i) {
             const auto& [other, name] = all_[i];
@@ -65,10 +64,10 @@ public:
     }
 
 private:
-    struct ResourcesSharingHeapMemory {
+    struct HeapRanges {
         std::vector<std::uint64_t> begins, ends; // sorted
     };
-    void add_resource_to_memory_sharers(const MemoryPlacement& placement, std::string_view name) {
+    void add(const MemoryPlacement& placement, std::string_view name) {
         all_.emplace_back(&placement, name);
         if (!placement.used || placement.bytes == 0) return;
         if (heaps_.size() <= placement.heap) heaps_.resize(placement.heap + 1);
@@ -76,21 +75,21 @@ private:
         heaps_[placement.heap].ends.push_back(placement.offset + placement.bytes);
     }
     std::vector<std::pair<const MemoryPlacement*, std::string_view>> all_;
-    std::vector<ResourcesSharingHeapMemory> heaps_;
+    std::vector<HeapRanges> heaps_;
 };
 
-void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
-    for (const ResourceAccess& a : list_pass_accesses(pass)) {
+void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
+    for (const ResourceAccess& a : pass_accesses(pass)) {
         out << "      " << (a.write ? "writes " : "reads  ") << describe_access(graph, a) << " as "
-            << graph::resource_use_name(a.use);
+            << graph::use_name(a.use);
         if (a.clears) out << ", cleared";
         if (a.write && a.needs && is_attachment(a.use)) out << ", loaded";
         out << "\n";
     }
 }
 
-void write_memory_placement_text(std::ostream& out, const ResourcesSharingMemory& sharers,
-                                 const MemoryPlacement& placement) {
+void write_placement(std::ostream& out, const MemorySharers& sharers,
+                     const MemoryPlacement& placement) {
     constexpr std::size_t kMaxNamedResources =
         32; // most names listed for one resource; in a large frame hundreds may share its memory
     if (!placement.used) {
@@ -100,26 +99,24 @@ void write_memory_placement_text(std::ostream& out, const ResourcesSharingMemory
     out << ", passes " << placement.first + 1 << " to " << placement.last + 1 << ", heap "
         << placement.heap << " at " << placement.offset << ", " << placement.bytes << " bytes";
     if (placement.alone) out << ", alone";
-    const std::vector<std::string_view> others = sharers.names_of_resources_sharing_memory(
-        placement, kMaxNamedResources);
+    const std::vector<std::string_view> others = sharers.first_names(placement, kMaxNamedResources);
     for (std::size_t i = 0; i < others.size(); ++i)
         out << (i == 0 ? ", shares with '" : ", '") << others[i] << "'";
-    const std::size_t count = sharers.count_resources_sharing_memory(placement);
+    const std::size_t count = sharers.count(placement);
     if (count > others.size()) out << " and " << count - others.size() << " more";
     out << "\n";
 }
 
-Json make_access_json(const Graph& graph, const ResourceAccess& a) {
+Json access_json(const Graph& graph, const ResourceAccess& a) {
     if (a.is_buffer) {
-        Json json{{"buffer", graph.list_buffers()[a.id].name},
-                  {"use", graph::resource_use_name(a.use)}};
+        Json json{{"buffer", graph.buffers()[a.id].name}, {"use", graph::use_name(a.use)}};
         if (a.previous) json["previous"] = true;
         return json;
     }
-    Json json{{"image", graph.list_images()[a.id].name},
+    Json json{{"image", graph.images()[a.id].name},
               {"layers", {a.first_layer, a.layer_count}},
-              {"use", graph::resource_use_name(a.use)}};
-    if (graph.list_images()[a.id].mips > 1) json["mips"] = {a.first_mip, a.mip_count};
+              {"use", graph::use_name(a.use)}};
+    if (graph.images()[a.id].mips > 1) json["mips"] = {a.first_mip, a.mip_count};
     if (a.write)
         json["clear"] = a.clears;
     else
@@ -127,19 +124,19 @@ Json make_access_json(const Graph& graph, const ResourceAccess& a) {
     return json;
 }
 
-Json make_pass_json(const Graph& graph, const PlannedPass& planned) {
-    const Pass& pass = pass_of_planned_pass(graph, planned);
+Json pass_json(const Graph& graph, const PlannedPass& planned) {
+    const Pass& pass = pass_of(graph, planned);
     Json reads = Json::array(), writes = Json::array();
-    for (const ResourceAccess& a : list_pass_accesses(pass))
-        (a.write ? writes : reads).push_back(make_access_json(graph, a));
+    for (const ResourceAccess& a : pass_accesses(pass))
+        (a.write ? writes : reads).push_back(access_json(graph, a));
     return {{"name", pass.name},
-            {"tag", pass_purpose_to_text(pass.tag)},
+            {"tag", purpose_name(pass.tag)},
             {"reads", reads},
             {"writes", writes},
             {"barriers", planned.barriers.size()}};
 }
 
-void add_memory_placement_json(Json& json, const MemoryPlacement& placement) {
+void add_placement(Json& json, const MemoryPlacement& placement) {
     json["used"] = placement.used;
     json["first"] = placement.first;
     json["last"] = placement.last;
@@ -149,7 +146,7 @@ void add_memory_placement_json(Json& json, const MemoryPlacement& placement) {
     json["alone"] = placement.alone;
 }
 
-Json make_image_json(const ImageDesc& desc, Lifetime lifetime, const MemoryPlacement& placement) {
+Json image_json(const ImageDesc& desc, Lifetime lifetime, const MemoryPlacement& placement) {
     Json json{{"name", desc.name},
               {"format", catoptric::format_name(desc.format)},
               {"size", {desc.width, desc.height}},
@@ -158,7 +155,7 @@ Json make_image_json(const ImageDesc& desc, Lifetime lifetime, const MemoryPlace
     if (desc.mips > 1) json["mips"] = desc.mips;
     if (lifetime == Lifetime::persistent) json["kept"] = true;
     if (lifetime == Lifetime::imported) json["imported"] = true;
-    add_memory_placement_json(json, placement);
+    add_placement(json, placement);
     return json;
 }
 
@@ -172,77 +169,72 @@ std::string escape_for_dot(std::string_view text) {
     return out;
 }
 
-void write_graphviz_pass_node(std::ostream& out, const Graph& graph, std::uint32_t index,
-                              bool culled) {
-    const Pass& pass = graph.list_passes()[index];
+void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, bool culled) {
+    const Pass& pass = graph.passes()[index];
     const std::string style = culled ? "dashed" : "solid";
     out << "  p" << index << " [shape=box, style=" << style << ", label=\""
         << escape_for_dot(pass.name) << (pass.tag == PassPurpose::scene ? "\\n(scene)" : "")
         << "\"];\n";
-    for (const ResourceAccess& a : list_pass_accesses(pass)) {
+    for (const ResourceAccess& a : pass_accesses(pass)) {
         const std::string resource = (a.is_buffer ? "b" : "i") + std::to_string(a.id);
         const std::string node = "p" + std::to_string(index);
         out << "  " << (a.write ? node : resource) << " -> " << (a.write ? resource : node)
             << " [style=" << (a.previous ? "dotted" : style) << ", label=\""
-            << (a.previous ? "previous, " : "") << graph::resource_use_name(a.use);
-        if (!a.is_buffer && a.layer_count != graph.list_images()[a.id].layers)
-            out << " [" << a.first_layer << "," << a.end_layer_of_access() << ")";
+            << (a.previous ? "previous, " : "") << graph::use_name(a.use);
+        if (!a.is_buffer && a.layer_count != graph.images()[a.id].layers)
+            out << " [" << a.first_layer << "," << a.end_layer() << ")";
         out << "\"];\n";
     }
 }
 
 } // namespace
 
-std::string graph_plan_to_text(const Graph& graph, const GraphPlan& plan) {
+std::string plan_to_text(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
-    out << format_count_with_plural_noun(plan.passes.size(), "pass", "es") << ", scene_passes "
-        << plan.scene_passes << ", " << plan.bytes << " bytes (" << plan.bytes_unshared
+    out << format_count(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes
+        << ", " << plan.bytes << " bytes (" << plan.bytes_unshared
         << " without sharing)\n\npasses\n";
     for (std::size_t p = 0; p < plan.passes.size(); ++p) {
-        const Pass& pass = pass_of_planned_pass(graph, plan.passes[p]);
+        const Pass& pass = pass_of(graph, plan.passes[p]);
         out << "  " << p + 1 << " '" << pass.name << "'"
             << (pass.tag == PassPurpose::scene ? " (scene)" : "") << ", "
-            << format_count_with_plural_noun(plan.passes[p].barriers.size(), "barrier", "s")
-            << "\n";
-        write_pass_uses(out, graph, pass);
+            << format_count(plan.passes[p].barriers.size(), "barrier", "s") << "\n";
+        write_uses(out, graph, pass);
     }
     if (!plan.culled.empty()) out << "\nculled\n";
     for (const CulledPass& culled : plan.culled)
-        out << "  '" << graph.list_passes()[culled.pass].name << "': " << culled.reason << "\n";
-    const ResourcesSharingMemory sharers(graph, plan);
+        out << "  '" << graph.passes()[culled.pass].name << "': " << culled.reason << "\n";
+    const MemorySharers sharers(graph, plan);
     if (!plan.images.empty()) out << "\nimages\n";
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
-        const ImageDesc& desc = graph.list_images()[i];
+        const ImageDesc& desc = graph.images()[i];
         out << "  '" << desc.name << "' " << catoptric::format_name(desc.format) << " "
-            << desc.width << "x" << desc.height << ", "
-            << format_count_with_plural_noun(desc.layers, "layer", "s")
+            << desc.width << "x" << desc.height << ", " << format_count(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");
-        if (desc.mips > 1) out << ", " << format_count_with_plural_noun(desc.mips, "mip", "s");
+        if (desc.mips > 1) out << ", " << format_count(desc.mips, "mip", "s");
         if (graph.image_lifetime(i) == Lifetime::persistent) out << ", kept";
         if (graph.image_lifetime(i) == Lifetime::imported) out << ", imported";
-        write_memory_placement_text(out, sharers, plan.images[i]);
+        write_placement(out, sharers, plan.images[i]);
     }
     if (!plan.buffers.empty()) out << "\nbuffers\n";
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
-        out << "  '" << graph.list_buffers()[b].name << "'";
-        write_memory_placement_text(out, sharers, plan.buffers[b]);
+        out << "  '" << graph.buffers()[b].name << "'";
+        write_placement(out, sharers, plan.buffers[b]);
     }
     return out.str();
 }
 
-std::string graph_plan_to_graphviz_dot(const Graph& graph, const GraphPlan& plan) {
+std::string plan_to_dot(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
     out << "digraph frame {\n  rankdir=LR;\n";
-    for (std::size_t i = 0; i < graph.list_images().size(); ++i)
-        out << "  i" << i << " [shape=ellipse, label=\""
-            << escape_for_dot(graph.list_images()[i].name) << "\"];\n";
-    for (std::size_t b = 0; b < graph.list_buffers().size(); ++b)
-        out << "  b" << b << " [shape=cylinder, label=\""
-            << escape_for_dot(graph.list_buffers()[b].name) << "\"];\n";
-    for (const PlannedPass& planned : plan.passes)
-        write_graphviz_pass_node(out, graph, planned.pass, false);
-    for (const CulledPass& culled : plan.culled)
-        write_graphviz_pass_node(out, graph, culled.pass, true);
+    for (std::size_t i = 0; i < graph.images().size(); ++i)
+        out << "  i" << i << " [shape=ellipse, label=\"" << escape_for_dot(graph.images()[i].name)
+            << "\"];\n";
+    for (std::size_t b = 0; b < graph.buffers().size(); ++b)
+        out << "  b" << b << " [shape=cylinder, label=\"" << escape_for_dot(graph.buffers()[b].name)
+            << "\"];\n";
+    for (const PlannedPass& planned : plan.passes) write_dot_pass(out, graph, planned.pass, false);
+    for (const CulledPass& culled : plan.culled) write_dot_pass(out, graph, culled.pass, true);
     out << "}\n";
     return out.str();
 }
@@ -253,17 +245,17 @@ std::string plan_to_json(const Graph& graph, const GraphPlan& plan) {
               {"images", Json::array()},
               {"buffers", Json::array()}};
     for (const PlannedPass& planned : plan.passes)
-        json["passes"].push_back(make_pass_json(graph, planned));
+        json["passes"].push_back(pass_json(graph, planned));
     for (const CulledPass& culled : plan.culled)
         json["culled"].push_back(
-            {{"name", graph.list_passes()[culled.pass].name}, {"reason", culled.reason}});
+            {{"name", graph.passes()[culled.pass].name}, {"reason", culled.reason}});
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        json["images"].push_back(
-            make_image_json(graph.list_images()[i],
-                            graph.image_lifetime(static_cast<std::uint32_t>(i)), plan.images[i]));
+        json["images"].push_back(image_json(graph.images()[i],
+                                            graph.image_lifetime(static_cast<std::uint32_t>(i)),
+                                            plan.images[i]));
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
-        Json buffer{{"name", graph.list_buffers()[b].name}};
-        add_memory_placement_json(buffer, plan.buffers[b]);
+        Json buffer{{"name", graph.buffers()[b].name}};
+        add_placement(buffer, plan.buffers[b]);
         json["buffers"].push_back(buffer);
     }
     json["scene_passes"] = plan.scene_passes;

@@ -11,33 +11,33 @@ namespace catoptric::graph {
 /// largest graph needs. Images and buffers that live within a frame share one block, because frames
 /// run one after another. Outputs have one block for each slot (frame in flight), and stay until
 /// the slot's next frame is recorded.
-class SharedGraphMemoryArena {
+class FrameMemory {
 public:
-    explicit SharedGraphMemoryArena(const gpu::Device& device) : memory_device_(device) {}
+    explicit FrameMemory(const gpu::Device& device) : device_(device) {}
 
     /// Makes the images and buffers with which the planned graph `shape` runs in this slot, unless
     /// they exist. `shapes`: all planned graphs that need memory. Calls `wait` before it destroys
     /// an image or buffer that frames in flight may use.
-    void find_or_make_resources(CompiledRenderGraph& shape, std::size_t slot,
-                                std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
-                                const std::function<void()>& wait);
+    void ensure_resources(CompiledGraph& shape, std::size_t slot,
+                          std::span<const std::shared_ptr<CompiledGraph>> shapes,
+                          const std::function<void()>& wait);
 
     /// Returns the bytes of device memory that are allocated.
-    std::uint64_t allocated_device_bytes() const;
+    std::uint64_t allocated_bytes() const;
 
 private:
     /// The bytes of each heap and the memory allocated for them.
-    struct DeviceHeapAllocations {
+    struct HeapAllocations {
         std::vector<std::uint64_t> bytes;
         std::vector<gpu::UniqueMemory> heaps;
     };
-    void allocate(DeviceHeapAllocations& arena, std::vector<std::uint64_t> bytes);
-    void create_resources(CompiledRenderGraph& shape, CompiledGraphResources& resources,
-                          const DeviceHeapAllocations& arena, bool alone);
+    void allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes);
+    void create_resources(CompiledGraph& shape, GraphResources& resources,
+                          const HeapAllocations& arena, bool alone);
 
-    const gpu::Device& memory_device_;
-    DeviceHeapAllocations shared_;
-    std::array<DeviceHeapAllocations, kMaxFramesInFlight> own_;
+    const gpu::Device& device_;
+    HeapAllocations shared_;
+    std::array<HeapAllocations, kMaxFramesInFlight> own_;
 };
 
 } // namespace catoptric::graph

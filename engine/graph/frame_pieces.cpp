@@ -18,14 +18,14 @@ constexpr double kShortPiece = 50, kLongPiece = 200;
 
 } // namespace
 
-std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGraph& shape) {
+std::string describe_frame(std::uint64_t frame, const CompiledGraph& shape) {
     std::string name = "frame " + std::to_string(frame) + " (passes";
     for (const PlannedPass& planned : shape.plan.passes)
-        name += " '" + shape.outline.list_passes()[planned.pass].name + "'";
+        name += " '" + shape.outline.passes()[planned.pass].name + "'";
     return name + ")";
 }
 
-gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device) {
+gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
@@ -36,21 +36,20 @@ gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device) {
 }
 
 FramePieces::FramePieces(gpu::Device& device)
-    : pieces_device_(device), timeline_(make_timeline_semaphore(device)),
+    : device_(device), timeline_(make_timeline(device)),
       fitted_rays_(device.is_cpu() ? kFirstRaysOnProcessor : kMostRaysOnOtherDevices) {}
 
-std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_several) {
+std::uint64_t fit_rays(std::uint64_t rays, double slowest_ms, bool has_several) {
     if (slowest_ms > kLongPiece) return std::max(rays / 2, kFirstRaysOnProcessor);
     if (slowest_ms < kShortPiece && has_several) return std::min(rays * 2, kMostRaysOnProcessor);
     return rays;
 }
 
-void FramePieces::begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
-                              std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays) {
+void FramePieces::begin_frame(FrameSlot& slot, const CompiledGraph& shape, std::uint64_t frame,
+                              VkSemaphore wait, std::uint64_t all_rays) {
     slot_ = &slot, shape_ = &shape, frame_ = frame, wait_ = wait;
-    if (pieces_device_.is_cpu())
-        fitted_rays_ = fit_rays_of_piece(fitted_rays_, std::exchange(slowest_ms_, 0),
-                                         submitted_ > 0);
+    if (device_.is_cpu())
+        fitted_rays_ = fit_rays(fitted_rays_, std::exchange(slowest_ms_, 0), submitted_ > 0);
     const WorkWatch* const watch = current_watch();
     most_rays_ = watch != nullptr && watch->most_rays > 0 ? watch->most_rays : fitted_rays_;
     all_rays_ = all_rays;
@@ -66,7 +65,7 @@ void FramePieces::submit_and_wait() {
         info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         return info;
     };
-    const VkSemaphore outside = semaphore_of_last_piece(), timeline = timeline_;
+    const VkSemaphore outside = wait_semaphore(), timeline = timeline_;
     const VkSemaphoreSubmitInfo begin = at(outside, 0), end = at(timeline, ++piece_);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot_->commands;
@@ -77,19 +76,17 @@ void FramePieces::submit_and_wait() {
     submit.pWaitSemaphoreInfos = &begin;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &end;
-    pieces_device_.submit_uploads();
+    device_.submit_uploads();
     const SteadyClock::time_point start = SteadyClock::now();
     ++submitted_;
     const std::string doing = "run piece " + std::to_string(submitted_) + " of " +
-                              describe_submitted_frame(frame_, *shape_);
-    pieces_device_.check_result(vkQueueSubmit2(pieces_device_.queue(), 1, &submit, VK_NULL_HANDLE),
-                                doing);
+                              describe_frame(frame_, *shape_);
+    device_.check_result(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), doing);
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;
     wait.pValues = &piece_;
-    pieces_device_.check_wait(vkWaitSemaphores(pieces_device_.handle(), &wait, ~std::uint64_t{0}),
-                              doing);
+    device_.check_wait(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), doing);
     const double ms = ms_since(start);
     wait_ms_ += ms;
     end_submission(ms);

@@ -11,7 +11,7 @@ namespace catoptric::graph {
 /// Returns the most rays of a piece in the next frame on a processor: 2^15 to 2^18. The pieces of
 /// the last frame held up to `rays`, and the slowest took `slowest_ms`. `has_several`: whether it
 /// had more than one piece.
-std::uint64_t fit_rays_of_piece(std::uint64_t rays, double slowest_ms, bool has_several);
+std::uint64_t fit_rays(std::uint64_t rays, double slowest_ms, bool has_several);
 
 /// Submits a frame that traces many rays in pieces, each after the end of the one before. Between
 /// them the host looks whether the work is to stop (core/watch.hpp).
@@ -21,8 +21,8 @@ public:
 
     /// Begins a frame of a slot. `wait`: semaphore of the caller for the first piece; may be null.
     /// `all_rays`: most rays that the frame can trace.
-    void begin_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
-                     std::uint64_t frame, VkSemaphore wait, std::uint64_t all_rays);
+    void begin_frame(FrameSlot& slot, const CompiledGraph& shape, std::uint64_t frame,
+                     VkSemaphore wait, std::uint64_t all_rays);
     /// Returns the most rays of a piece: WorkWatch::most_rays, or 2^24 on a device that is no
     /// processor. On a processor, 2^15 in the first frame, which take up to a second of two slow
     /// cores; then up to 2^18, while every piece of the last frame took under 50 ms, because the
@@ -40,22 +40,22 @@ public:
     /// Notes how long a submission of a frame took.
     void end_submission(double ms) { slowest_ms_ = std::max(slowest_ms_, ms); }
     /// Returns the semaphore that the frame's last submission waits for; null: none.
-    VkSemaphore semaphore_of_last_piece() const { return submitted_ == 0 ? wait_ : VK_NULL_HANDLE; }
+    VkSemaphore wait_semaphore() const { return submitted_ == 0 ? wait_ : VK_NULL_HANDLE; }
     /// Returns the number of pieces submitted in this frame, without the last.
     std::uint64_t submitted() const { return submitted_; }
     /// Returns the time in which the host waited for them, milliseconds.
     double wait_ms() const { return wait_ms_; }
 
 private:
-    gpu::Device& pieces_device_;
+    gpu::Device& device_;
     gpu::UniqueSemaphore timeline_;
     std::uint64_t fitted_rays_; ///< most rays of a piece without a watch's own bound
     double slowest_ms_ = 0;     ///< slowest submission since the last fit
     std::uint64_t piece_ = 0;   ///< value of the semaphore after the last piece of all frames
 
     // The present frame.
-    FrameInFlightResources* slot_ = nullptr;
-    const CompiledRenderGraph* shape_ = nullptr;
+    FrameSlot* slot_ = nullptr;
+    const CompiledGraph* shape_ = nullptr;
     std::uint64_t frame_ = 0;
     VkSemaphore wait_ = VK_NULL_HANDLE;
     std::uint64_t most_rays_ = 0, all_rays_ = 0;
@@ -68,9 +68,9 @@ private:
 
 /// Returns the number of the frame and the names of all its passes. A lost device does not tell
 /// which pass was running.
-std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGraph& shape);
+std::string describe_frame(std::uint64_t frame, const CompiledGraph& shape);
 
 /// Creates a timeline semaphore with the value 0.
-gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device);
+gpu::UniqueSemaphore make_timeline(const gpu::Device& device);
 
 } // namespace catoptric::graph

@@ -27,37 +27,36 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, TextureFilter filter)
     return {device.handle(), sampler};
 }
 
-std::string describe_image_shape(const ImageDesc& desc) {
+std::string describe_image(const ImageDesc& desc) {
     return std::string(format_name(desc.format)) + " " + std::to_string(desc.width) + "x" +
            std::to_string(desc.height) + " with " + std::to_string(desc.layers) + " layer(s) and " +
            std::to_string(desc.mips) + " mip(s)";
 }
 
-VkExtent2D find_pass_framebuffer_extent(const Graph& graph, const Pass& pass) {
+VkExtent2D framebuffer_extent(const Graph& graph, const Pass& pass) {
     const ImageHandle& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
                                    return use.use == ResourceUse::colour ||
                                           use.use == ResourceUse::depth;
                                })->image;
-    const ImageDesc& desc = graph.list_images()[image.id];
-    return {size_at_mip(desc.width, image.first_mip), size_at_mip(desc.height, image.first_mip)};
+    const ImageDesc& desc = graph.images()[image.id];
+    return {mip_size(desc.width, image.first_mip), mip_size(desc.height, image.first_mip)};
 }
 
-VkRect2D find_pass_render_area(const Pass& pass, VkExtent2D extent) {
+VkRect2D pass_area(const Pass& pass, VkExtent2D extent) {
     if (!pass.area) return {{0, 0}, extent};
     const auto& [x, y, width, height] = *pass.area;
     return {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}, {width, height}};
 }
 
 /// Stages and accesses on both sides of a barrier.
-struct BarrierSourceAndDestinationScopes {
+struct BarrierScopes {
     gpu::AccessScope before, after;
 };
 
-BarrierSourceAndDestinationScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
-    BarrierSourceAndDestinationScopes sides{sync_scope_of_access(barrier.before),
-                                            sync_scope_of_access(barrier.after)};
+BarrierScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
+    BarrierScopes sides{sync_scope(barrier.before), sync_scope(barrier.after)};
     for (const AccessState& touch : barrier.shared) {
-        const gpu::AccessScope scope = sync_scope_of_access(touch);
+        const gpu::AccessScope scope = sync_scope(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
@@ -72,16 +71,15 @@ BarrierSourceAndDestinationScopes make_barrier_scopes(const PlannedBarrier& barr
 }
 
 template <typename VulkanBarrier>
-void set_vulkan_barrier_scopes(VulkanBarrier& barrier,
-                               const BarrierSourceAndDestinationScopes& sides) {
+void set_scopes(VulkanBarrier& barrier, const BarrierScopes& sides) {
     barrier.srcStageMask = sides.before.stages, barrier.srcAccessMask = sides.before.access;
     barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
 }
 
 /// Returns the bytes of an attachment that a pass loads or clears before it draws, plus those that
 /// it stores.
-std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment,
-                                     TexelFormat format, const VkRenderingInfo& rendering) {
+std::uint64_t attachment_bytes(const VkRenderingAttachmentInfo& attachment, TexelFormat format,
+                               const VkRenderingInfo& rendering) {
     const VkExtent2D extent = rendering.renderArea.extent;
     const std::uint64_t once = std::uint64_t{extent.width} * extent.height * rendering.layerCount *
                                bytes_per_texel(format);
@@ -91,7 +89,7 @@ std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment
 } // namespace
 
 FrameRecorder::FrameRecorder(gpu::Device& device, gpu::PipelineStore& pipelines)
-    : graph_device_(device), pipelines_(pipelines) {
+    : device_(device), pipelines_(pipelines) {
     for (TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear,
                                  TextureFilter::compare, TextureFilter::mipmapped})
         samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
@@ -102,21 +100,21 @@ FrameRecorder::FrameRecorder(gpu::Device& device, gpu::PipelineStore& pipelines)
         vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-void FrameRecorder::record_frame(const Graph& graph, CompiledRenderGraph& shape,
-                                 FrameInFlightResources& slot, std::size_t slot_index,
-                                 PassTiming timing, WorkCounter* work, FramePieces& pieces) {
+void FrameRecorder::record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
+                                 std::size_t slot_index, PassTiming timing, WorkCounter* work,
+                                 FramePieces& pieces) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index, work_ = work;
     commands_ = slot.commands, pieces_ = &pieces, timing_ = timing;
     begin_commands();
     if (timing == PassTiming::isolated) write_timestamp(timing);
     for (const PlannedPass& planned : shape.plan.passes) {
         if (timing == PassTiming::pipelined) write_timestamp(timing);
-        record_planned_barriers(planned.barriers, false);
+        record_barriers(planned.barriers, false);
         record_pass(planned);
         write_timestamp(timing);
-        pieces.end_pass(graph.list_passes()[planned.pass].most_rays);
+        pieces.end_pass(graph.passes()[planned.pass].most_rays);
     }
-    record_planned_barriers(shape.plan.last, true);
+    record_barriers(shape.plan.last, true);
     gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
 }
 
@@ -142,10 +140,9 @@ void FrameRecorder::run_piece() {
 
 std::uint32_t FrameRecorder::read_word(BufferHandle buffer, std::uint64_t offset) {
     run_piece();
-    const std::string name = "word of buffer '" + graph_->list_buffers()[buffer.id].name + "'";
-    const gpu::Buffer target(graph_device_, name, sizeof(std::uint32_t),
-                             gpu::BufferUsage::read_back);
-    graph_device_.run_commands("read a " + name, [&](VkCommandBuffer commands) {
+    const std::string name = "word of buffer '" + graph_->buffers()[buffer.id].name + "'";
+    const gpu::Buffer target(device_, name, sizeof(std::uint32_t), gpu::BufferUsage::read_back);
+    device_.run_commands("read a " + name, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{offset, 0, sizeof(std::uint32_t)};
         vkCmdCopyBuffer(commands, vulkan_buffer(buffer), target.handle(), 1, &region);
     });
@@ -175,28 +172,27 @@ void FrameRecorder::write_timestamp(PassTiming timing) {
 }
 
 void FrameRecorder::add_barrier(const PlannedBarrier& barrier, bool last) {
-    const BarrierSourceAndDestinationScopes sides = make_barrier_scopes(barrier, last);
+    const BarrierScopes sides = make_barrier_scopes(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-        set_vulkan_barrier_scopes(b, sides);
+        set_scopes(b, sides);
         b.buffer = vulkan_buffer({barrier.id, barrier.previous});
         b.size = VK_WHOLE_SIZE;
         buffer_barriers_.push_back(b);
         return;
     }
     VkImageMemoryBarrier2 b{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    set_vulkan_barrier_scopes(b, sides);
+    set_scopes(b, sides);
     b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
-                                         : image_layout_of_use(barrier.before.use);
-    b.newLayout = image_layout_of_use(barrier.after.use);
+                                         : image_layout(barrier.before.use);
+    b.newLayout = image_layout(barrier.after.use);
     b.image = physical_image({.id = barrier.id, .previous = barrier.previous}).image;
-    b.subresourceRange = {image_aspect_of_format(graph_->list_images()[barrier.id].format),
-                          barrier.first_mip, barrier.mip_count, barrier.first_layer,
-                          barrier.layer_count};
+    b.subresourceRange = {image_aspect(graph_->images()[barrier.id].format), barrier.first_mip,
+                          barrier.mip_count, barrier.first_layer, barrier.layer_count};
     image_barriers_.push_back(b);
 }
 
-void FrameRecorder::record_planned_barriers(const std::vector<PlannedBarrier>& list, bool last) {
+void FrameRecorder::record_barriers(const std::vector<PlannedBarrier>& list, bool last) {
     if (list.empty()) return;
     image_barriers_.clear(), buffer_barriers_.clear();
     for (const PlannedBarrier& barrier : list) add_barrier(barrier, last);
@@ -216,14 +212,14 @@ void FrameRecorder::begin_label(const Pass& pass) {
 }
 
 void FrameRecorder::record_pass(const PlannedPass& planned) {
-    const Pass& pass = graph_->list_passes()[planned.pass];
+    const Pass& pass = graph_->passes()[planned.pass];
     begin_label(pass);
     if (work_) work_->begin_pass(commands_);
-    if (!pass.is_raster_pass()) {
+    if (!pass.is_raster()) {
         pass_in_pieces_ = &pass;
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
-    } else if (pass.layer_count == 1 || graph_device_.supports_layers()) {
+    } else if (pass.layer_count == 1 || device_.supports_layers()) {
         record_raster_pass(planned, 0, pass.layer_count);
     } else {
         for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer)
@@ -235,24 +231,24 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
 
 PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
     if (graph_->image_lifetime(image.id) != Lifetime::imported)
-        return shape_->physical_image_of_handle(image, slot_index_);
-    PhysicalImage* const outside = graph_->find_imported_resource(image.id);
-    const ImageDesc& wanted = graph_->list_images()[image.id];
+        return shape_->physical_image(image, slot_index_);
+    PhysicalImage* const outside = graph_->imported(image.id);
+    const ImageDesc& wanted = graph_->images()[image.id];
     check(outside, Failure::internal, "image '", wanted.name, "' is imported from nowhere");
     const ImageDesc& found = outside->desc;
     const bool fits = found.format == wanted.format && found.width == wanted.width &&
                       found.height == wanted.height && found.layers == wanted.layers &&
                       found.mips == wanted.mips;
     if (!fits)
-        fail(Failure::internal, "image '", wanted.name, "' is imported as ",
-             describe_image_shape(wanted), ", found ", describe_image_shape(found));
+        fail(Failure::internal, "image '", wanted.name, "' is imported as ", describe_image(wanted),
+             ", found ", describe_image(found));
     return *outside;
 }
 
 VkBuffer FrameRecorder::vulkan_buffer(BufferHandle buffer) const {
     if (!graph_->is_imported(buffer)) return shape_->vulkan_buffer(buffer, slot_index_);
-    const gpu::Buffer* const outside = graph_->find_imported_resource(buffer);
-    check(outside, Failure::internal, "buffer '", graph_->list_buffers()[buffer.id].name,
+    const gpu::Buffer* const outside = graph_->imported(buffer);
+    check(outside, Failure::internal, "buffer '", graph_->buffers()[buffer.id].name,
           "' is imported from nowhere");
     return outside->handle();
 }
@@ -262,9 +258,9 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
     const gpu::ImageViewType shape = layer_count > 1 ? gpu::ImageViewType::flat_array
                                                      : gpu::ImageViewType::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = physical_image(use.image).find_or_create_view(
-        graph_device_, shape, use.image.select_image_layers(first_layer, layer_count));
-    info.imageLayout = image_layout_of_use(use.use);
+    info.imageView = physical_image(use.image).view(device_, shape,
+                                                    use.image.layers(first_layer, layer_count));
+    info.imageLayout = image_layout(use.use);
     info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
                    : unread   ? VK_ATTACHMENT_STORE_OP_DONT_CARE
@@ -279,7 +275,7 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
         depth_ = info;
 }
 
-void FrameRecorder::count_attachment_traffic(const Pass& pass, const VkRenderingInfo& rendering) {
+void FrameRecorder::count_traffic(const Pass& pass, const VkRenderingInfo& rendering) {
     std::size_t colour = 0;
     for (const ImageUse& use : pass.images) {
         if (use.use != ResourceUse::colour && use.use != ResourceUse::depth) continue;
@@ -287,29 +283,28 @@ void FrameRecorder::count_attachment_traffic(const Pass& pass, const VkRendering
                                                           ? depth_
                                                           : colours_[colour++];
         work_->add(WorkKind::bytes,
-                   count_attachment_bytes(attachment, graph_->list_images()[use.image.id].format,
-                                          rendering));
+                   attachment_bytes(attachment, graph_->images()[use.image.id].format, rendering));
     }
 }
 
 /// Records one rendering scope over some layers of the pass's attachments.
 void FrameRecorder::record_raster_pass(const PlannedPass& planned, std::uint32_t first_layer,
                                        std::uint32_t layer_count) {
-    const Pass& pass = graph_->list_passes()[planned.pass];
+    const Pass& pass = graph_->passes()[planned.pass];
     colours_.clear();
     depth_ = {};
     for (std::size_t i = 0; i < pass.images.size(); ++i)
         if (pass.images[i].use == ResourceUse::colour || pass.images[i].use == ResourceUse::depth)
             add_attachment(pass.images[i], i < 32 && (planned.unread >> i & 1), first_layer,
                            layer_count);
-    const VkExtent2D extent = find_pass_framebuffer_extent(*graph_, pass);
+    const VkExtent2D extent = framebuffer_extent(*graph_, pass);
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    rendering.renderArea = find_pass_render_area(pass, extent);
+    rendering.renderArea = pass_area(pass, extent);
     rendering.layerCount = layer_count;
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours_.size());
     rendering.pColorAttachments = colours_.data();
     rendering.pDepthAttachment = depth_.imageView ? &depth_ : nullptr;
-    if (work_) count_attachment_traffic(pass, rendering);
+    if (work_) count_traffic(pass, rendering);
     vkCmdBeginRendering(commands_, &rendering);
     const VkViewport viewport{
         0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};

@@ -16,16 +16,16 @@ public:
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
     /// `work` counts the frame's work; null: nothing is counted. `pieces`: of this frame, which
     /// submits all of it but the last piece.
-    void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
+    void record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
                       std::size_t slot_index, PassTiming timing, WorkCounter* work,
                       FramePieces& pieces);
 
     /// Returns the device. Only PassCommands may call this function, while a pass records its
     /// commands.
-    gpu::Device& recording_device() { return graph_device_; }
+    gpu::Device& recording_device() { return device_; }
     gpu::PipelineStore& pipeline_store() { return pipelines_; }
     /// Returns the counter of the frame's work; null: nothing is counted.
-    WorkCounter* frame_work_counter() { return work_; }
+    WorkCounter* work_counter() { return work_; }
     FramePieces& frame_pieces() { return *pieces_; }
     /// Ends the piece of the frame that is being recorded, runs it, and begins the next. What was
     /// bound must be bound again. Not within a rendering scope.
@@ -35,7 +35,7 @@ public:
     std::uint32_t read_word(BufferHandle buffer, std::uint64_t offset);
     PhysicalImage& physical_image(ImageHandle image);
     VkBuffer vulkan_buffer(BufferHandle buffer) const;
-    VkSampler sampler_of_filter(TextureFilter filter) const {
+    VkSampler sampler(TextureFilter filter) const {
         return samplers_[static_cast<std::size_t>(filter)];
     }
     VkDescriptorSet allocate_descriptor_set(VkDescriptorSetLayout layout) {
@@ -49,14 +49,14 @@ private:
                             std::uint32_t layer_count);
     void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                         std::uint32_t layer_count);
-    void count_attachment_traffic(const Pass& pass, const VkRenderingInfo& rendering);
-    void record_planned_barriers(const std::vector<PlannedBarrier>& list, bool last);
+    void count_traffic(const Pass& pass, const VkRenderingInfo& rendering);
+    void record_barriers(const std::vector<PlannedBarrier>& list, bool last);
     void add_barrier(const PlannedBarrier& barrier, bool last);
     void begin_commands();
     void record_full_barrier();
     void write_timestamp(PassTiming timing);
 
-    gpu::Device& graph_device_;
+    gpu::Device& device_;
     gpu::PipelineStore& pipelines_;
     std::array<gpu::UniqueSampler, 4> samplers_;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
@@ -64,8 +64,8 @@ private:
 
     // The frame that is being recorded.
     const Graph* graph_ = nullptr;
-    CompiledRenderGraph* shape_ = nullptr;
-    FrameInFlightResources* slot_ = nullptr;
+    CompiledGraph* shape_ = nullptr;
+    FrameSlot* slot_ = nullptr;
     std::size_t slot_index_ = 0;
     WorkCounter* work_ = nullptr;
     FramePieces* pieces_ = nullptr;

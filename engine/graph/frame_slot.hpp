@@ -12,9 +12,9 @@ namespace catoptric::graph {
 
 /// The resources of one frame in flight: command buffer, timestamps, descriptors. They are reused
 /// once the frame has ended.
-class FrameInFlightResources {
+class FrameSlot {
 public:
-    explicit FrameInFlightResources(const gpu::Device& device);
+    explicit FrameSlot(const gpu::Device& device);
     /// Empties the command buffer. A frame that failed has left it unfinished, with commands that
     /// use resources which the next frame may destroy.
     void reset_commands();
@@ -40,7 +40,7 @@ public:
     bool ended = true; ///< whether the host has waited for the slot's last frame
     bool stays = false;
     PassTiming timing = PassTiming::isolated;
-    std::shared_ptr<CompiledRenderGraph> shape;
+    std::shared_ptr<CompiledGraph> shape;
     SteadyClock::time_point submitted;
     GraphFrameTimes times;
     std::unique_ptr<WorkCounter> work; ///< null: the frame does not count its work
@@ -48,7 +48,7 @@ public:
 private:
     void reset_descriptors();
 
-    const gpu::Device& slot_device_;
+    const gpu::Device& device_;
     gpu::UniqueCommandPool pool_;
     std::uint32_t query_count_ = 0;
     std::vector<gpu::UniqueDescriptorPool> descriptor_pools_;

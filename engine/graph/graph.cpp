@@ -8,7 +8,7 @@
 
 namespace catoptric::graph {
 
-std::string_view resource_use_name(ResourceUse use) {
+std::string_view use_name(ResourceUse use) {
     switch (use) {
     case ResourceUse::sampled: return "sampled";
     case ResourceUse::storage_read: return "storage_read";
@@ -26,13 +26,13 @@ std::string_view resource_use_name(ResourceUse use) {
 
 namespace {
 
-ImageHandle make_whole_image_handle(std::uint32_t id, const ImageDesc& desc) {
+ImageHandle whole_handle(std::uint32_t id, const ImageDesc& desc) {
     return {.id = id, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
 } // namespace
 
-bool Pass::is_raster_pass() const {
+bool Pass::is_raster() const {
     return std::ranges::any_of(images, [](const ImageUse& use) {
         return use.use == ResourceUse::colour || use.use == ResourceUse::depth;
     });
@@ -65,12 +65,12 @@ PassBuilder& PassBuilder::updates(ImageHandle image, ResourceUse use, const Clea
     return *this;
 }
 
-PassBuilder& PassBuilder::set_pass_layer_count(std::uint32_t count) {
+PassBuilder& PassBuilder::layers(std::uint32_t count) {
     pass_.layer_count = count;
     return *this;
 }
 
-PassBuilder& PassBuilder::set_pass_render_area(const PixelRectangle& area) {
+PassBuilder& PassBuilder::render_area(const PixelRectangle& area) {
     pass_.area = area;
     return *this;
 }
@@ -86,7 +86,7 @@ ImageHandle Graph::add_image(ImageDesc desc) {
     const auto id = static_cast<std::uint32_t>(images_.size());
     images_.push_back(std::move(desc));
     lives_.emplace_back();
-    return make_whole_image_handle(id, images_.back());
+    return whole_handle(id, images_.back());
 }
 
 BufferHandle Graph::add_buffer(BufferDesc desc) {
@@ -96,9 +96,9 @@ BufferHandle Graph::add_buffer(BufferDesc desc) {
     return {static_cast<std::uint32_t>(buffers_.size() - 1)};
 }
 
-ImageHandle Graph::add_persistent_image(ImageDesc desc) {
+ImageHandle Graph::add_persistent(ImageDesc desc) {
     const auto found = history_.persistent.find(desc.name);
-    ContentHashPerLayer held(desc.layers * desc.mips);
+    LayerHashes held(desc.layers * desc.mips);
     if (found != history_.persistent.end() && found->second.desc == desc)
         held = found->second.stamps;
     const ImageHandle handle = add_image(std::move(desc));
@@ -107,25 +107,25 @@ ImageHandle Graph::add_persistent_image(ImageDesc desc) {
     return handle;
 }
 
-const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) const {
+const ImageDesc& Graph::image_desc(ImageHandle image, const char* asked) const {
     check(image.id < images_.size(), Failure::internal, asked, " of image number ", image.id,
           ", but the graph has ", images_.size(), " images");
     return images_[image.id];
 }
 
-const BufferDesc& Graph::find_buffer_desc(BufferHandle buffer, const char* asked) const {
+const BufferDesc& Graph::buffer_desc(BufferHandle buffer, const char* asked) const {
     check(buffer.id < buffers_.size(), Failure::internal, asked, " of buffer number ", buffer.id,
           ", but the graph has ", buffers_.size(), " buffers");
     return buffers_[buffer.id];
 }
 
-bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const {
-    const ImageDesc& desc = find_image_desc(part, "has_image_part_content_hash()");
+bool Graph::has_content_hash(ImageHandle part, std::uint64_t content_hash) const {
+    const ImageDesc& desc = image_desc(part, "has_content_hash()");
     check(image_lifetime(part.id) == Lifetime::persistent, Failure::internal,
-          "has_image_part_content_hash() of image '", desc.name, "', which is not persistent");
+          "has_content_hash() of image '", desc.name, "', which is not persistent");
     bool all = true;
-    for_each_contiguous_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
-        list_content_hashes_at_start(part.id).for_each_run(
+    for_each_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
+        hashes_at_start(part.id).for_each_run(
             first, end, [&](std::uint32_t, std::uint32_t, const std::optional<std::uint64_t>& s) {
                 all = all && s == content_hash;
             });
@@ -133,26 +133,25 @@ bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_
     return all;
 }
 
-void Graph::set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash) {
-    const ImageDesc& desc = find_image_desc(part, "set_content_hash_of_image_part()");
+void Graph::set_content_hash(ImageHandle part, std::uint64_t content_hash) {
+    const ImageDesc& desc = image_desc(part, "set_content_hash()");
     check(image_lifetime(part.id) == Lifetime::persistent, Failure::internal,
-          "set_content_hash_of_image_part() of image '", desc.name, "', which is not persistent");
-    stamped_.push_back({part, content_hash});
+          "set_content_hash() of image '", desc.name, "', which is not persistent");
+    content_hashes_.push_back({part, content_hash});
 }
 
-ImageHandle Graph::import_external_resource(ImageDesc desc, PhysicalImage* outside,
-                                            std::optional<ResourceUse> arrives,
-                                            ResourceUse leaves) {
+ImageHandle Graph::import_resource(ImageDesc desc, PhysicalImage* outside,
+                                   std::optional<ResourceUse> arrives, ResourceUse leaves) {
     const ImageHandle handle = add_image(std::move(desc));
     lives_.back() = {.lifetime = Lifetime::imported,
                      .arrives = arrives,
                      .leaves = leaves,
                      .outside = outside,
-                     .held = ContentHashPerLayer()};
+                     .held = LayerHashes()};
     return handle;
 }
 
-BufferHandle Graph::import_external_resource(BufferDesc desc, const gpu::Buffer* outside) {
+BufferHandle Graph::import_resource(BufferDesc desc, const gpu::Buffer* outside) {
     const BufferHandle handle = add_buffer(std::move(desc));
     buffer_lives_.back() = Lifetime::imported;
     outside_buffers_.back() = outside;
@@ -166,11 +165,11 @@ PassBuilder Graph::add_pass(std::string name, PassPurpose tag) {
     return PassBuilder(pass);
 }
 
-ImageHandle Graph::previous_contents(ImageHandle image) {
-    const ImageDesc& desc = find_image_desc(image, "previous_contents()");
+ImageHandle Graph::previous(ImageHandle image) {
+    const ImageDesc& desc = image_desc(image, "previous()");
     Lifetime& lifetime = lives_[image.id].lifetime;
     check(lifetime == Lifetime::frame || lifetime == Lifetime::previous, Failure::internal,
-          "previous_contents() of image '", desc.name, "', which is ",
+          "previous() of image '", desc.name, "', which is ",
           lifetime == Lifetime::persistent ? "persistent" : "imported", " and has one copy");
     lifetime = Lifetime::previous;
     image.previous = true;
@@ -178,12 +177,12 @@ ImageHandle Graph::previous_contents(ImageHandle image) {
 }
 
 bool Graph::has_history(ImageHandle image) const {
-    return history_.previous.contains(find_image_desc(image, "has_history()").name);
+    return history_.previous.contains(image_desc(image, "has_history()").name);
 }
 
-BufferHandle Graph::previous_contents(BufferHandle buffer) {
-    const BufferDesc& desc = find_buffer_desc(buffer, "previous_contents()");
-    check(!is_imported(buffer), Failure::internal, "previous_contents() of buffer '", desc.name,
+BufferHandle Graph::previous(BufferHandle buffer) {
+    const BufferDesc& desc = buffer_desc(buffer, "previous()");
+    check(!is_imported(buffer), Failure::internal, "previous() of buffer '", desc.name,
           "', which is imported and has one copy");
     buffer_lives_[buffer.id] = Lifetime::previous;
     buffer.previous = true;
@@ -191,13 +190,13 @@ BufferHandle Graph::previous_contents(BufferHandle buffer) {
 }
 
 bool Graph::has_history(BufferHandle buffer) const {
-    return history_.previous.contains(find_buffer_desc(buffer, "has_history()").name);
+    return history_.previous.contains(buffer_desc(buffer, "has_history()").name);
 }
 
-void Graph::mark_as_graph_output(ImageHandle image) { wanted_images_.push_back(image); }
-void Graph::mark_as_graph_output(BufferHandle buffer) { wanted_buffers_.push_back(buffer); }
+void Graph::output(ImageHandle image) { output_images_.push_back(image); }
+void Graph::output(BufferHandle buffer) { output_buffers_.push_back(buffer); }
 
-GraphHistory Graph::graph_history_for_next_frame() const {
+GraphHistory Graph::next_history() const {
     GraphHistory left = history_;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         if (lives_[i].lifetime == Lifetime::previous) left.previous.insert(images_[i].name);
@@ -207,16 +206,14 @@ GraphHistory Graph::graph_history_for_next_frame() const {
     }
     for (std::uint32_t b = 0; b < buffers_.size(); ++b)
         if (buffer_lives_[b] == Lifetime::previous) left.previous.insert(buffers_[b].name);
-    for (const auto& [part, content_hash] : stamped_)
-        for_each_contiguous_layer_range(part, images_[part.id].layers,
-                                        [&](std::uint32_t first, std::uint32_t end) {
-                                            left.persistent.at(images_[part.id].name)
-                                                .stamps.fill_cell_range(first, end, content_hash);
-                                        });
+    for (const auto& [part, content_hash] : content_hashes_)
+        for_each_range(part, images_[part.id].layers, [&](std::uint32_t first, std::uint32_t end) {
+            left.persistent.at(images_[part.id].name).stamps.fill(first, end, content_hash);
+        });
     return left;
 }
 
-Graph Graph::copy_graph_without_record_callbacks() const {
+Graph Graph::copy_declarations() const {
     Graph outline = *this;
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;

@@ -39,7 +39,7 @@ enum class ResourceUse {
     indirect, ///< buffer of draw or dispatch arguments
     present,  ///< how an imported image is left for the window; no pass uses it
 };
-std::string_view resource_use_name(ResourceUse use);
+std::string_view use_name(ResourceUse use);
 
 /// Purpose of a pass. `scene` passes are the scene passes that the seed report counts as R.
 enum class PassPurpose { none, scene };
@@ -56,7 +56,7 @@ struct ImageDesc {
 };
 
 /// Returns the texels along a side of a mip of an image whose side has `size` texels.
-constexpr std::uint32_t size_at_mip(std::uint32_t size, std::uint32_t mip) {
+constexpr std::uint32_t mip_size(std::uint32_t size, std::uint32_t mip) {
     return std::max(size >> mip, 1u);
 }
 
@@ -86,17 +86,15 @@ struct ImageHandle {
     std::uint32_t mip_count = 1;
     /// Returns a handle of some of the image's layers. `first` counts from the first layer of this
     /// handle.
-    ImageHandle select_image_layers(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
     /// Returns a handle of some of the image's mips. `first` counts from the first mip of this
     /// handle.
-    ImageHandle select_image_mips(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle mips(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer, layer_count, previous, first_mip + first, count};
     }
-    ImageHandle select_image_mip(std::uint32_t number) const {
-        return select_image_mips(number, 1);
-    }
+    ImageHandle mip(std::uint32_t number) const { return mips(number, 1); }
     friend bool operator==(const ImageHandle&, const ImageHandle&) = default;
 };
 
@@ -147,7 +145,7 @@ struct Pass {
     std::uint64_t most_rays = 0;
     std::function<void(PassCommands&)> body;
 
-    bool is_raster_pass() const; ///< returns whether the pass has an attachment
+    bool is_raster() const; ///< returns whether the pass has an attachment
 };
 
 /// Fills one pass. Every call returns the builder, and `record` is the last call.
@@ -162,8 +160,8 @@ public:
     /// Declares an attachment that is cleared within the pass's area and keeps its contents
     /// elsewhere.
     PassBuilder& updates(ImageHandle image, ResourceUse use, const ClearValue& clear);
-    PassBuilder& set_pass_layer_count(std::uint32_t count);
-    PassBuilder& set_pass_render_area(const PixelRectangle& area);
+    PassBuilder& layers(std::uint32_t count);
+    PassBuilder& render_area(const PixelRectangle& area);
     PassBuilder& most_rays(std::uint64_t rays);
     void record(std::function<void(PassCommands&)> body);
 
@@ -173,13 +171,13 @@ private:
 
 /// The content hash of each layer of each mip; no value if the layer was never written. Layer l of
 /// mip m has the number m * layers + l.
-using ContentHashPerLayer = RunLengthArray<std::optional<std::uint64_t>>;
+using LayerHashes = RunLengthArray<std::optional<std::uint64_t>>;
 
 /// The contents that a runner has from earlier frames.
 struct GraphHistory {
     struct PersistentImage {
         ImageDesc desc;
-        ContentHashPerLayer stamps;
+        LayerHashes stamps;
     };
     /// Names of images and buffers whose contents in the last frame exist.
     std::set<std::string> previous;
@@ -187,7 +185,7 @@ struct GraphHistory {
 };
 
 /// The content hash of a part of a persistent image after this frame has written it.
-struct ImageContentHashRecord {
+struct ImageHash {
     ImageHandle part;
     std::uint64_t content_hash = 0;
 };
@@ -205,68 +203,60 @@ public:
     /// Adds a persistent image: its contents stay, under its name, until a pass writes them again.
     /// They also stay through frames that do not declare the image. The memory is held as long as
     /// the runner lives. Another description under the same name discards the contents.
-    ImageHandle add_persistent_image(ImageDesc desc);
+    ImageHandle add_persistent(ImageDesc desc);
     /// Returns whether all of a part of a persistent image has this content hash, so that no pass
     /// needs to write it. The caller defines the hash, for example of scene and settings.
-    bool has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const;
+    bool has_content_hash(ImageHandle part, std::uint64_t content_hash) const;
     /// Sets the content hash of a part of a persistent image that passes of this frame write. Every
     /// written layer of a persistent image must get a hash.
-    void set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash);
+    void set_content_hash(ImageHandle part, std::uint64_t content_hash);
     /// Adds an image that is owned outside the graph. It is used like any other image and counts as
     /// an output. It arrives in the layout of the use `arrives`; none means that its
     /// contents do not matter. It is left in the layout of `leaves`. `outside` may change
     /// from frame to frame, must match `desc` and must live until the frame has ended.
-    ImageHandle import_external_resource(ImageDesc desc, PhysicalImage* outside,
-                                         std::optional<ResourceUse> arrives, ResourceUse leaves);
+    ImageHandle import_resource(ImageDesc desc, PhysicalImage* outside,
+                                std::optional<ResourceUse> arrives, ResourceUse leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
-    BufferHandle import_external_resource(BufferDesc desc, const gpu::Buffer* outside);
+    BufferHandle import_resource(BufferDesc desc, const gpu::Buffer* outside);
     PassBuilder add_pass(std::string name, PassPurpose tag = PassPurpose::none);
 
     /// Returns a handle of the contents at the end of the last frame: on the first, a black image,
     /// or a buffer of zeros. Costs a second copy, whose memory is not shared.
-    ImageHandle previous_contents(ImageHandle image);
-    BufferHandle previous_contents(BufferHandle buffer);
-    /// Returns whether the last frame left contents of the resource. If not, `previous_contents`
+    ImageHandle previous(ImageHandle image);
+    BufferHandle previous(BufferHandle buffer);
+    /// Returns whether the last frame left contents of the resource. If not, `previous`
     /// shows zeros.
     bool has_history(ImageHandle image) const;
     bool has_history(BufferHandle buffer) const;
     /// Marks an image as an output of the frame. Passes that no output depends on are culled.
-    void mark_as_graph_output(ImageHandle image);
-    void mark_as_graph_output(BufferHandle buffer);
+    void output(ImageHandle image);
+    void output(BufferHandle buffer);
 
-    const std::vector<ImageDesc>& list_images() const { return images_; }
-    const std::vector<BufferDesc>& list_buffers() const { return buffers_; }
-    const std::deque<Pass>& list_passes() const { return passes_; }
-    const std::vector<ImageHandle>& list_output_images() const { return wanted_images_; }
-    const std::vector<BufferHandle>& list_output_buffers() const { return wanted_buffers_; }
-    const std::vector<ImageContentHashRecord>& list_image_content_hashes() const {
-        return stamped_;
-    }
+    const std::vector<ImageDesc>& images() const { return images_; }
+    const std::vector<BufferDesc>& buffers() const { return buffers_; }
+    const std::deque<Pass>& passes() const { return passes_; }
+    const std::vector<ImageHandle>& output_images() const { return output_images_; }
+    const std::vector<BufferHandle>& output_buffers() const { return output_buffers_; }
+    const std::vector<ImageHash>& content_hashes() const { return content_hashes_; }
     Lifetime image_lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     Lifetime buffer_lifetime(std::uint32_t buffer) const { return buffer_lives_[buffer]; }
     bool is_imported(BufferHandle buffer) const {
         return buffer_lives_[buffer.id] == Lifetime::imported;
     }
     /// Returns the use in whose layout an imported image arrives.
-    std::optional<ResourceUse> resource_use_on_import(std::uint32_t image) const {
+    std::optional<ResourceUse> use_on_import(std::uint32_t image) const {
         return lives_[image].arrives;
     }
-    ResourceUse resource_use_on_release(std::uint32_t image) const { return lives_[image].leaves; }
-    PhysicalImage* find_imported_resource(std::uint32_t image) const {
-        return lives_[image].outside;
-    }
-    const gpu::Buffer* find_imported_resource(BufferHandle buffer) const {
-        return outside_buffers_[buffer.id];
-    }
+    ResourceUse use_on_release(std::uint32_t image) const { return lives_[image].leaves; }
+    PhysicalImage* imported(std::uint32_t image) const { return lives_[image].outside; }
+    const gpu::Buffer* imported(BufferHandle buffer) const { return outside_buffers_[buffer.id]; }
     /// Returns the content hashes of a persistent image at the start of the frame.
-    const ContentHashPerLayer& list_content_hashes_at_start(std::uint32_t image) const {
-        return lives_[image].held;
-    }
+    const LayerHashes& hashes_at_start(std::uint32_t image) const { return lives_[image].held; }
     /// Returns the history for the next frame once this frame has run.
-    GraphHistory graph_history_for_next_frame() const;
+    GraphHistory next_history() const;
     /// Returns a copy with declarations only, to compare other graphs with.
-    Graph copy_graph_without_record_callbacks() const;
+    Graph copy_declarations() const;
 
 private:
     struct ImageState {
@@ -274,10 +264,10 @@ private:
         std::optional<ResourceUse> arrives;
         ResourceUse leaves = ResourceUse::sampled;
         PhysicalImage* outside = nullptr;
-        ContentHashPerLayer held;
+        LayerHashes held;
     };
-    const ImageDesc& find_image_desc(ImageHandle image, const char* asked) const;
-    const BufferDesc& find_buffer_desc(BufferHandle buffer, const char* asked) const;
+    const ImageDesc& image_desc(ImageHandle image, const char* asked) const;
+    const BufferDesc& buffer_desc(BufferHandle buffer, const char* asked) const;
 
     GraphHistory history_;
     std::vector<ImageDesc> images_;
@@ -286,9 +276,9 @@ private:
     std::vector<Lifetime> buffer_lives_; // one per entry of `buffers_`
     std::vector<const gpu::Buffer*> outside_buffers_;
     std::deque<Pass> passes_; // a deque, because builders hold references
-    std::vector<ImageHandle> wanted_images_;
-    std::vector<BufferHandle> wanted_buffers_;
-    std::vector<ImageContentHashRecord> stamped_;
+    std::vector<ImageHandle> output_images_;
+    std::vector<BufferHandle> output_buffers_;
+    std::vector<ImageHash> content_hashes_;
 };
 
 } // namespace catoptric::graph

@@ -15,26 +15,25 @@ namespace {
 
 constexpr std::size_t kMaxCachedGraphs = 8;
 
-std::vector<std::string> list_pass_names(const CompiledRenderGraph& shape) {
+std::vector<std::string> pass_names(const CompiledGraph& shape) {
     std::vector<std::string> names;
     for (const PlannedPass& planned : shape.plan.passes)
-        names.push_back(shape.outline.list_passes()[planned.pass].name);
+        names.push_back(shape.outline.passes()[planned.pass].name);
     return names;
 }
 
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_timestamps(gpu::Device& device, FrameInFlightResources& slot, GraphFrameTimes& times) {
-    const CompiledRenderGraph& shape = *slot.shape;
+void read_timestamps(gpu::Device& device, FrameSlot& slot, GraphFrameTimes& times) {
+    const CompiledGraph& shape = *slot.shape;
     const VkResult result = slot.read_stamps();
     if (result != VK_SUCCESS)
-        device.check_result(result, "read the time stamps of " +
-                                        describe_submitted_frame(slot.frame, shape));
-    std::vector<double> at = timestamps_to_milliseconds(
-        slot.stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
+        device.check_result(result, "read the time stamps of " + describe_frame(slot.frame, shape));
+    std::vector<double> at = to_milliseconds(slot.stamps, device.timestamp_bits(),
+                                             static_cast<double>(device.limits().timestampPeriod));
     if (!slot.piece_begins.empty()) at = remove_gaps(at, slot.piece_begins);
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
         const bool isolated = slot.timing == PassTiming::isolated;
-        times.passes.push_back({shape.outline.list_passes()[shape.plan.passes[i].pass].name,
+        times.passes.push_back({shape.outline.passes()[shape.plan.passes[i].pass].name,
                                 isolated ? at[i] : at[2 * i],
                                 isolated ? at[i + 1] : at[2 * i + 1]});
         times.span_ms = std::max(times.span_ms, times.passes.back().end_ms);
@@ -45,8 +44,8 @@ void read_timestamps(gpu::Device& device, FrameInFlightResources& slot, GraphFra
 
 GraphRunner::GraphRunner(gpu::Device& device, gpu::PipelineStore& pipelines,
                          std::uint32_t in_flight, RetainedResources* retained)
-    : runner_device_(device), frame_recorder_(device, pipelines), pieces_(device),
-      timeline_(make_timeline_semaphore(device)), memory_(device),
+    : device_(device), recorder_(device, pipelines), pieces_(device),
+      timeline_(make_timeline(device)), memory_(device),
       kept_(device, retained ? *retained : own_retained_) {
     check(in_flight >= 1 && in_flight <= kMaxFramesInFlight, Failure::usage,
           "frames in flight must be 1 to ", kMaxFramesInFlight, ", not ", in_flight);
@@ -55,45 +54,43 @@ GraphRunner::GraphRunner(gpu::Device& device, gpu::PipelineStore& pipelines,
 }
 
 GraphRunner::~GraphRunner() {
-    if (runner_device_.is_abandoned()) return;
+    if (device_.is_abandoned()) return;
     try {
-        finish_all_frames_in_flight();
+        finish_frames();
     } catch (const std::exception&) {
         // The device counts as abandoned after a failed wait, so none of its objects is destroyed.
     }
 }
 
 void GraphRunner::release_retained() {
-    finish_all_frames_in_flight();
-    for (FrameInFlightResources& slot : slots_)
+    finish_frames();
+    for (FrameSlot& slot : slots_)
         if (slot.shape) slot.shape->release_retained();
 }
 
-void GraphRunner::discard_persistent_image_contents() {
+void GraphRunner::discard_contents() {
     release_retained();
     kept_.release_all();
 }
 
 GraphLimits GraphRunner::limits() const {
-    const VkPhysicalDeviceLimits& limits = runner_device_.limits();
-    return {limits.maxImageDimension2D,     limits.maxImageDimensionCube,
-            limits.maxImageArrayLayers,     limits.maxFramebufferLayers,
-            runner_device_.memory_budget(), runner_device_.max_allocation()};
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
+            limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
 }
 
-CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
+CompiledGraph& GraphRunner::compile(const Graph& graph) {
     const SteadyClock::time_point begin = SteadyClock::now();
-    const std::uint64_t hash = hash_graph_shape(graph);
-    auto found = std::ranges::find_if(
-        shapes_, [&](const std::shared_ptr<CompiledRenderGraph>& shape) {
-            return shape->hash == hash && have_equal_graph_declarations(graph, shape->outline);
-        });
+    const std::uint64_t hash = hash_shape(graph);
+    auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<CompiledGraph>& shape) {
+        return shape->hash == hash && same_declarations(graph, shape->outline);
+    });
     if (found == shapes_.end()) {
-        auto made = std::make_shared<CompiledRenderGraph>();
-        made->plan = plan_graph(graph, limits(), make_device_requirement_queries(runner_device_));
-        made->outline = graph.copy_graph_without_record_callbacks();
+        auto made = std::make_shared<CompiledGraph>();
+        made->plan = plan_graph(graph, limits(), device_sizer(device_));
+        made->outline = graph.copy_declarations();
         made->hash = hash;
-        ++plans_made_;
+        ++plan_count_;
         // Frames in flight share ownership of their planned graph, so removing the graph from this
         // list is safe.
         if (shapes_.size() == kMaxCachedGraphs) shapes_.pop_back();
@@ -104,26 +101,25 @@ CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
     return *shapes_.front();
 }
 
-SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
-                                               const ExternalSemaphores& outside,
-                                               bool counts_work) {
+FrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
+                                      const ExternalSemaphores& outside, bool counts_work) {
     has_dropped_contents_ = false;
-    runner_device_.check_not_abandoned();
+    device_.check_not_abandoned();
     const double waited_before = wait_ms_;
-    CompiledRenderGraph& shape = compile_render_graph(graph);
-    const std::size_t index = slot_index_of_frame(frame_ + 1);
-    FrameInFlightResources& slot = slots_[index];
-    finish_frame_in_flight(slot);
+    CompiledGraph& shape = compile(graph);
+    const std::size_t index = slot_index_of(frame_ + 1);
+    FrameSlot& slot = slots_[index];
+    finish_frame(slot);
     slot.frame = 0; // the outputs of the slot's last frame may be replaced now
     slot.reset_commands();
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
-    const auto wait = [this] { finish_all_frames_in_flight(); };
-    memory_.find_or_make_resources(shape, index, shapes_, wait);
+    const auto wait = [this] { finish_frames(); };
+    memory_.ensure_resources(shape, index, shapes_, wait);
     kept_.find_or_create(shape,
                          [this](const PersistentImage* image, const PersistentBuffer* buffer) {
-                             finish_all_frames_in_flight();
-                             for (FrameInFlightResources& other : slots_) {
+                             finish_frames();
+                             for (FrameSlot& other : slots_) {
                                  if (!other.shape) continue;
                                  std::ranges::replace(other.shape->kept, image, nullptr);
                                  std::ranges::replace(other.shape->kept_buffers, buffer, nullptr);
@@ -136,43 +132,40 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     compile_ms_ = 0;
 
     const SteadyClock::time_point record_begin = SteadyClock::now();
-    slot.work = counts_work ? std::make_unique<WorkCounter>(runner_device_, list_pass_names(shape))
-                            : nullptr;
+    slot.work = counts_work ? std::make_unique<WorkCounter>(device_, pass_names(shape)) : nullptr;
     record_frame(graph, shape, slot, index, timing, outside.wait);
     times.record_ms = ms_since(record_begin) - pieces_.wait_ms();
     times.wall_ms = pieces_.wait_ms(); // without the recording between pieces
     times.wait_ms += pieces_.wait_ms(), wait_ms_ += pieces_.wait_ms();
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
-    submit_frame(slot, shape, {pieces_.semaphore_of_last_piece(), outside.signal});
+    submit_frame(slot, shape, {pieces_.wait_semaphore(), outside.signal});
     slot.shape = shapes_.front();
-    kept_.store_content_hashes(graph, shape);
-    if (!stays) kept_.swap_previous_copies(shape);
+    kept_.store_hashes(graph, shape);
+    if (!stays) kept_.swap_copies(shape);
     return {frame_};
 }
 
-void GraphRunner::record_frame(const Graph& graph, CompiledRenderGraph& shape,
-                               FrameInFlightResources& slot, std::size_t slot_index,
-                               PassTiming timing, VkSemaphore wait) {
+void GraphRunner::record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
+                               std::size_t slot_index, PassTiming timing, VkSemaphore wait) {
     std::uint64_t rays = 0;
     for (const PlannedPass& planned : shape.plan.passes)
-        rays += graph.list_passes()[planned.pass].most_rays;
+        rays += graph.passes()[planned.pass].most_rays;
     pieces_.begin_frame(slot, shape, frame_ + 1, wait, rays);
     try {
-        frame_recorder_.record_frame(graph, shape, slot, slot_index, timing, slot.work.get(),
-                                     pieces_);
+        recorder_.record_frame(graph, shape, slot, slot_index, timing, slot.work.get(), pieces_);
     } catch (...) {
         // The pieces before have changed images that outlive the frame, and their layouts.
-        if (pieces_.submitted() > 0 && !runner_device_.is_abandoned()) {
+        if (pieces_.submitted() > 0 && !device_.is_abandoned()) {
             has_dropped_contents_ = true;
             shape.release_retained();
-            discard_persistent_image_contents();
+            discard_contents();
         }
         throw;
     }
 }
 
-void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
+void GraphRunner::submit_frame(FrameSlot& slot, const CompiledGraph& shape,
                                const ExternalSemaphores& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
@@ -192,17 +185,17 @@ void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRende
     submit.pWaitSemaphoreInfos = &wait;
     submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
     submit.pSignalSemaphoreInfos = signals.data();
-    runner_device_.submit_uploads();
+    device_.submit_uploads();
     slot.submitted = SteadyClock::now();
-    const VkResult result = vkQueueSubmit2(runner_device_.queue(), 1, &submit, VK_NULL_HANDLE);
+    const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        runner_device_.check_result(result, "run " + describe_submitted_frame(frame_ + 1, shape));
+        device_.check_result(result, "run " + describe_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
 
 /// Waits for the end of the slot's frame, unless the host has waited for this frame before.
-void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
+void GraphRunner::finish_frame(FrameSlot& slot) {
     if (slot.ended) return;
     const SteadyClock::time_point begin = SteadyClock::now();
     const VkSemaphore semaphore = timeline_;
@@ -210,10 +203,9 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &slot.frame;
-    const VkResult result = vkWaitSemaphores(runner_device_.handle(), &wait, ~std::uint64_t{0});
+    const VkResult result = vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        runner_device_.check_wait(result,
-                                  "run " + describe_submitted_frame(slot.frame, *slot.shape));
+        device_.check_wait(result, "run " + describe_frame(slot.frame, *slot.shape));
     const double waited = ms_since(begin);
     const double ran = ms_since(slot.submitted);
     slot.times.wall_ms += ran;
@@ -221,17 +213,17 @@ void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;
-    read_timestamps(runner_device_, slot, slot.times);
+    read_timestamps(device_, slot, slot.times);
 }
 
-void GraphRunner::finish_all_frames_in_flight() {
-    for (FrameInFlightResources& slot : slots_) finish_frame_in_flight(slot);
+void GraphRunner::finish_frames() {
+    for (FrameSlot& slot : slots_) finish_frame(slot);
 }
 
-FrameInFlightResources& GraphRunner::resources_of_submitted_frame(SubmittedFrameTicket ticket) {
+FrameSlot& GraphRunner::slot_of(FrameTicket ticket) {
     check(ticket.frame >= 1 && ticket.frame <= frame_, Failure::internal, "frame ", ticket.frame,
           " is asked for, but ", frame_, " were submitted");
-    FrameInFlightResources& slot = slots_[slot_index_of_frame(ticket.frame)];
+    FrameSlot& slot = slots_[slot_index_of(ticket.frame)];
     check(slot.frame == ticket.frame, Failure::internal, "frame ", ticket.frame,
           " is gone: its place was taken by ",
           slot.frame ? "frame " + std::to_string(slot.frame) : "a frame that failed", ", with ",
@@ -239,8 +231,8 @@ FrameInFlightResources& GraphRunner::resources_of_submitted_frame(SubmittedFrame
     return slot;
 }
 
-bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
-    const FrameInFlightResources& slot = slots_[slot_index_of_frame(ticket.frame)];
+bool GraphRunner::has_ended(FrameTicket ticket) {
+    const FrameSlot& slot = slots_[slot_index_of(ticket.frame)];
     if (slot.frame != ticket.frame || slot.ended)
         return true; // a later frame has the slot, or the frame was waited for
     const VkSemaphore semaphore = timeline_;
@@ -248,22 +240,21 @@ bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket.frame;
-    const VkResult result = vkWaitSemaphores(runner_device_.handle(), &wait, 0);
+    const VkResult result = vkWaitSemaphores(device_.handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        runner_device_.check_wait(result,
-                                  "run " + describe_submitted_frame(slot.frame, *slot.shape));
+        device_.check_wait(result, "run " + describe_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }
 
-std::vector<PassWork> GraphRunner::work_counts_of_frame(SubmittedFrameTicket ticket) {
-    FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
-    finish_frame_in_flight(slot);
+std::vector<PassWork> GraphRunner::work_counts(FrameTicket ticket) {
+    FrameSlot& slot = slot_of(ticket);
+    finish_frame(slot);
     return slot.work ? slot.work->read() : std::vector<PassWork>();
 }
 
-const GraphFrameTimes& GraphRunner::wait_for_frame(SubmittedFrameTicket ticket) {
-    FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
-    finish_frame_in_flight(slot);
+const GraphFrameTimes& GraphRunner::wait_for(FrameTicket ticket) {
+    FrameSlot& slot = slot_of(ticket);
+    finish_frame(slot);
     return slot.times;
 }
 

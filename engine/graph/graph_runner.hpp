@@ -10,7 +10,7 @@
 namespace catoptric::graph {
 
 /// A submitted frame, by its number from 1. Valid with the runner that returned it.
-struct SubmittedFrameTicket {
+struct FrameTicket {
     std::uint64_t frame = 0;
 };
 
@@ -42,7 +42,7 @@ public:
     GraphHistory make_history() const { return kept_.make_history(); }
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
-    void discard_persistent_image_contents();
+    void discard_contents();
     /// Waits for the frames in flight, and forgets the images and buffers that outlive frames. The
     /// caller may then exchange them: the next frame continues from the contents it finds.
     void release_retained();
@@ -50,14 +50,12 @@ public:
     /// Returns the plan of the graph. The plans of the last 8 different graphs are cached. The
     /// reference is valid until 8 other graphs were planned. Throws the errors of
     /// graph::plan_graph.
-    const GraphPlan& find_or_make_plan(const Graph& graph) {
-        return compile_render_graph(graph).plan;
-    }
-    std::uint64_t compiled_graph_plan_count() const { return plans_made_; }
+    const GraphPlan& plan(const Graph& graph) { return compile(graph).plan; }
+    std::uint64_t plan_count() const { return plan_count_; }
     /// Returns the bytes of device memory for images and buffers: as much as the largest of the
     /// last 8 graphs that ran, plus all that outlive frames.
-    std::uint64_t allocated_device_bytes() const {
-        return memory_.allocated_device_bytes() + kept_.allocated_device_bytes();
+    std::uint64_t allocated_bytes() const {
+        return memory_.allocated_bytes() + kept_.allocated_bytes();
     }
 
     /// Records and submits a frame. If `in_flight` frames are on the device, waits for the oldest.
@@ -65,69 +63,66 @@ public:
     /// frame. `counts_work`: the frame counts its work, which makes it slower. Of a frame in
     /// pieces, waits for all but the last. Throws `exhausted`, and what the watch of the thread
     /// throws between pieces. Throws `device_lost` if a wait fails or the device refuses the frame.
-    SubmittedFrameTicket submit_frame(const Graph& graph, PassTiming timing, bool stays = false,
-                                      const ExternalSemaphores& outside = {},
-                                      bool counts_work = false);
+    FrameTicket submit_frame(const Graph& graph, PassTiming timing, bool stays = false,
+                             const ExternalSemaphores& outside = {}, bool counts_work = false);
     /// Returns whether the last call of submit_frame, which threw, has dropped the contents of
     /// earlier frames, because pieces of the frame had run.
     bool has_dropped_contents() const { return has_dropped_contents_; }
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
-    const GraphFrameTimes& wait_for_frame(SubmittedFrameTicket ticket);
+    const GraphFrameTimes& wait_for(FrameTicket ticket);
     /// Returns whether the frame has ended, without waiting. Throws `device_lost`.
-    bool has_ended(SubmittedFrameTicket ticket);
+    bool has_ended(FrameTicket ticket);
     GraphFrameTimes run_and_wait(const Graph& graph, PassTiming timing, bool stays = false) {
-        return wait_for_frame(submit_frame(graph, timing, stays));
+        return wait_for(submit_frame(graph, timing, stays));
     }
 
     /// Waits for the frame and returns the work of its passes, in order of execution. Empty if the
     /// frame did not count its work.
-    std::vector<PassWork> work_counts_of_frame(SubmittedFrameTicket ticket);
+    std::vector<PassWork> work_counts(FrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame uses the same
     /// slot (frame in flight). An image that outlives frames can be read until the next frame is
     /// submitted.
-    std::vector<std::byte> read_back_resource(SubmittedFrameTicket ticket, ImageHandle image);
-    std::vector<std::byte> read_back_resource(SubmittedFrameTicket ticket, BufferHandle buffer);
+    std::vector<std::byte> read_back(FrameTicket ticket, ImageHandle image);
+    std::vector<std::byte> read_back(FrameTicket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
-    std::vector<std::byte> read_back_resource(ImageHandle image) {
-        return read_back_resource(SubmittedFrameTicket{frame_}, image);
+    std::vector<std::byte> read_back(ImageHandle image) {
+        return read_back(FrameTicket{frame_}, image);
     }
-    std::vector<std::byte> read_back_resource(BufferHandle buffer) {
-        return read_back_resource(SubmittedFrameTicket{frame_}, buffer);
+    std::vector<std::byte> read_back(BufferHandle buffer) {
+        return read_back(FrameTicket{frame_}, buffer);
     }
     /// Returns all images and buffers with `previous` contents, one after another. These are all
     /// contents of the last frame that the next frame can read. Empty if there are none.
     std::vector<std::byte> read_history();
 
 private:
-    CompiledRenderGraph& compile_render_graph(const Graph& graph);
-    FrameInFlightResources& resources_of_submitted_frame(SubmittedFrameTicket ticket);
-    std::size_t slot_index_of_frame(std::uint64_t frame) const {
-        return (frame - 1) % slots_.size();
-    }
-    void submit_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
+    CompiledGraph& compile(const Graph& graph);
+    FrameSlot& slot_of(FrameTicket ticket);
+    std::size_t slot_index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
+    void submit_frame(FrameSlot& slot, const CompiledGraph& shape,
                       const ExternalSemaphores& outside);
-    void finish_frame_in_flight(FrameInFlightResources& slot);
-    void finish_all_frames_in_flight();
+    void finish_frame(FrameSlot& slot);
+    void finish_frames();
     /// Records the frame, and submits all its pieces but the last.
-    void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
+    void record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
                       std::size_t slot_index, PassTiming timing, VkSemaphore wait);
 
-    gpu::Device& runner_device_;
-    FrameRecorder frame_recorder_;
+    gpu::Device& device_;
+    FrameRecorder recorder_;
     FramePieces pieces_;
     gpu::UniqueSemaphore timeline_;
-    SharedGraphMemoryArena memory_;
+    FrameMemory memory_;
     RetainedResources own_retained_;
     PersistentResources kept_;
     /// Compiled graphs, the most recently used first.
-    std::vector<std::shared_ptr<CompiledRenderGraph>> shapes_;
-    std::vector<FrameInFlightResources> slots_;
+    std::vector<std::shared_ptr<CompiledGraph>> shapes_;
+    std::vector<FrameSlot> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
-    std::uint64_t plans_made_ = 0;
+    std::uint64_t plan_count_ = 0;
     bool has_dropped_contents_ = false;
     double compile_ms_ = 0; ///< since the last submit
     double wait_ms_ = 0;    ///< total

@@ -8,10 +8,10 @@ namespace catoptric::graph {
 /// which a plan depends: every declaration, and which parts of persistent images have contents.
 /// Recorded commands, clear values, content hashes and the identity of imported resources are not
 /// part of the shape.
-std::uint64_t hash_graph_shape(const Graph& graph);
+std::uint64_t hash_shape(const Graph& graph);
 
 /// Returns whether the plan of graph `known` is also valid for `graph`. `known` need not have
 /// callbacks that record its passes.
-bool have_equal_graph_declarations(const Graph& graph, const Graph& known);
+bool same_declarations(const Graph& graph, const Graph& known);
 
 } // namespace catoptric::graph

@@ -6,17 +6,16 @@ namespace catoptric::graph {
 
 namespace {
 
-bool is_in_shared_memory(const MemoryPlacement& placement) {
+bool shares_memory(const MemoryPlacement& placement) {
     return placement.used && !placement.alone && placement.bytes > 0;
 }
 
 } // namespace
 
-LastUsersOfSharedMemory::LastUsersOfSharedMemory(const GraphPlan& plan)
-    : heaps_(plan.heap_bytes.size()) {
+MemoryUsers::MemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_bytes.size()) {
     const auto add = [&](const std::vector<MemoryPlacement>& placements) {
         for (const MemoryPlacement& placement : placements) {
-            if (!is_in_shared_memory(placement)) continue;
+            if (!shares_memory(placement)) continue;
             std::vector<std::uint64_t>& ends = heaps_[placement.heap].ends;
             ends.push_back(placement.offset);
             ends.push_back(placement.offset + placement.bytes);
@@ -24,25 +23,24 @@ LastUsersOfSharedMemory::LastUsersOfSharedMemory(const GraphPlan& plan)
     };
     add(plan.images);
     add(plan.buffers);
-    for (HeapAccessSegmentTree& heap : heaps_) heap.resize_tree();
+    for (SegmentTree& heap : heaps_) heap.resize_tree();
 }
 
-void LastUsersOfSharedMemory::HeapAccessSegmentTree::resize_tree() {
+void MemoryUsers::SegmentTree::resize_tree() {
     std::ranges::sort(ends);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     whole.assign(2 * std::bit_ceil(ends.size()), 0);
     below = whole;
 }
 
-std::size_t LastUsersOfSharedMemory::HeapAccessSegmentTree::leaf(std::uint64_t offset) const {
+std::size_t MemoryUsers::SegmentTree::leaf(std::uint64_t offset) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(ends, offset) - ends.begin()) +
            whole.size() / 2;
 }
 
-void LastUsersOfSharedMemory::record_last_accesses_to_memory(const MemoryPlacement& placement,
-                                                             AccessStateSet touches) {
-    if (!is_in_shared_memory(placement)) return;
-    HeapAccessSegmentTree& heap = heaps_[placement.heap];
+void MemoryUsers::record(const MemoryPlacement& placement, AccessSet touches) {
+    if (!shares_memory(placement)) return;
+    SegmentTree& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
     for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
@@ -53,13 +51,12 @@ void LastUsersOfSharedMemory::record_last_accesses_to_memory(const MemoryPlaceme
     for (std::size_t node = (end - 1) / 2; node > 0; node /= 2) heap.below[node] |= touches;
 }
 
-AccessStateSet
-LastUsersOfSharedMemory::unfinished_accesses_in_memory(const MemoryPlacement& placement) const {
-    if (!is_in_shared_memory(placement)) return 0;
-    const HeapAccessSegmentTree& heap = heaps_[placement.heap];
+AccessSet MemoryUsers::unfinished_accesses(const MemoryPlacement& placement) const {
+    if (!shares_memory(placement)) return 0;
+    const SegmentTree& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
-    AccessStateSet touches = 0;
+    AccessSet touches = 0;
     for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
         if (a % 2 == 1) touches |= heap.below[a++];
         if (b % 2 == 1) touches |= heap.below[--b];

@@ -19,25 +19,24 @@ struct RetainedResources {
 class PersistentResources {
 public:
     /// `all`: where they are; must outlive this object.
-    PersistentResources(gpu::Device& device, RetainedResources& all)
-        : image_device_(device), all_(all) {}
+    PersistentResources(gpu::Device& device, RetainedResources& all) : device_(device), all_(all) {}
 
     /// Called before an image or a buffer is destroyed that frames in flight and planned graphs may
     /// use. The other pointer is null.
     using ReplaceHandler = std::function<void(const PersistentImage*, const PersistentBuffer*)>;
     /// Finds or makes the images and buffers that outlive the planned graph's frames. One whose
     /// description or lifetime differs is replaced, after a call of `release`.
-    void find_or_create(CompiledRenderGraph& shape, const ReplaceHandler& release);
+    void find_or_create(CompiledGraph& shape, const ReplaceHandler& release);
     /// Stores the content hashes that the submitted frame sets.
-    void store_content_hashes(const Graph& graph, const CompiledRenderGraph& shape);
+    void store_hashes(const Graph& graph, const CompiledGraph& shape);
     /// Swaps the two copies of each image and buffer that has a `previous`: the frame just
     /// submitted becomes the last frame.
-    void swap_previous_copies(const CompiledRenderGraph& shape);
+    void swap_copies(const CompiledGraph& shape);
     /// Drops all of them. Must not be called while frames are in flight.
     void release_all() { all_ = {}; }
     GraphHistory make_history() const;
     /// Returns the bytes of device memory that are allocated.
-    std::uint64_t allocated_device_bytes() const;
+    std::uint64_t allocated_bytes() const;
 
 private:
     void create_image(const ImageDesc& desc, PersistentImage& kept);
@@ -45,7 +44,7 @@ private:
                                     const ReplaceHandler& release);
     PersistentBuffer& find_or_create(const BufferDesc& desc, const ReplaceHandler& release);
 
-    gpu::Device& image_device_;
+    gpu::Device& device_;
     RetainedResources& all_;
 };
 

@@ -2,11 +2,11 @@
 
 namespace catoptric::graph {
 
-VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
+VkImageAspectFlags image_aspect(TexelFormat format) {
     return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-VkImageCreateInfo make_image_create_info(const ImageDesc& desc) {
+VkImageCreateInfo image_create_info(const ImageDesc& desc) {
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = desc.cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
@@ -28,7 +28,7 @@ VkImageCreateInfo make_image_create_info(const ImageDesc& desc) {
 }
 
 PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc) {
-    const VkImageCreateInfo create = make_image_create_info(desc);
+    const VkImageCreateInfo create = image_create_info(desc);
     VkImage image = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateImage(device.handle(), &create, nullptr, &image),
                   "create image '" + desc.name + "'");
@@ -40,27 +40,27 @@ PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& de
     return physical;
 }
 
-PhysicalImage wrap_external_image(const ImageDesc& desc, VkImage image) {
+PhysicalImage wrap_image(const ImageDesc& desc, VkImage image) {
     PhysicalImage physical;
     physical.desc = desc;
     physical.image = image;
     return physical;
 }
 
-VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& part) {
+VkBufferImageCopy copy_region(const ImageDesc& desc, const ImageHandle& part) {
     VkBufferImageCopy region{};
-    region.imageSubresource = {image_aspect_of_format(desc.format), part.first_mip,
-                               part.first_layer, part.layer_count};
-    region.imageExtent = {size_at_mip(desc.width, part.first_mip),
-                          size_at_mip(desc.height, part.first_mip), 1};
+    region.imageSubresource = {image_aspect(desc.format), part.first_mip, part.first_layer,
+                               part.layer_count};
+    region.imageExtent = {mip_size(desc.width, part.first_mip),
+                          mip_size(desc.height, part.first_mip), 1};
     return region;
 }
 
-VkImageView PhysicalImage::find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
-                                               const ImageHandle& part) {
+VkImageView PhysicalImage::view(const gpu::Device& device, gpu::ImageViewType shape,
+                                const ImageHandle& part) {
     using gpu::ImageViewType;
     const std::uint32_t layer_count = part.layer_count;
-    const ImageViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
+    const ViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
     if (const auto found = views_.find(key); found != views_.end()) return found->second;
     const auto wants = [&](bool ok, const char* what) {
         check(ok, Failure::internal, "image '", desc.name, "' has ", layer_count,
@@ -81,7 +81,7 @@ VkImageView PhysicalImage::find_or_create_view(const gpu::Device& device, gpu::I
     }
     create.image = image;
     create.format = gpu::to_vk_format(desc.format);
-    create.subresourceRange = {image_aspect_of_format(desc.format), part.first_mip, part.mip_count,
+    create.subresourceRange = {image_aspect(desc.format), part.first_mip, part.mip_count,
                                part.first_layer, layer_count};
     VkImageView handle = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle),

@@ -16,23 +16,22 @@ struct PhysicalImage {
     VkImage image = VK_NULL_HANDLE;
 
     /// Returns the view of the part's layers and mips. Each view is made once.
-    VkImageView find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
-                                    const ImageHandle& part);
+    VkImageView view(const gpu::Device& device, gpu::ImageViewType shape, const ImageHandle& part);
 
 private:
-    using ImageViewKey =
+    using ViewKey =
         std::tuple<gpu::ImageViewType, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-    std::map<ImageViewKey, gpu::UniqueImageView> views_;
+    std::map<ViewKey, gpu::UniqueImageView> views_;
 };
 
 /// Returns the create info of an image of the graph, with every usage that its format allows.
-VkImageCreateInfo make_image_create_info(const ImageDesc& desc);
+VkImageCreateInfo image_create_info(const ImageDesc& desc);
 PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc);
 /// Wraps an image that is owned elsewhere, to be imported into graphs. The image must outlive the
 /// result, which holds its views.
-PhysicalImage wrap_external_image(const ImageDesc& desc, VkImage image);
-VkImageAspectFlags image_aspect_of_format(TexelFormat format);
+PhysicalImage wrap_image(const ImageDesc& desc, VkImage image);
+VkImageAspectFlags image_aspect(TexelFormat format);
 /// Returns the region that copies the part's layers and first mip from or to the start of a buffer.
-VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& part);
+VkBufferImageCopy copy_region(const ImageDesc& desc, const ImageHandle& part);
 
 } // namespace catoptric::graph

@@ -13,16 +13,15 @@ namespace catoptric::graph {
 namespace {
 
 void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
-    const std::vector<PassCullingDecision> fates = graph::decide_which_passes_are_culled(graph,
-                                                                                         all);
+    const std::vector<CullDecision> fates = graph::cull_decisions(graph, all);
     plan.passes.reserve(fates.size());
     for (std::uint32_t p = 0; p < fates.size(); ++p) {
         if (!fates[p].survives) {
-            plan.culled.push_back({p, describe_cull_reason(graph, all.accesses_of_pass(p))});
+            plan.culled.push_back({p, cull_reason(graph, all.of_pass(p))});
             continue;
         }
         plan.passes.push_back({p, {}, fates[p].unread});
-        plan.scene_passes += graph.list_passes()[p].tag == PassPurpose::scene ? 1 : 0;
+        plan.scene_passes += graph.passes()[p].tag == PassPurpose::scene ? 1 : 0;
     }
 }
 
@@ -32,7 +31,7 @@ bool outlives_frame(Lifetime lifetime) {
 
 /// Returns the bytes of the largest allocation. Each resource that outlives the frame has its own
 /// allocation. A heap has one for all other outputs, and one for the rest.
-std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan) {
+std::uint64_t largest_allocation(const Graph& graph, const GraphPlan& plan) {
     std::uint64_t largest = 0;
     std::vector<std::uint64_t> begin(plan.heap_bytes), end(plan.heap_bytes.size()); // of outputs
     std::vector<std::uint64_t> alignment(plan.heap_bytes.size(), 1);
@@ -64,7 +63,7 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
 }
 
 void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphLimits& limits) {
-    const std::uint64_t piece = largest_allocation_bytes(graph, plan);
+    const std::uint64_t piece = largest_allocation(graph, plan);
     const bool too_much = plan.bytes > limits.max_memory;
     if (!too_much && piece <= limits.max_allocation) return;
     std::uint64_t bytes = 0;
@@ -75,9 +74,9 @@ void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphL
         name = candidate;
     };
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        look(plan.images[i], graph.list_images()[i].name);
+        look(plan.images[i], graph.images()[i].name);
     for (std::size_t b = 0; b < plan.buffers.size(); ++b)
-        look(plan.buffers[b], graph.list_buffers()[b].name);
+        look(plan.buffers[b], graph.buffers()[b].name);
     fail(Failure::exhausted, "the frame wants ", too_much ? plan.bytes : piece, " bytes of memory",
          too_much ? "" : " in one piece", ", device allows ",
          too_much ? "max_memory = " : "max_allocation = ",
@@ -87,7 +86,7 @@ void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphL
 
 } // namespace
 
-MemoryRequirementQueries make_default_requirement_queries() {
+MemorySizer default_sizer() {
     constexpr std::uint64_t kDefaultMemoryAlignment = 256;
     const auto padded = [](std::uint64_t bytes) {
         return MemoryRequirements{.bytes = (bytes + kDefaultMemoryAlignment - 1) /
@@ -99,21 +98,19 @@ MemoryRequirementQueries make_default_requirement_queries() {
                 [=](const ImageDesc& desc) {
                     std::uint64_t texels = 0;
                     for (std::uint32_t m = 0; m < desc.mips; ++m)
-                        texels += std::uint64_t{size_at_mip(desc.width, m)} *
-                                  size_at_mip(desc.height, m);
+                        texels += std::uint64_t{mip_size(desc.width, m)} * mip_size(desc.height, m);
                     return padded(texels * desc.layers * bytes_per_texel(desc.format));
                 },
             .buffer = [=](const BufferDesc& desc) { return padded(desc.bytes); }};
 }
 
-GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits,
-                     const MemoryRequirementQueries& sizer) {
+GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits, const MemorySizer& sizer) {
     const GraphAccesses all(graph);
     validate_graph(graph, all, limits);
     GraphPlan plan;
     cull_passes(graph, all, plan);
-    find_resource_lifetimes(graph, all, plan);
-    place_resources_in_memory(graph, sizer, plan);
+    find_lifetimes(graph, all, plan);
+    place_resources(graph, sizer, plan);
     check_memory_limits(graph, plan, limits);
     plan_barriers(graph, all, plan);
     return plan;

@@ -23,13 +23,13 @@ struct MemoryRequirements {
     std::uint64_t alignment = 1;
     std::uint32_t heap = 0;
 };
-struct MemoryRequirementQueries {
+struct MemorySizer {
     std::function<MemoryRequirements(const ImageDesc&)> image;
     std::function<MemoryRequirements(const BufferDesc&)> buffer;
 };
 /// Returns sizes without a device, for tests and for `graph`: texels times bytes, 256-byte aligned,
 /// one heap.
-MemoryRequirementQueries make_default_requirement_queries();
+MemorySizer default_sizer();
 
 /// The last or the next access to a resource. With `nothing` the contents of the resource do not
 /// matter.
@@ -61,7 +61,7 @@ struct PlannedBarrier {
 };
 
 struct PlannedPass {
-    std::uint32_t pass = 0;               ///< index of the pass in Graph::list_passes()
+    std::uint32_t pass = 0;               ///< index of the pass in Graph::passes()
     std::vector<PlannedBarrier> barriers; ///< executed before the pass
     /// Bit i is set if the result in attachment Pass::images[i] is never read and need not be
     /// stored.
@@ -100,8 +100,8 @@ struct GraphPlan {
     /// of the next frame, where `previous` is sampled without a barrier.
     std::vector<PlannedBarrier> last;
     std::vector<CulledPass> culled;
-    std::vector<MemoryPlacement> images;   ///< one per Graph::list_images()
-    std::vector<MemoryPlacement> buffers;  ///< one per Graph::list_buffers()
+    std::vector<MemoryPlacement> images;   ///< one per Graph::images()
+    std::vector<MemoryPlacement> buffers;  ///< one per Graph::buffers()
     std::vector<std::uint64_t> heap_bytes; ///< size of each heap
     std::uint64_t bytes = 0;               ///< sum over all heaps
     std::uint64_t bytes_unshared = 0;      ///< the sum if no memory were shared
@@ -112,7 +112,6 @@ struct GraphPlan {
 /// declaration. Throws `internal` for an invalid graph, naming pass, image and both uses. Throws
 /// `exhausted` over a limit, naming the limit, the required and the allowed number. Costs O(n log
 /// n) in the uses of all passes, however many layers they have.
-GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits,
-                     const MemoryRequirementQueries& sizer);
+GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits, const MemorySizer& sizer);
 
 } // namespace catoptric::graph

@@ -6,23 +6,23 @@ namespace catoptric::graph {
 
 namespace {
 
-std::uint64_t count_image_part_bytes(const ImageDesc& desc, const ImageHandle& part) {
+std::uint64_t part_bytes(const ImageDesc& desc, const ImageHandle& part) {
     std::uint64_t texels = 0;
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
-        texels += std::uint64_t{size_at_mip(desc.width, m)} * size_at_mip(desc.height, m);
+        texels += std::uint64_t{mip_size(desc.width, m)} * mip_size(desc.height, m);
     return texels * part.layer_count * bytes_per_texel(desc.format);
 }
 
 /// Records the copy of a part of an image to a buffer. The part is in layout `is` before and after.
-void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source,
-                           const ImageHandle& part, VkImageLayout is, VkBuffer target) {
+void record_copy(VkCommandBuffer commands, const PhysicalImage& source, const ImageHandle& part,
+                 VkImageLayout is, VkBuffer target) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
-    barrier.oldLayout = is, barrier.newLayout = image_layout_of_use(ResourceUse::copy_from);
+    barrier.oldLayout = is, barrier.newLayout = image_layout(ResourceUse::copy_from);
     barrier.image = source.image;
-    barrier.subresourceRange = {image_aspect_of_format(source.desc.format), part.first_mip,
-                                part.mip_count, part.first_layer, part.layer_count};
+    barrier.subresourceRange = {image_aspect(source.desc.format), part.first_mip, part.mip_count,
+                                part.first_layer, part.layer_count};
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &barrier;
@@ -30,11 +30,11 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
     if (moves) vkCmdPipelineBarrier2(commands, &dependency);
     std::uint64_t offset = 0;
     for (std::uint32_t m = 0; m < part.mip_count; ++m) {
-        VkBufferImageCopy region = make_copy_region(source.desc, part.select_image_mip(m));
+        VkBufferImageCopy region = copy_region(source.desc, part.mip(m));
         region.bufferOffset = offset;
-        offset += count_image_part_bytes(source.desc, part.select_image_mip(m));
-        vkCmdCopyImageToBuffer(commands, source.image, image_layout_of_use(ResourceUse::copy_from),
-                               target, 1, &region);
+        offset += part_bytes(source.desc, part.mip(m));
+        vkCmdCopyImageToBuffer(commands, source.image, image_layout(ResourceUse::copy_from), target,
+                               1, &region);
     }
     std::swap(barrier.oldLayout, barrier.newLayout);
     if (moves) vkCmdPipelineBarrier2(commands, &dependency);
@@ -42,12 +42,11 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
 
 } // namespace
 
-std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket ticket,
-                                                       ImageHandle image) {
-    wait_for_frame(ticket);
-    const FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
-    CompiledRenderGraph& shape = *slot.shape;
-    const ImageDesc& desc = shape.outline.list_images()[image.id];
+std::vector<std::byte> GraphRunner::read_back(FrameTicket ticket, ImageHandle image) {
+    wait_for(ticket);
+    const FrameSlot& slot = slot_of(ticket);
+    CompiledGraph& shape = *slot.shape;
+    const ImageDesc& desc = shape.outline.images()[image.id];
     const bool kept = shape.outlives_frames(image.id);
     check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
           ticket.frame, " is read after frame ", frame_,
@@ -57,29 +56,24 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
     // A frame with `stays` does not advance the history, so its images do not count as the last
     // frame's yet.
     image.previous = kept && !slot.stays;
-    const PhysicalImage& source = shape.physical_image_of_handle(image,
-                                                                 slot_index_of_frame(ticket.frame));
-    const std::uint64_t bytes = count_image_part_bytes(desc, image);
-    gpu::Buffer target(runner_device_, "read-back of " + desc.name, bytes,
-                       gpu::BufferUsage::read_back);
-    runner_device_.run_commands(
-        "read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
-            record_copy_to_buffer(
-                commands, source, image,
-                image_layout_of_use(kept ? ResourceUse::sampled : ResourceUse::copy_from),
-                target.handle());
-        });
+    const PhysicalImage& source = shape.physical_image(image, slot_index_of(ticket.frame));
+    const std::uint64_t bytes = part_bytes(desc, image);
+    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUsage::read_back);
+    device_.run_commands("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+        record_copy(commands, source, image,
+                    image_layout(kept ? ResourceUse::sampled : ResourceUse::copy_from),
+                    target.handle());
+    });
     std::vector<std::byte> data = target.read();
     data.resize(bytes);
     return data;
 }
 
-std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket ticket,
-                                                       BufferHandle buffer) {
-    wait_for_frame(ticket);
-    const FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
-    const CompiledRenderGraph& shape = *slot.shape;
-    const auto& [name, bytes] = shape.outline.list_buffers()[buffer.id];
+std::vector<std::byte> GraphRunner::read_back(FrameTicket ticket, BufferHandle buffer) {
+    wait_for(ticket);
+    const FrameSlot& slot = slot_of(ticket);
+    const CompiledGraph& shape = *slot.shape;
+    const auto& [name, bytes] = shape.outline.buffers()[buffer.id];
     const bool kept = shape.outlives_frames(buffer);
     check(!kept || ticket.frame == frame_, Failure::internal, "buffer '", name, "' of frame ",
           ticket.frame, " is read after frame ", frame_,
@@ -87,9 +81,9 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
     check(!kept || shape.kept_buffers[buffer.id], Failure::internal, "buffer '", name,
           "' is read after it was released");
     buffer.previous = kept && !slot.stays; // as for images
-    const VkBuffer source = shape.vulkan_buffer(buffer, slot_index_of_frame(ticket.frame));
-    gpu::Buffer target(runner_device_, "read-back of " + name, bytes, gpu::BufferUsage::read_back);
-    runner_device_.run_commands("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
+    const VkBuffer source = shape.vulkan_buffer(buffer, slot_index_of(ticket.frame));
+    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUsage::read_back);
+    device_.run_commands("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, source, target.handle(), 1, &region);
     });
@@ -101,18 +95,18 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
 std::vector<std::byte> GraphRunner::read_history() {
     std::vector<std::byte> history;
     if (frame_ == 0) return history;
-    const CompiledRenderGraph& shape = *resources_of_submitted_frame({frame_}).shape;
-    for (std::uint32_t id = 0; id < shape.outline.list_images().size(); ++id) {
+    const CompiledGraph& shape = *slot_of({frame_}).shape;
+    for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
         if (!shape.outlives_frames(id) || shape.outline.image_lifetime(id) != Lifetime::previous)
             continue;
-        const ImageDesc& desc = shape.outline.list_images()[id];
-        const std::vector<std::byte> image = read_back_resource(
+        const ImageDesc& desc = shape.outline.images()[id];
+        const std::vector<std::byte> image = read_back(
             ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
         history.insert(history.end(), image.begin(), image.end());
     }
-    for (std::uint32_t id = 0; id < shape.outline.list_buffers().size(); ++id) {
+    for (std::uint32_t id = 0; id < shape.outline.buffers().size(); ++id) {
         if (!shape.outlives_frames(BufferHandle{id})) continue;
-        const std::vector<std::byte> buffer = read_back_resource(BufferHandle{id});
+        const std::vector<std::byte> buffer = read_back(BufferHandle{id});
         history.insert(history.end(), buffer.begin(), buffer.end());
     }
     return history;

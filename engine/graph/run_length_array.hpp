@@ -14,85 +14,80 @@ template <typename T>
 class RunLengthArray {
 public:
     explicit RunLengthArray(std::uint32_t size = 0, const T& value = {})
-        : cell_count_(size), initial_(value) {}
+        : size_(size), initial_(value) {}
 
     /// Calls visit(begin, end, value) for each run in cells [first, end), from the lowest.
     template <typename Visit>
     void for_each_run(std::uint32_t first, std::uint32_t end, const Visit& visit) const {
         if (first >= end) return;
         if (runs_.empty()) return visit(first, end, initial_);
-        for (std::size_t i = find_run_of_cell(first); i < runs_.size() && runs_[i].begin < end; ++i)
-            visit(std::max(first, runs_[i].begin), std::min(end, end_cell_of_run(i)),
-                  runs_[i].value);
+        for (std::size_t i = find_run(first); i < runs_.size() && runs_[i].begin < end; ++i)
+            visit(std::max(first, runs_[i].begin), std::min(end, run_end(i)), runs_[i].value);
     }
     template <typename Visit>
     void for_each_run(const Visit& visit) const {
-        for_each_run(0, cell_count_, visit);
+        for_each_run(0, size_, visit);
     }
 
     /// Calls visit(begin, end, value) for each run in cells [first, end), with values that it may
     /// change.
     template <typename Visit>
-    void modify_each_equal_run(std::uint32_t first, std::uint32_t end, const Visit& visit) {
+    void modify_runs(std::uint32_t first, std::uint32_t end, const Visit& visit) {
         if (first >= end) return;
         if (runs_.empty()) runs_.push_back({0, initial_});
-        const std::size_t from = split_run_at_cell(first), to = split_run_at_cell(end);
-        for (std::size_t i = from; i < to; ++i)
-            visit(runs_[i].begin, end_cell_of_run(i), runs_[i].value);
-        merge_equal_runs(from == 0 ? 0 : from - 1, std::min(to + 1, runs_.size()));
+        const std::size_t from = split_at(first), to = split_at(end);
+        for (std::size_t i = from; i < to; ++i) visit(runs_[i].begin, run_end(i), runs_[i].value);
+        merge_runs(from == 0 ? 0 : from - 1, std::min(to + 1, runs_.size()));
     }
-    void fill_cell_range(std::uint32_t first, std::uint32_t end, const T& value) {
-        modify_each_equal_run(first, end,
-                              [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    void fill(std::uint32_t first, std::uint32_t end, const T& value) {
+        modify_runs(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
 
     /// Returns whether some cell of [first, end) has the value.
-    bool has_any_equal_value(std::uint32_t first, std::uint32_t end, const T& value) const {
+    bool has_any(std::uint32_t first, std::uint32_t end, const T& value) const {
         bool found = false;
         for_each_run(first, end,
                      [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
         return found;
     }
 
-    std::uint32_t size() const { return cell_count_; }
+    std::uint32_t size() const { return size_; }
 
 private:
-    struct RunOfEqualValues {
+    struct ValueRun {
         std::uint32_t begin;
         T value;
     };
 
-    std::uint32_t end_cell_of_run(std::size_t run) const {
-        return run + 1 < runs_.size() ? runs_[run + 1].begin : cell_count_;
+    std::uint32_t run_end(std::size_t run) const {
+        return run + 1 < runs_.size() ? runs_[run + 1].begin : size_;
     }
     /// Returns the index of the run that holds the cell.
-    std::size_t find_run_of_cell(std::uint32_t cell) const {
-        const auto after = std::ranges::upper_bound(runs_, cell, {}, &RunOfEqualValues::begin);
+    std::size_t find_run(std::uint32_t cell) const {
+        const auto after = std::ranges::upper_bound(runs_, cell, {}, &ValueRun::begin);
         return static_cast<std::size_t>(after - runs_.begin()) - 1;
     }
     /// Splits a run so that one begins at the cell, and returns its index.
-    std::size_t split_run_at_cell(std::uint32_t cell) {
-        if (cell >= cell_count_) return runs_.size();
-        const std::size_t run = find_run_of_cell(cell);
+    std::size_t split_at(std::uint32_t cell) {
+        if (cell >= size_) return runs_.size();
+        const std::size_t run = find_run(cell);
         if (runs_[run].begin == cell) return run;
-        const RunOfEqualValues second{cell, runs_[run].value};
+        const ValueRun second{cell, runs_[run].value};
         runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(run) + 1, second);
         return run + 1;
     }
-    void merge_equal_runs(std::size_t from, std::size_t to) {
+    void merge_runs(std::size_t from, std::size_t to) {
         const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(from);
         const auto last = runs_.begin() + static_cast<std::ptrdiff_t>(to);
-        runs_.erase(std::unique(first, last,
-                                [](const RunOfEqualValues& a, const RunOfEqualValues& b) {
-                                    return a.value == b.value;
-                                }),
-                    last);
+        runs_.erase(
+            std::unique(first, last,
+                        [](const ValueRun& a, const ValueRun& b) { return a.value == b.value; }),
+            last);
     }
 
-    std::uint32_t cell_count_;
+    std::uint32_t size_;
     T initial_;
-    std::vector<RunOfEqualValues>
-        runs_; // the first begins at 0; empty: all cells have the initial value
+    std::vector<ValueRun> runs_; // the first begins at 0; empty: all cells have the initial value
 };
 
 } // namespace catoptric::graph

@@ -9,7 +9,7 @@ constexpr VkPipelineStageFlags2 kDepthTestStages = VK_PIPELINE_STAGE_2_EARLY_FRA
 
 } // namespace
 
-gpu::AccessScope sync_scope_of_access(const AccessState& access) {
+gpu::AccessScope sync_scope(const AccessState& access) {
     if (access.nothing) return {};
     const VkPipelineStageFlags2 shaders = access.raster
                                               ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
@@ -39,7 +39,7 @@ gpu::AccessScope sync_scope_of_access(const AccessState& access) {
     return {};
 }
 
-VkImageLayout image_layout_of_use(ResourceUse use) {
+VkImageLayout image_layout(ResourceUse use) {
     switch (use) {
     case ResourceUse::sampled: return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     case ResourceUse::storage_read:

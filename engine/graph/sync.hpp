@@ -6,9 +6,9 @@
 namespace catoptric::graph {
 
 /// Returns the pipeline stages and kinds of memory access of an access to an image or buffer.
-gpu::AccessScope sync_scope_of_access(const AccessState& access);
+gpu::AccessScope sync_scope(const AccessState& access);
 
 /// Returns the layout that an image has during this use.
-VkImageLayout image_layout_of_use(ResourceUse use);
+VkImageLayout image_layout(ResourceUse use);
 
 } // namespace catoptric::graph

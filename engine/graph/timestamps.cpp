@@ -2,8 +2,8 @@
 
 namespace catoptric::graph {
 
-std::vector<double> timestamps_to_milliseconds(std::span<const std::uint64_t> stamps,
-                                               std::uint32_t valid_bits, double tick_ns) {
+std::vector<double> to_milliseconds(std::span<const std::uint64_t> stamps, std::uint32_t valid_bits,
+                                    double tick_ns) {
     // Differences modulo the number of valid bits are right even if the counter wraps once.
     const std::uint64_t mask = valid_bits >= 64 ? ~std::uint64_t{0}
                                                 : (std::uint64_t{1} << valid_bits) - 1;

@@ -6,7 +6,7 @@
 namespace catoptric::graph {
 
 /// The failure of a graph that its caller declared wrongly.
-constexpr auto kInvalidGraphFailure = Failure::internal;
+constexpr auto kInvalidGraph = Failure::internal;
 
 /// Throws if a graph is contradictory (`Failure::internal`) or exceeds a limit
 /// (`Failure::exhausted`). Checks every declared pass, also those that will be culled.

@@ -9,7 +9,7 @@ namespace catoptric::graph {
 
 namespace {
 
-bool is_reading_use(ResourceUse use, bool is_buffer) {
+bool can_read(ResourceUse use, bool is_buffer) {
     switch (use) {
     case ResourceUse::sampled:
     case ResourceUse::storage_read:
@@ -20,7 +20,7 @@ bool is_reading_use(ResourceUse use, bool is_buffer) {
     }
 }
 
-bool is_writing_use(ResourceUse use, bool is_buffer) {
+bool can_write(ResourceUse use, bool is_buffer) {
     switch (use) {
     case ResourceUse::storage_write:
     case ResourceUse::storage:
@@ -31,74 +31,69 @@ bool is_writing_use(ResourceUse use, bool is_buffer) {
     }
 }
 
-void check_resource_handle(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
-    const std::size_t count = a.is_buffer ? graph.list_buffers().size()
-                                          : graph.list_images().size();
-    check(a.id < count, kInvalidGraphFailure, "pass '", pass.name, "' names ",
+void check_handle(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
+    const std::size_t count = a.is_buffer ? graph.buffers().size() : graph.images().size();
+    check(a.id < count, kInvalidGraph, "pass '", pass.name, "' names ",
           a.is_buffer ? "buffer" : "image", " number ", a.id, ", but the graph has ", count);
     if (a.is_buffer) return;
-    const auto& [layers, mips] = std::pair(graph.list_images()[a.id].layers,
-                                           graph.list_images()[a.id].mips);
+    const auto& [layers, mips] = std::pair(graph.images()[a.id].layers, graph.images()[a.id].mips);
     if (a.layer_count == 0)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' names no layer of ",
-             quote_resource_name(graph, a), " as ", resource_use_name(a.use));
-    if (a.end_layer_of_access() > layers)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), ", but the image has layers [0,", layers, ")");
-    if (a.mip_count == 0 || a.end_mip_of_access() > mips)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), ", but the image has mips [0,", mips, ")");
+        fail(kInvalidGraph, "pass '", pass.name, "' names no layer of ", quoted_name(graph, a),
+             " as ", use_name(a.use));
+    if (a.end_layer() > layers)
+        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
+             use_name(a.use), ", but the image has layers [0,", layers, ")");
+    if (a.mip_count == 0 || a.end_mip() > mips)
+        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
+             use_name(a.use), ", but the image has mips [0,", mips, ")");
     if (a.mip_count > 1 && a.use != ResourceUse::sampled)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), ": one mip at a time");
+        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
+             use_name(a.use), ": one mip at a time");
 }
 
 void check_attachment_format(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
-    const TexelFormat format = graph.list_images()[a.id].format;
+    const TexelFormat format = graph.images()[a.id].format;
     if (is_depth(format) == (a.use == ResourceUse::depth)) return;
-    fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
-         resource_use_name(a.use), ", but its format ", format_name(format), " is a ",
+    fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
+         use_name(a.use), ", but its format ", format_name(format), " is a ",
          is_depth(format) ? "depth" : "colour", " format");
 }
 
 /// Error texts are built only on failure, because most passes are valid.
-void check_use_is_allowed(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
+void check_use(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     if (a.write && a.previous)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), ": last frame's contents are only read");
-    if (!(a.write ? is_writing_use(a.use, a.is_buffer) : is_reading_use(a.use, a.is_buffer)))
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' ", a.write ? "writes " : "reads ",
-             describe_access(graph, a), " as ", resource_use_name(a.use),
-             ", which is not a way to ", a.write ? "write " : "read ",
-             a.is_buffer ? "a buffer" : "an image");
+        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe_access(graph, a), " as ",
+             use_name(a.use), ": last frame's contents are only read");
+    if (!(a.write ? can_write(a.use, a.is_buffer) : can_read(a.use, a.is_buffer)))
+        fail(kInvalidGraph, "pass '", pass.name, "' ", a.write ? "writes " : "reads ",
+             describe_access(graph, a), " as ", use_name(a.use), ", which is not a way to ",
+             a.write ? "write " : "read ", a.is_buffer ? "a buffer" : "an image");
     if (a.clears && !is_attachment(a.use))
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' clears ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), ", but only attachments are cleared");
+        fail(kInvalidGraph, "pass '", pass.name, "' clears ", describe_access(graph, a), " as ",
+             use_name(a.use), ", but only attachments are cleared");
     if (a.clears && a.needs && !pass.area)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' updates ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), ", but has no area to do it in");
-    if (pass.is_raster_pass() && (a.use == ResourceUse::copy_from || a.use == ResourceUse::copy_to))
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' has attachments and uses ",
-             describe_access(graph, a), " as ", resource_use_name(a.use),
+        fail(kInvalidGraph, "pass '", pass.name, "' updates ", describe_access(graph, a), " as ",
+             use_name(a.use), ", but has no area to do it in");
+    if (pass.is_raster() && (a.use == ResourceUse::copy_from || a.use == ResourceUse::copy_to))
+        fail(kInvalidGraph, "pass '", pass.name, "' has attachments and uses ",
+             describe_access(graph, a), " as ", use_name(a.use),
              ": copies need a pass of their own");
     if (!a.is_buffer && is_attachment(a.use)) check_attachment_format(graph, pass, a);
 }
 
 void check_equal_sizes(const Graph& graph, const Pass& pass, const ResourceAccess& a,
                        const ResourceAccess& b) {
-    const ImageDesc& x = graph.list_images()[a.id];
-    const ImageDesc& y = graph.list_images()[b.id];
+    const ImageDesc& x = graph.images()[a.id];
+    const ImageDesc& y = graph.images()[b.id];
     const auto size = [](const ImageDesc& desc, const ResourceAccess& at) {
-        return std::pair(size_at_mip(desc.width, at.first_mip),
-                         size_at_mip(desc.height, at.first_mip));
+        return std::pair(mip_size(desc.width, at.first_mip), mip_size(desc.height, at.first_mip));
     };
     const auto [width, height] = size(x, a);
     const auto [width2, height2] = size(y, b);
     if (width == width2 && height == height2) return;
-    fail(kInvalidGraphFailure, "pass '", pass.name, "' attaches ", describe_access(graph, a),
-         " as ", resource_use_name(a.use), " (", width, "x", height, ") and ",
-         describe_access(graph, b), " as ", resource_use_name(b.use), " (", width2, "x", height2,
-         "): attachments have one size");
+    fail(kInvalidGraph, "pass '", pass.name, "' attaches ", describe_access(graph, a), " as ",
+         use_name(a.use), " (", width, "x", height, ") and ", describe_access(graph, b), " as ",
+         use_name(b.use), " (", width2, "x", height2, "): attachments have one size");
 }
 
 void check_attachments(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all) {
@@ -107,11 +102,11 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Res
     for (const ResourceAccess& a : all) {
         if (a.is_buffer || !is_attachment(a.use)) continue;
         if (a.layer_count != pass.layer_count)
-            fail(kInvalidGraphFailure, "pass '", pass.name, "' renders ", pass.layer_count,
-                 " layer(s), but attaches ", describe_access(graph, a), " as ",
-                 resource_use_name(a.use), ", which are ", a.layer_count);
+            fail(kInvalidGraph, "pass '", pass.name, "' renders ", pass.layer_count,
+                 " layer(s), but attaches ", describe_access(graph, a), " as ", use_name(a.use),
+                 ", which are ", a.layer_count);
         if (a.use == ResourceUse::depth && depth)
-            fail(kInvalidGraphFailure, "pass '", pass.name, "' attaches both ",
+            fail(kInvalidGraph, "pass '", pass.name, "' attaches both ",
                  describe_access(graph, *depth), " and ", describe_access(graph, a), " as depth");
         if (a.use == ResourceUse::depth) depth = &a;
         if (!first) first = &a;
@@ -120,38 +115,37 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Res
 }
 
 /// Throws if two uses of the same contents in one pass are in conflict.
-void check_two_accesses_of_pass(const Graph& graph, const Pass& pass, const ResourceAccess& a,
-                                const ResourceAccess& b) {
+void check_pair(const Graph& graph, const Pass& pass, const ResourceAccess& a,
+                const ResourceAccess& b) {
     const std::uint64_t first = std::max(a.first_layer, b.first_layer);
-    const std::uint64_t end = std::min(a.end_layer_of_access(), b.end_layer_of_access());
+    const std::uint64_t end = std::min(a.end_layer(), b.end_layer());
     const std::uint64_t mip = std::max(a.first_mip, b.first_mip);
-    if (first >= end || mip >= std::min(a.end_mip_of_access(), b.end_mip_of_access())) return;
+    if (first >= end || mip >= std::min(a.end_mip(), b.end_mip())) return;
     const auto where = [&]() -> std::string {
         if (a.is_buffer) return "";
-        const ImageDesc& desc = graph.list_images()[a.id];
+        const ImageDesc& desc = graph.images()[a.id];
         const auto base = static_cast<std::uint32_t>(mip * desc.layers);
-        return ", in " + format_layer_range(desc, base + static_cast<std::uint32_t>(first),
-                                            base + static_cast<std::uint32_t>(end));
+        return ", in " + format_layers(desc, base + static_cast<std::uint32_t>(first),
+                                       base + static_cast<std::uint32_t>(end));
     };
     if (a.write && b.write)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), " and ", describe_access(graph, b), " as ",
-             resource_use_name(b.use), ": written twice", where());
+        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe_access(graph, a), " as ",
+             use_name(a.use), " and ", describe_access(graph, b), " as ", use_name(b.use),
+             ": written twice", where());
     const ResourceAccess& read = a.write ? b : a;
     const ResourceAccess& other = a.write ? a : b;
     if (other.write)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, read),
-             " as ", resource_use_name(read.use), " while it writes ",
-             describe_access(graph, other), " as ", resource_use_name(other.use), where());
+        fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe_access(graph, read), " as ",
+             use_name(read.use), " while it writes ", describe_access(graph, other), " as ",
+             use_name(other.use), where());
     if (!a.is_buffer && a.use != b.use)
-        fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a),
-             " as ", resource_use_name(a.use), " and ", describe_access(graph, b), " as ",
-             resource_use_name(b.use), ": one image cannot be in two layouts at once", where());
+        fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
+             use_name(a.use), " and ", describe_access(graph, b), " as ", use_name(b.use),
+             ": one image cannot be in two layouts at once", where());
 }
 
 /// Checks all pairs of uses of one resource.
-void check_all_access_pairs_of_pass(const Graph& graph, const Pass& pass,
-                                    std::span<const ResourceAccess> all) {
+void check_pairs(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all) {
     const auto key = [](const ResourceAccess* a) {
         // Pointers into the list of accesses sort in the order of declaration.
         return std::tuple(a->is_buffer, a->id, a->previous, a);
@@ -164,7 +158,7 @@ void check_all_access_pairs_of_pass(const Graph& graph, const Pass& pass,
         for (std::size_t j = i + 1; j < sorted.size(); ++j) {
             const ResourceAccess &a = *sorted[i], &b = *sorted[j];
             if (a.is_buffer != b.is_buffer || a.id != b.id || a.previous != b.previous) break;
-            check_two_accesses_of_pass(graph, pass, a, b);
+            check_pair(graph, pass, a, b);
         }
 }
 
@@ -172,20 +166,20 @@ void check_all_access_pairs_of_pass(const Graph& graph, const Pass& pass,
 
 void validate_pass(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all,
                    const GraphLimits& limits) {
-    check(static_cast<bool>(pass.body), kInvalidGraphFailure, "pass '", pass.name, "' has no body");
-    check(pass.layer_count > 0, kInvalidGraphFailure, "pass '", pass.name, "' renders 0 layers");
+    check(static_cast<bool>(pass.body), kInvalidGraph, "pass '", pass.name, "' has no body");
+    check(pass.layer_count > 0, kInvalidGraph, "pass '", pass.name, "' renders 0 layers");
     for (const ResourceAccess& a : all) {
-        check_resource_handle(graph, pass, a);
-        check_use_is_allowed(graph, pass, a);
+        check_handle(graph, pass, a);
+        check_use(graph, pass, a);
     }
-    check(std::ranges::any_of(all, &ResourceAccess::write), kInvalidGraphFailure, "pass '",
-          pass.name, "' writes nothing");
-    check_all_access_pairs_of_pass(graph, pass, all);
+    check(std::ranges::any_of(all, &ResourceAccess::write), kInvalidGraph, "pass '", pass.name,
+          "' writes nothing");
+    check_pairs(graph, pass, all);
     check_attachments(graph, pass, all);
     if (pass.layer_count > limits.max_framebuffer_layers)
         fail(Failure::exhausted, "pass '", pass.name, "' wants ", pass.layer_count,
              " framebuffer layers for ",
-             quote_resource_name(graph, *std::ranges::find_if(all, &ResourceAccess::write)),
+             quoted_name(graph, *std::ranges::find_if(all, &ResourceAccess::write)),
              ", device allows max_framebuffer_layers = ", limits.max_framebuffer_layers);
 }
 

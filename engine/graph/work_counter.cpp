@@ -7,21 +7,20 @@ namespace catoptric::graph {
 namespace {
 
 // The results of the pipeline-statistics query have the order of these bits.
-constexpr VkQueryPipelineStatisticFlags kPipelineStatisticFlags =
+constexpr VkQueryPipelineStatisticFlags kStatisticFlags =
     VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
-constexpr WorkKind kWorkKindsFromPipelineStatistics[] = {
-    WorkKind::vertices, WorkKind::primitives, WorkKind::fragments, WorkKind::invocations};
-constexpr std::size_t kPipelineStatisticCount = std::size(kWorkKindsFromPipelineStatistics);
+constexpr WorkKind kStatisticKinds[] = {WorkKind::vertices, WorkKind::primitives,
+                                        WorkKind::fragments, WorkKind::invocations};
+constexpr std::size_t kStatisticCount = std::size(kStatisticKinds);
 constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
                                               sizeof(std::uint32_t);
 
 } // namespace
 
-WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes)
-    : graph_device_(device) {
+WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes) : device_(device) {
     for (std::string& name : passes) passes_.push_back({std::move(name), {}});
     paused_.resize(passes_.size());
     const std::uint64_t alignment = device.limits().minStorageBufferOffsetAlignment;
@@ -32,7 +31,7 @@ WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes)
     VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
     create.queryCount = static_cast<std::uint32_t>(passes_.size());
-    create.pipelineStatistics = kPipelineStatisticFlags;
+    create.pipelineStatistics = kStatisticFlags;
     VkQueryPool pool = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateQueryPool(device.handle(), &create, nullptr, &pool),
                   "create pipeline statistics");
@@ -63,17 +62,17 @@ void WorkCounter::resume_pass(VkCommandBuffer commands) {
     if (!statistics_) return;
     const auto query = static_cast<std::uint32_t>(pass_);
     const std::vector<std::uint64_t> results = read_statistics(query, 1);
-    for (std::size_t k = 0; k < kPipelineStatisticCount; ++k) paused_[pass_][k] += results[k];
-    vkResetQueryPool(graph_device_.handle(), statistics_, query, 1);
+    for (std::size_t k = 0; k < kStatisticCount; ++k) paused_[pass_][k] += results[k];
+    vkResetQueryPool(device_.handle(), statistics_, query, 1);
     vkCmdBeginQuery(commands, statistics_, query, 0);
 }
 
 std::vector<std::uint64_t> WorkCounter::read_statistics(std::uint32_t first,
                                                         std::uint32_t count) const {
-    std::vector<std::uint64_t> results(kPipelineStatisticCount * count);
-    gpu::check_vk(vkGetQueryPoolResults(graph_device_.handle(), statistics_, first, count,
+    std::vector<std::uint64_t> results(kStatisticCount * count);
+    gpu::check_vk(vkGetQueryPoolResults(device_.handle(), statistics_, first, count,
                                         results.size() * sizeof results[0], results.data(),
-                                        kPipelineStatisticCount * sizeof results[0],
+                                        kStatisticCount * sizeof results[0],
                                         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
                   "read pipeline statistics");
     return results;
@@ -105,9 +104,8 @@ std::vector<PassWork> WorkCounter::read() {
         std::memcpy(words, bytes.data() + i * stride_, kShaderCounterBytes);
         for (std::size_t kind = 0; kind < shared::kShaderWorkKindCount; ++kind)
             counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];
-        for (std::size_t k = 0; statistics_ && k < kPipelineStatisticCount; ++k)
-            counts[kWorkKindsFromPipelineStatistics[k]] = paused_[i][k] +
-                                                          results[kPipelineStatisticCount * i + k];
+        for (std::size_t k = 0; statistics_ && k < kStatisticCount; ++k)
+            counts[kStatisticKinds[k]] = paused_[i][k] + results[kStatisticCount * i + k];
     }
     return passes_;
 }

@@ -36,7 +36,7 @@ public:
 private:
     std::vector<std::uint64_t> read_statistics(std::uint32_t first, std::uint32_t count) const;
 
-    gpu::Device& graph_device_;
+    gpu::Device& device_;
     std::vector<PassWork> passes_;
     std::size_t pass_ = 0;
     /// Results of the query in ended pieces, for each pass, in the order of its bits.

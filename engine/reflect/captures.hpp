@@ -257,11 +257,8 @@ find_outdated_cubes(graph::Graph& graph, const render::MirrorCaptures& captures,
         const std::uint32_t first = 6 * place.cube;
         if (!captures.drawings.empty()) {
             const std::uint64_t content_hash = hash(mirror);
-            if (graph.has_image_part_content_hash(derived.select_image_layers(first, 6),
-                                                  content_hash))
-                continue;
-            graph.set_content_hash_of_image_part(derived.select_image_layers(first, 6),
-                                                 content_hash);
+            if (graph.has_content_hash(derived.layers(first, 6), content_hash)) continue;
+            graph.set_content_hash(derived.layers(first, 6), content_hash);
         }
         if (runs.empty() || runs.back().first + runs.back().count != first)
             runs.push_back({first, 0});

@@ -48,10 +48,10 @@ add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inp
     pass.writes(proxies, graph::ResourceUse::storage_write)
         .record([=, table = captures->table](graph::PassCommands& commands) {
             commands.bind_pipeline(state);
-            commands.bind_resource("distance_faces", faces);
-            commands.bind_resource("Proxies", proxies);
-            commands.bind_resource("nearest_texels", graph::TextureFilter::nearest);
-            if (table) commands.bind_resource("Captures", *table);
+            commands.bind("distance_faces", faces);
+            commands.bind("Proxies", proxies);
+            commands.bind("nearest_texels", graph::TextureFilter::nearest);
+            if (table) commands.bind("Captures", *table);
             commands.dispatch(mirrors, 1);
         });
     return proxies;

@@ -57,8 +57,8 @@ std::vector<PyramidCubeRange> find_outdated_pyramids(graph::Graph& graph,
          find_outdated_cubes(graph, captures, array, bounds, [&](std::uint32_t mirror) {
              return hash_distance_pyramid_content(captures, mirror);
          }))
-        runs.push_back({distances.select_image_layers(run.first, run.count),
-                        bounds.select_image_layers(run.first, run.count), cubes.face});
+        runs.push_back({distances.layers(run.first, run.count), bounds.layers(run.first, run.count),
+                        cubes.face});
     return runs;
 }
 
@@ -79,7 +79,7 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
                               TexelFormat::r32ui, 1u << top,
                               texel_edge_of_pyramid_level(cubes.face, 1), cubes.colour.layer_count};
         pyramids.push_back(captures.drawings.empty() ? graph.add_image(std::move(desc))
-                                                     : graph.add_persistent_image(std::move(desc)));
+                                                     : graph.add_persistent(std::move(desc)));
         std::ranges::copy(find_outdated_pyramids(graph, captures, array, pyramids.back()),
                           std::back_inserter(runs));
     }
@@ -96,8 +96,8 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
             commands.push_constants(static_cast<std::int32_t>(level));
             for (const PyramidCubeRange& run : runs) {
                 if (level > topmost_level_of_pyramid(run.face)) continue;
-                commands.bind_resource("distances", run.distances);
-                commands.bind_resource("bounds", run.bounds);
+                commands.bind("distances", run.distances);
+                commands.bind("bounds", run.bounds);
                 const std::uint32_t groups = (texel_edge_of_pyramid_level(run.face, level) + 7) / 8;
                 commands.dispatch(groups, groups, run.bounds.layer_count);
             }

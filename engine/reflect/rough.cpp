@@ -25,7 +25,7 @@ using RoughMirrorLookup = RoughKnobs::Lookup;
 
 /// Returns the face edge of a level, from 1, in texels.
 std::uint32_t face_edge_of_level(RoughMirrorLookup rough, std::uint32_t face, std::uint32_t level) {
-    return graph::size_at_mip(face, rough == RoughMirrorLookup::mips ? level : level + 1);
+    return graph::mip_size(face, rough == RoughMirrorLookup::mips ? level : level + 1);
 }
 
 /// Returns the number of filtered levels of a capture, without the capture itself. The last
@@ -137,8 +137,8 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
                                      alpha <= kLargestFittedAlpha;
                 commands.bind_pipeline(
                     gpu::ComputeState{is_fast ? "rough/fast.comp" : "rough/prefilter.comp", {}});
-                commands.bind_resource("boxes", run.boxes, graph::TextureFilter::mipmapped);
-                commands.bind_resource("level", run.levels.select_image_mip(level - 1));
+                commands.bind("boxes", run.boxes, graph::TextureFilter::mipmapped);
+                commands.bind("level", run.levels.mip(level - 1));
                 if (is_fast)
                     commands.push_constants(make_fast_filter_parameters(alpha, level));
                 else
@@ -193,7 +193,7 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
                 cubes, filter.rough);
             filtered.levels.push_back(captures_->drawings.empty()
                                           ? graph.add_image(std::move(desc))
-                                          : graph.add_persistent_image(std::move(desc)));
+                                          : graph.add_persistent(std::move(desc)));
         }
 }
 
@@ -218,7 +218,7 @@ void RoughLevels::add_rough_lookup_to_shader(graph::Graph& graph,
     look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(knobs.rough.law));
     std::vector<ImageHandle> levels = filtered_.at(level_filter_from_knobs(knobs)).levels;
     if (before && captures_->drawings.empty())
-        for (ImageHandle& image : levels) image = graph.previous_contents(image);
+        for (ImageHandle& image : levels) image = graph.previous(image);
     look.images.emplace_back("rough_cubes", std::move(levels));
 }
 
@@ -251,9 +251,9 @@ void RoughLevels::add_passes_of_level_filter(graph::Graph& graph, const LevelFil
                 make_level_image_desc(name + "/boxes" + name_suffix_of_cube_array(array), cubes,
                                       RoughMirrorLookup::mips));
         for (const CaptureCubeRange& run : outdated)
-            runs.push_back({cubes.colour.select_image_layers(run.first, run.count),
-                            boxes.select_image_layers(run.first, run.count),
-                            levels.select_image_layers(run.first, run.count), cubes.face});
+            runs.push_back({cubes.colour.layers(run.first, run.count),
+                            boxes.layers(run.first, run.count), levels.layers(run.first, run.count),
+                            cubes.face});
     }
     if (runs.empty()) return;
     std::vector<render::BoxFilteredLayers> filtered_layers;

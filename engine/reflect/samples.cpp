@@ -64,9 +64,9 @@ std::uint32_t count_work_groups(std::uint32_t pixels) {
 }
 
 void bind_path_starts(graph::PassCommands& commands, const PathStartBuffers& buffers) {
-    commands.bind_resource("Starts", buffers.starts);
-    commands.bind_resource("StartList", buffers.list);
-    commands.bind_resource("StartArguments", buffers.arguments);
+    commands.bind("Starts", buffers.starts);
+    commands.bind("StartList", buffers.list);
+    commands.bind("StartArguments", buffers.arguments);
 }
 
 /// The dispatches of a pass that traces samples of pixels.
@@ -215,7 +215,7 @@ void trace_samples(graph::PassCommands& commands, gpu::ComputeState state,
                           .offsets = make_sample_offsets(tracer.samples, inputs.facts.seed),
                           .groups = count_picture_work_groups(inputs.size),
                           .is_split = count_most_rays(tracer, inputs.scene, inputs.size) >
-                                      commands.most_rays_of_piece(),
+                                      commands.rays_per_piece(),
                           .parameters = {.size = inputs.size,
                                          .seed = make_lobe_seed(tracer, inputs.facts.seed),
                                          .path_count = 1}};

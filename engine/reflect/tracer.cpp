@@ -128,14 +128,14 @@ PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
         .writes(list.arguments, ResourceUse::storage)
         .writes(list.pixels, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            if (in_alpha || first_raster) commands.bind_resource("picture", view.hdr);
+            if (in_alpha || first_raster) commands.bind("picture", view.hdr);
             if (!in_alpha) {
-                commands.bind_resource("lookup", *view.lookup);
-                commands.bind_resource("marks", *view.tracers);
+                commands.bind("lookup", *view.lookup);
+                commands.bind("marks", *view.tracers);
             }
-            commands.bind_resource("counters", list.counters);
-            commands.bind_resource("arguments", list.arguments);
-            commands.bind_resource("List", list.pixels);
+            commands.bind("counters", list.counters);
+            commands.bind("arguments", list.arguments);
+            commands.bind("List", list.pixels);
             const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
             commands.bind_pipeline(gpu::ComputeState{
                 shader, {{"tracer", number}, {"first_raster", first_raster ? 1u : 0u}}});
@@ -163,8 +163,8 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
         .most_rays(count_most_rays(tracer, inputs.scene, size))
         .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
-            commands.bind_resource("picture", traced.hdr);
-            commands.bind_resource("counters", traced.counters);
+            commands.bind("picture", traced.hdr);
+            commands.bind("counters", traced.counters);
             trace_samples(commands, make_tracer_state(tracer, scene, false, starts.has_value()),
                           tracer, inputs, nullptr, starts);
         });
@@ -190,9 +190,9 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
         .most_rays(std::uint64_t{size.x} * size.y)
         .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
-            commands.bind_resource("normals_and_distances", images.normals_and_distances);
-            commands.bind_resource("objects_and_roughness", images.objects_and_roughness);
-            commands.bind_resource("counters", images.counters);
+            commands.bind("normals_and_distances", images.normals_and_distances);
+            commands.bind("objects_and_roughness", images.objects_and_roughness);
+            commands.bind("counters", images.counters);
             commands.bind_pipeline(gpu::ComputeState{
                 "first_surface.comp",
                 {},
@@ -225,9 +225,9 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
         .most_rays(count_most_rays(tracer, inputs.scene, inputs.size))
         .record([=, &scene = inputs.scene, hdr = view.hdr](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
-            commands.bind_resource("picture", hdr);
-            commands.bind_resource("counters", list.counters);
-            commands.bind_resource("List", list.pixels);
+            commands.bind("picture", hdr);
+            commands.bind("counters", list.counters);
+            commands.bind("List", list.pixels);
             trace_samples(commands, make_tracer_state(tracer, scene, true, starts.has_value()),
                           tracer, inputs, &list, starts);
         });

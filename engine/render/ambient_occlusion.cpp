@@ -60,8 +60,8 @@ ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs&
         .writes(solid_angles, ResourceUse::storage_write)
         .record([=, &scene = inputs.scene](PassCommands& commands) {
             scene.bind(commands);
-            commands.bind_resource("surfaces", surfaces);
-            commands.bind_resource("solid_angles", solid_angles);
+            commands.bind("surfaces", surfaces);
+            commands.bind("solid_angles", solid_angles);
             bind_and_dispatch(commands, "occlusion/share.comp", [&] {
                 commands.push_constants(scene.scene_units().world_to_scene_length(
                     find_ambient_occlusion_radius(scene)));
@@ -73,9 +73,9 @@ ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs&
         .writes(shares, ResourceUse::storage_write)
         .record([=, &scene = inputs.scene](PassCommands& commands) {
             scene.bind(commands);
-            commands.bind_resource("surfaces", surfaces);
-            commands.bind_resource("solid_angles", solid_angles);
-            commands.bind_resource("shares", shares);
+            commands.bind("surfaces", surfaces);
+            commands.bind("solid_angles", solid_angles);
+            commands.bind("shares", shares);
             bind_and_dispatch(commands, "occlusion/mean.comp", [] {});
         });
     return shares;

@@ -12,13 +12,13 @@ using graph::ResourceUse;
 
 void declare_writes_of_all_mips(graph::PassBuilder& pass, const ImageHandle& levels) {
     for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
-        pass.writes(levels.select_image_mip(mip), ResourceUse::storage_write);
+        pass.writes(levels.mip(mip), ResourceUse::storage_write);
 }
 
 ImageHandle add_picture_levels(graph::Graph& graph, std::string name, uvec2 size) {
     const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(size.x, size.y)));
-    return graph.add_image({std::move(name), TexelFormat::rgba16f, graph::size_at_mip(size.x, 1),
-                            graph::size_at_mip(size.y, 1), 1, false, std::max(mips, 2u) - 1});
+    return graph.add_image({std::move(name), TexelFormat::rgba16f, graph::mip_size(size.x, 1),
+                            graph::mip_size(size.y, 1), 1, false, std::max(mips, 2u) - 1});
 }
 
 namespace {
@@ -41,7 +41,7 @@ struct TexelRange {
 TexelRange find_defined_texels(const graph::PixelRectangle& area, uvec2 size, std::uint32_t level) {
     const uvec2 low(area.x, area.y), end = low + uvec2(area.width, area.height);
     if (level == 0) return {low, end - 1u};
-    const uvec2 own(graph::size_at_mip(size.x, level), graph::size_at_mip(size.y, level));
+    const uvec2 own(graph::mip_size(size.x, level), graph::mip_size(size.y, level));
     const uvec2 first = low * own / size, last = (end * own + size - 1u) / size;
     return {max(first, uvec2(1)) - 1u, min(last, own - 1u)};
 }
@@ -60,7 +60,7 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
         pass.reads(layers.unfiltered, ResourceUse::sampled);
         if (layers.distances) pass.reads(*layers.distances, ResourceUse::sampled);
         declare_writes_of_all_mips(pass, layers.levels);
-        const graph::ImageDesc& desc = graph.list_images()[layers.unfiltered.id];
+        const graph::ImageDesc& desc = graph.images()[layers.unfiltered.id];
         runs.push_back({layers, {desc.width, desc.height}});
     }
     pass.record([runs = std::move(runs)](graph::PassCommands& commands) {
@@ -82,11 +82,10 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
                                        {"has_distances", layers.distances ? 1u : 0u}}});
                 commands.push_constants(
                     BoxFilterParameters{written.lowest, read.lowest, read.highest});
-                commands.bind_resource("unfiltered", layers.unfiltered);
-                if (layers.distances) commands.bind_resource("distances", *layers.distances);
-                commands.bind_resource("below",
-                                       layers.levels.select_image_mip(std::max(level, 2u) - 2));
-                commands.bind_resource("level", layers.levels.select_image_mip(level - 1));
+                commands.bind("unfiltered", layers.unfiltered);
+                if (layers.distances) commands.bind("distances", *layers.distances);
+                commands.bind("below", layers.levels.mip(std::max(level, 2u) - 2));
+                commands.bind("level", layers.levels.mip(level - 1));
                 const uvec2 groups = (written.size() + 7u) / 8u;
                 commands.dispatch(groups.x, groups.y, layers.levels.layer_count);
             }

@@ -76,8 +76,8 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
         };
         const auto is_made = [&](std::uint32_t face) {
             return feeding.work.work_of_capture_face(mirror, face) != CaptureFaceUpdateKind::keep ||
-                   !graph.has_image_part_content_hash(
-                       select_capture_faces(captures, mirror, face, 1).colour, drawing(face));
+                   !graph.has_content_hash(select_capture_faces(captures, mirror, face, 1).colour,
+                                           drawing(face));
         };
         const auto is_copied = [&](std::uint32_t face) {
             const CaptureWorkOfFrame& work = feeding.work;
@@ -97,7 +97,7 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
             if (!is_made(face)) continue;
             const CubeCaptureArray part = select_capture_faces(captures, mirror, face, 1);
             for_each_cube_image_pair(part, part, [&](graph::ImageHandle image, graph::ImageHandle) {
-                graph.set_content_hash_of_image_part(image, drawing(face));
+                graph.set_content_hash(image, drawing(face));
             });
         }
     }

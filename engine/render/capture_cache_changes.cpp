@@ -94,7 +94,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
                                {6 * from.cube + first, 6 * to.cube + first, mirror},
                                end - first});
             });
-    const graph::BufferHandle differing = graph.import_external_resource(
+    const graph::BufferHandle differing = graph.import_resource(
         graph::BufferDesc{inputs.prefix + now.name + ".differing",
                           feeding.kept->differing->bytes()},
         feeding.kept->differing.get());
@@ -109,12 +109,12 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
     pass.writes(differing, graph::ResourceUse::storage_write)
         .record([all = std::move(all), differing](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"differing.comp", {}});
-            commands.bind_resource("Differing", differing);
+            commands.bind("Differing", differing);
             for (const auto& [before, after, push, faces] : all) {
-                commands.bind_resource("colour_before", before.colour);
-                commands.bind_resource("colour_after", after.colour);
-                commands.bind_resource("distance_before", before.distance.value_or(before.colour));
-                commands.bind_resource("distance_after", after.distance.value_or(after.colour));
+                commands.bind("colour_before", before.colour);
+                commands.bind("colour_after", after.colour);
+                commands.bind("distance_before", before.distance.value_or(before.colour));
+                commands.bind("distance_after", after.distance.value_or(after.colour));
                 commands.push_constants(push);
                 const std::uint32_t groups = (after.face + 7) / 8;
                 commands.dispatch(groups, groups, faces);

@@ -43,7 +43,7 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
     write(cubes.colour, kClearColourBlack);
     if (cubes.distance) write(*cubes.distance, ClearValue{nothing, 0, 0, 0});
     if (cubes.surfaces) write(*cubes.surfaces, ClearValue{});
-    if (area) pass.set_pass_render_area(*area);
+    if (area) pass.render_area(*area);
 }
 
 /// Returns whether the part of the face may show the object.
@@ -96,7 +96,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
     if (peeled && options.distance == TexelFormat::r16f)
         drawing.store.emplace_back("peel_margin", kPeelMarginOfHalves);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
-        .set_pass_layer_count(faces.count)
+        .layers(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
                  edge = options.face, drawing = std::move(drawing),
                  stores = cubes.distance.has_value(), alpha = options.blended_alpha,
@@ -134,7 +134,7 @@ void add_capture_clear_pass(graph::Graph& graph, const FrameInputs& inputs,
     if (cubes.colour2)
         declare_cube_writes(pass, options,
                             {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
-    pass.set_pass_layer_count(faces.count).record([](PassCommands&) {});
+    pass.layers(faces.count).record([](PassCommands&) {});
 }
 
 } // namespace

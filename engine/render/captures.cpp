@@ -74,8 +74,7 @@ CubeCaptureArray declare_cube_array(graph::Graph& graph, const std::string& name
         graph::ImageDesc desc{
             name + what, format, options.face, options.face, static_cast<std::uint32_t>(6 * cubes),
             true};
-        return stay ? graph.add_persistent_image(std::move(desc))
-                    : graph.add_image(std::move(desc));
+        return stay ? graph.add_persistent(std::move(desc)) : graph.add_image(std::move(desc));
     };
     check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
           "captures '", name, "' want surfaces or a second layer, which need the distance");
@@ -117,10 +116,10 @@ graph::BufferHandle add_capture_table_buffer(graph::Graph& graph, const std::str
 CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t first,
                                     std::uint32_t count) {
     const auto part = [&](const std::optional<graph::ImageHandle>& image) {
-        return image ? std::optional(image->select_image_layers(first, count)) : image;
+        return image ? std::optional(image->layers(first, count)) : image;
     };
     return {cubes.face,
-            cubes.colour.select_image_layers(first, count),
+            cubes.colour.layers(first, count),
             part(cubes.distance),
             part(cubes.colour2),
             part(cubes.distance2),
@@ -180,8 +179,8 @@ MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& in
 MirrorCaptures declare_previous_captures(graph::Graph& graph, const MirrorCaptures& captures) {
     MirrorCaptures last = captures;
     for (CubeCaptureArray& cubes : last.arrays) {
-        cubes = {cubes.face, graph.previous_contents(cubes.colour), cubes.distance, {}, {}, {}};
-        if (cubes.distance) cubes.distance = graph.previous_contents(*cubes.distance);
+        cubes = {cubes.face, graph.previous(cubes.colour), cubes.distance, {}, {}, {}};
+        if (cubes.distance) cubes.distance = graph.previous(*cubes.distance);
     }
     return last;
 }

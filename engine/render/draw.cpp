@@ -64,23 +64,22 @@ std::vector<ImageHandle> list_cube_images(const MirrorCaptures& captures, Part&&
 }
 
 void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures) {
-    commands.bind_resource(
-        "colour_cubes",
-        list_cube_images(captures, [](const CubeCaptureArray& cubes) { return cubes.colour; }));
+    commands.bind("colour_cubes", list_cube_images(captures, [](const CubeCaptureArray& cubes) {
+                      return cubes.colour;
+                  }));
     // Every shader has these bindings. If captures lack an image, their colour image is bound as a
     // placeholder that no shader reads.
-    commands.bind_resource("surface_cubes",
-                           list_cube_images(captures, [](const CubeCaptureArray& cubes) {
-                               return cubes.surfaces.value_or(cubes.colour);
-                           }));
+    commands.bind("surface_cubes", list_cube_images(captures, [](const CubeCaptureArray& cubes) {
+                      return cubes.surfaces.value_or(cubes.colour);
+                  }));
     const std::vector<ImageHandle> distances = list_cube_images(
         captures,
         [](const CubeCaptureArray& cubes) { return cubes.distance.value_or(cubes.colour); });
-    commands.bind_resource("distance_cubes", distances);
-    commands.bind_resource("linear_texels", TextureFilter::linear);
-    commands.bind_resource("nearest_texels", TextureFilter::nearest);
-    commands.bind_resource("mipmapped_texels", TextureFilter::mipmapped);
-    if (captures.table) commands.bind_resource("Captures", *captures.table);
+    commands.bind("distance_cubes", distances);
+    commands.bind("linear_texels", TextureFilter::linear);
+    commands.bind("nearest_texels", TextureFilter::nearest);
+    commands.bind("mipmapped_texels", TextureFilter::mipmapped);
+    if (captures.table) commands.bind("Captures", *captures.table);
 }
 
 /// Adds the constants that tell a shader where the captures are stored.
@@ -128,9 +127,9 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDraw
             state.constants.emplace_back("samples_lamps", 1u);
         if (look.captures) bind_capture_images(commands, *look.captures);
         if (look.captures) add_capture_slot_shader_constants(*look.captures, state.constants);
-        for (const auto& [name, images] : look.images) commands.bind_resource(name, images);
-        for (const auto& [name, buffer] : look.buffers) commands.bind_resource(name, buffer);
-        if (!look.captures) commands.bind_resource("mipmapped_texels", TextureFilter::mipmapped);
+        for (const auto& [name, images] : look.images) commands.bind(name, images);
+        for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
+        if (!look.captures) commands.bind("mipmapped_texels", TextureFilter::mipmapped);
     }
     const auto& draw = drawing.peeled ? draw_objects : draw_objects_with_backface_culling;
     draw(commands, scene, state, drawing.first_view, drawing.layers, {look.ablated, look.shown},
@@ -188,18 +187,17 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::Ra
 
 void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting) {
     if (lighting.shadow_map)
-        commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
+        commands.bind("shadow_map", *lighting.shadow_map, TextureFilter::compare);
     if (lighting.shadow_map && lighting.has_soft_shadows)
-        commands.bind_resource("shadow_depths", *lighting.shadow_map, TextureFilter::nearest);
+        commands.bind("shadow_depths", *lighting.shadow_map, TextureFilter::nearest);
     if (lighting.shadow_map && lighting.glass_depths)
-        commands.bind_resource("glass_depths", *lighting.glass_depths, TextureFilter::nearest);
+        commands.bind("glass_depths", *lighting.glass_depths, TextureFilter::nearest);
     if (lighting.ambient_occlusion)
-        commands.bind_resource("ambient_occlusion", *lighting.ambient_occlusion,
-                               TextureFilter::nearest);
+        commands.bind("ambient_occlusion", *lighting.ambient_occlusion, TextureFilter::nearest);
     if (!lighting.probes) return;
-    commands.bind_resource("probe_grid", lighting.probes->grid);
-    commands.bind_resource("probe_light", lighting.probes->light, TextureFilter::linear);
-    commands.bind_resource("probe_distances", lighting.probes->distances, TextureFilter::linear);
+    commands.bind("probe_grid", lighting.probes->grid);
+    commands.bind("probe_light", lighting.probes->light, TextureFilter::linear);
+    commands.bind("probe_distances", lighting.probes->distances, TextureFilter::linear);
 }
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
@@ -285,7 +283,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated))
         scene.bind_ray_tracing_buffers(commands);
     bind_lighting_images(commands, lighting);
-    if (peeled) commands.bind_resource("first_layer", *peeled);
+    if (peeled) commands.bind("first_layer", *peeled);
     gpu::RasterState diffuse = make_diffuse_state(scene, drawing);
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;

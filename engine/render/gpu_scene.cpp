@@ -361,16 +361,16 @@ void GpuScene::write_scene_buffers_to_device(std::size_t slot) {
 }
 
 void GpuScene::bind(graph::PassCommands& commands) const {
-    commands.bind_resource("frame", frame_.buffer_of_device_copy(slot_));
-    commands.bind_resource("Views", view_buffer_.buffer_of_device_copy(slot_));
-    commands.bind_resource("surface_texels", surface_buffer_.buffer_of_device_copy(slot_));
-    commands.bind_resource("Placements", placement_buffer_.buffer_of_device_copy(slot_));
-    commands.bind_resource("Lights", light_buffer_.buffer_of_device_copy(slot_));
-    commands.bind_resource("probe_texels", probe_buffer_.buffer_of_device_copy(slot_));
-    commands.bind_resource("mirror_nodes", mirror_tree_.buffer_of_device_copy(slot_));
-    commands.bind_resource("lamp_texels", lamp_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("frame", frame_.buffer_of_device_copy(slot_));
+    commands.bind("Views", view_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("surface_texels", surface_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("Placements", placement_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("Lights", light_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("probe_texels", probe_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("mirror_nodes", mirror_tree_.buffer_of_device_copy(slot_));
+    commands.bind("lamp_texels", lamp_buffer_.buffer_of_device_copy(slot_));
     if (binds_lamp_extents_)
-        commands.bind_resource("LampExtents", lamp_extent_buffer_.buffer_of_device_copy(slot_));
+        commands.bind("LampExtents", lamp_extent_buffer_.buffer_of_device_copy(slot_));
     material_details_.bind(commands, slot_);
     environment_.bind(commands, slot_);
     vertices_.bind(commands, slot_);

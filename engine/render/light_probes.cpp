@@ -89,12 +89,11 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
     graph::PassBuilder pass = graph.add_pass(name);
     declare_shader_reads(pass, lighting, *looks);
     const float nothing = std::numeric_limits<float>::infinity();
-    pass.writes(probes.colours.select_image_layers(6 * probe, 6), ResourceUse::colour,
-                kClearColourBlack)
-        .writes(probes.depths.select_image_layers(6 * probe, 6), ResourceUse::colour,
+    pass.writes(probes.colours.layers(6 * probe, 6), ResourceUse::colour, kClearColourBlack)
+        .writes(probes.depths.layers(6 * probe, 6), ResourceUse::colour,
                 graph::ClearValue{nothing, 0, 0, 0})
         .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
-        .set_pass_layer_count(6)
+        .layers(6)
         .record([&scene = inputs.scene,
                  shows_surfaces = probes.images.content == shared::kLightProbesOfSurfaces,
                  drawing = SceneDrawSettings{
@@ -165,9 +164,8 @@ void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
         lighting = {};
         looks = use_same_shader_for_mirrors(inputs.scene, {});
     } else {
-        lighting.probes = LightProbeImages{graph.previous_contents(now.grid),
-                                           graph.previous_contents(now.light),
-                                           graph.previous_contents(now.distances)};
+        lighting.probes = LightProbeImages{graph.previous(now.grid), graph.previous(now.light),
+                                           graph.previous(now.distances)};
     }
     const auto shared_looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
     for (std::uint32_t probe = 0; probe < probes.count(); ++probe)
@@ -181,11 +179,11 @@ void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
         .record([probes,
                  radius = inputs.scene.scene_units().world_to_scene_length(
                      find_ambient_occlusion_radius(inputs.scene))](graph::PassCommands& commands) {
-            commands.bind_resource("captured", probes.colours);
-            commands.bind_resource("captured_distances", probes.depths);
-            commands.bind_resource("grid_texels", probes.images.grid);
-            commands.bind_resource("light", probes.images.light);
-            commands.bind_resource("distances", probes.images.distances);
+            commands.bind("captured", probes.colours);
+            commands.bind("captured_distances", probes.depths);
+            commands.bind("grid_texels", probes.images.grid);
+            commands.bind("light", probes.images.light);
+            commands.bind("distances", probes.images.distances);
             commands.bind_pipeline(gpu::ComputeState{
                 "probes/light.comp", {{"light_probe_content", probes.images.content}}});
             const struct {

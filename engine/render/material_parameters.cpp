@@ -235,9 +235,9 @@ std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot)
 }
 
 void MaterialParameterLists::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_resource("detail_quads", detail_words_.buffer_of_device_copy(slot));
-    commands.bind_resource("attribute_texels", attributes_.buffer_of_device_copy(slot));
-    commands.bind_resource("texture_words", texels_.buffer_of_device_copy(slot));
+    commands.bind("detail_quads", detail_words_.buffer_of_device_copy(slot));
+    commands.bind("attribute_texels", attributes_.buffer_of_device_copy(slot));
+    commands.bind("texture_words", texels_.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

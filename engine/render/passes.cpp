@@ -196,7 +196,7 @@ MirroredViewImages add_mirrored_view(graph::Graph& graph, const FrameInputs& inp
                     ClearValue{{kNoSurface, kNoSurface, kNoSurface, kNoSurface}});
     }
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
-        .set_pass_render_area(view.area)
+        .render_area(view.area)
         .record([&scene = inputs.scene, drawing, view, size, left_out](PassCommands& commands) {
             const auto is_left_out = [&](std::size_t object) {
                 return left_out && object == scene.object_index_of_mirror(*left_out);
@@ -227,9 +227,9 @@ ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, Ima
         .writes(picture, ResourceUse::colour, kClearColourBlack)
         .record([=](PassCommands& commands) {
             commands.bind_pipeline(gpu::RasterState{"screen.vert", "compose.frag", {}});
-            commands.bind_resource("hdr", hdr);
+            commands.bind("hdr", hdr);
             commands.push_constants(static_cast<float>(std::exp2(exposure_stops)));
-            commands.draw_fullscreen_triangle();
+            commands.draw_fullscreen();
         });
     return picture;
 }

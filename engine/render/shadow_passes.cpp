@@ -41,7 +41,7 @@ void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t l
                      ImageHandle part) {
     graph.add_pass(name, PassPurpose::scene)
         .writes(part, ResourceUse::depth, kClearToFarthestDepth)
-        .set_pass_layer_count(faces.count)
+        .layers(faces.count)
         .record([&scene, light, faces, has_map](PassCommands& commands) {
             const std::uint32_t drawn = scene.drawn_shadow_faces(light);
             if (!has_map || faces.first >= drawn) return;
@@ -69,26 +69,25 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
     const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, TexelFormat::d32f, edge,
                                 edge, faces * scene.light_count()};
     const ImageHandle map = model.is_everything ? graph.add_image(desc)
-                                                : graph.add_persistent_image(desc);
+                                                : graph.add_persistent(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         const bool has_map = model.is_everything || model.lights[light].has_map;
         const std::string name = scene.light_count() == 1 ? "shadow"
                                                           : "shadow/" + std::to_string(light + 1);
         const auto part = [&](std::uint32_t first, std::uint32_t count) {
-            return map.select_image_layers(faces * light + first, count);
+            return map.layers(faces * light + first, count);
         };
         std::array<std::uint64_t, 6> content_hashes{};
         for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
             content_hashes[face] = hash_shadow_map_face(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
-            return face < faces &&
-                   (model.is_everything ||
-                    !graph.has_image_part_content_hash(part(face, 1), content_hashes[face]));
+            return face < faces && (model.is_everything ||
+                                    !graph.has_content_hash(part(face, 1), content_hashes[face]));
         };
         for_each_consecutive_face_range(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
             const CaptureFaceRange run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
-                graph.set_content_hash_of_image_part(part(face, 1), content_hashes[face]);
+                graph.set_content_hash(part(face, 1), content_hashes[face]);
             const std::string text = run.count == faces ? name : name_with_face_range(name, run);
             add_shadow_pass(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
                             part(first, run.count));
@@ -114,12 +113,11 @@ ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inpu
                                      : "glass_shadow/" + std::to_string(light + 1);
         graph.add_pass(inputs.prefix + name + suffix)
             .reads(shadow_map, ResourceUse::sampled)
-            .writes(depths.select_image_layers(faces * light, faces), ResourceUse::colour,
-                    graph::ClearValue{})
-            .set_pass_layer_count(faces)
+            .writes(depths.layers(faces * light, faces), ResourceUse::colour, graph::ClearValue{})
+            .layers(faces)
             .record([&scene, light, shadow_map](PassCommands& commands) {
                 scene.bind(commands);
-                commands.bind_resource("shadow_depths", shadow_map, graph::TextureFilter::nearest);
+                commands.bind("shadow_depths", shadow_map, graph::TextureFilter::nearest);
                 gpu::RasterState state{"", "glass_shadow.frag", {}};
                 state.blending = gpu::Blending::sum;
                 draw_objects(commands, scene, state, scene.shadow_view_index(light),

@@ -93,13 +93,13 @@ std::size_t DeviceEnvironment::write(gpu::Device& device, std::size_t slot) {
 }
 
 void DeviceEnvironment::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_resource("sky", device_sky_record_.buffer_of_device_copy(slot));
-    commands.bind_resource("sky_texels", texels_.buffer_of_device_copy(slot));
+    commands.bind("sky", device_sky_record_.buffer_of_device_copy(slot));
+    commands.bind("sky_texels", texels_.buffer_of_device_copy(slot));
 }
 
 void DeviceEnvironment::bind_vertices(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_vertex_and_index_buffers(vertices_.buffer_of_device_copy(slot),
-                                           indices_.buffer_of_device_copy(slot));
+    commands.bind_geometry(vertices_.buffer_of_device_copy(slot),
+                           indices_.buffer_of_device_copy(slot));
 }
 
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,

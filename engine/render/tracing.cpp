@@ -324,11 +324,11 @@ void RayTracingTrees::bind(graph::PassCommands& commands, SphereIntersectionMode
     const DeviceBvh& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
     check(hierarchy.seen == version_ && moved_.empty(), Failure::internal,
           "a pass traces rays without having asked for it (FrameRequests::trace_rays)");
-    commands.bind_resource("bvh_nodes", hierarchy.node_list.buffer_of_device_copy(slot));
-    commands.bind_resource("bvh_triangles", hierarchy.triangles.buffer_of_device_copy(slot));
-    commands.bind_resource("normals", corner_normals_.buffer_of_device_copy(slot));
+    commands.bind("bvh_nodes", hierarchy.node_list.buffer_of_device_copy(slot));
+    commands.bind("bvh_triangles", hierarchy.triangles.buffer_of_device_copy(slot));
+    commands.bind("normals", corner_normals_.buffer_of_device_copy(slot));
     if (hierarchy.lists_first_hits)
-        commands.bind_resource("first_hits", hierarchy.first_hits.buffer_of_device_copy(slot));
+        commands.bind("first_hits", hierarchy.first_hits.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

@@ -55,16 +55,16 @@ std::size_t DeviceVertices::write(gpu::Device& device, std::size_t slot) {
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_vertex_and_index_buffers(static_vertices_.buffer_of_device_copy(slot),
-                                           indices_.buffer_of_device_copy(slot));
+    commands.bind_geometry(static_vertices_.buffer_of_device_copy(slot),
+                           indices_.buffer_of_device_copy(slot));
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot,
                           std::size_t object) const {
     if (!anything_moves_) return;
     const DeviceList& vertices = places_[object].moves ? moving_ : static_vertices_;
-    commands.bind_vertex_and_index_buffers(vertices.buffer_of_device_copy(slot),
-                                           indices_.buffer_of_device_copy(slot));
+    commands.bind_geometry(vertices.buffer_of_device_copy(slot),
+                           indices_.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

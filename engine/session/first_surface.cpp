@@ -18,9 +18,9 @@ constexpr std::uint32_t kSearchHit = 0, kSearchMiss = 2;
 
 /// Returns the texels of an image, or the values of a buffer.
 template <typename Texel, typename Handle>
-std::vector<Texel> read_output_values(graph::GraphRunner& runner,
-                                      graph::SubmittedFrameTicket ticket, Handle output) {
-    const std::vector<std::byte> bytes = runner.read_back_resource(ticket, output);
+std::vector<Texel> read_output_values(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                                      Handle output) {
+    const std::vector<std::byte> bytes = runner.read_back(ticket, output);
     std::vector<Texel> texels(bytes.size() / sizeof(Texel));
     std::memcpy(texels.data(), bytes.data(), bytes.size());
     return texels;
@@ -79,12 +79,12 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     render::FrameRequests requests(self.resident->next_view());
     const reflect::FirstSurfaceImages images = reflect::add_first_surface_tracing(
         graph, {.scene = resident, .requests = requests, .size = spec.size, .facts = facts});
-    graph.mark_as_graph_output(images.normals_and_distances);
-    graph.mark_as_graph_output(images.objects_and_roughness);
-    graph.mark_as_graph_output(images.counters);
+    graph.output(images.normals_and_distances);
+    graph.output(images.objects_and_roughness);
+    graph.output(images.counters);
     self.resident->fulfil(requests, [&] { self.wait_until_scene_copy_is_free(self.copy); });
-    const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(
-        graph, graph::PassTiming::isolated, true);
+    const graph::FrameTicket ticket = self.runner.submit_frame(graph, graph::PassTiming::isolated,
+                                                               true);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     ++self.counts.frames;

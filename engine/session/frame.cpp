@@ -21,7 +21,7 @@ FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
 
 const FrameTimes& Frame::times() const {
     if (!impl_->times) {
-        impl_->times = to_public_frame_times(impl_->graph_runner().wait_for_frame(impl_->ticket));
+        impl_->times = to_public_frame_times(impl_->graph_runner().wait_for(impl_->ticket));
         impl_->times->host.update = impl_->update_ms;
         impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
@@ -86,13 +86,12 @@ render::CapturedCubes Access::read_captures(const Frame& frame, std::size_t part
     self.check_is_last_frame();
     graph::GraphRunner& runner = self.graph_runner();
     const render::CubeCaptureArray& cubes = captures->arrays.front();
-    return {cubes.face, runner.read_back_resource(self.ticket, cubes.colour),
-            runner.read_back_resource(self.ticket, *cubes.distance),
-            self.session->resident->scene_units()};
+    return {cubes.face, runner.read_back(self.ticket, cubes.colour),
+            runner.read_back(self.ticket, *cubes.distance), self.session->resident->scene_units()};
 }
 
 std::vector<PassWork> Access::pass_work(const Frame& frame) {
-    return frame.impl_->graph_runner().work_counts_of_frame(frame.impl_->ticket);
+    return frame.impl_->graph_runner().work_counts(frame.impl_->ticket);
 }
 
 std::vector<std::byte> Access::read_next_frame_state(const Frame& frame) {
@@ -101,7 +100,7 @@ std::vector<std::byte> Access::read_next_frame_state(const Frame& frame) {
     graph::GraphRunner& runner = self.graph_runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
-        const std::vector<std::byte> texels = runner.read_back_resource(self.ticket, image);
+        const std::vector<std::byte> texels = runner.read_back(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
     for (const TechniqueGraphPart& part : self.frame.parts) {

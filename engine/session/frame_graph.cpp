@@ -22,7 +22,7 @@ namespace {
 void count_scene_passes_of_part(const graph::Graph& graph, const graph::GraphPlan& plan,
                                 TechniqueResult& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
-        const graph::Pass& pass = graph.list_passes()[planned.pass];
+        const graph::Pass& pass = graph.passes()[planned.pass];
         if (pass.tag != graph::PassPurpose::scene || !pass.name.starts_with(part.prefix)) continue;
         ++part.scene_passes;
         part.scene_draws += static_cast<int>(pass.layer_count);
@@ -102,10 +102,9 @@ std::uint64_t count_unused_image_bytes(const graph::GraphRunner& runner,
                                        const graph::Graph& graph) {
     std::uint64_t bytes = 0;
     for (const auto& [name, kept] : runner.make_history().persistent) {
-        const bool is_used = std::ranges::find(graph.list_images(), name,
-                                               &graph::ImageDesc::name) !=
-                             graph.list_images().end();
-        if (!is_used) bytes += graph::make_default_requirement_queries().image(kept.desc).bytes;
+        const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
+                             graph.images().end();
+        if (!is_used) bytes += graph::default_sizer().image(kept.desc).bytes;
     }
     return bytes;
 }
@@ -160,17 +159,15 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                 scene.list_flat_mirror_faces(), scene.flat_mirror_tolerance());
         reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
                                                                       assignment, kept);
-        frame.graph.mark_as_graph_output(outputs.hdr);
-        frame.graph.mark_as_graph_output(outputs.display);
-        for (const graph::BufferHandle counters : outputs.counters)
-            frame.graph.mark_as_graph_output(counters);
-        if (outputs.lookup) frame.graph.mark_as_graph_output(*outputs.lookup);
-        if (outputs.tracer_marks) frame.graph.mark_as_graph_output(*outputs.tracer_marks);
+        frame.graph.output(outputs.hdr);
+        frame.graph.output(outputs.display);
+        for (const graph::BufferHandle counters : outputs.counters) frame.graph.output(counters);
+        if (outputs.lookup) frame.graph.output(*outputs.lookup);
+        if (outputs.tracer_marks) frame.graph.output(*outputs.tracer_marks);
         if (outputs.captures && (spec.with_lookup || hooks.with_captures)) {
             for (const render::CubeCaptureArray& cubes : outputs.captures->arrays) {
-                frame.graph.mark_as_graph_output(cubes.colour);
-                if (hooks.with_captures && cubes.distance)
-                    frame.graph.mark_as_graph_output(*cubes.distance);
+                frame.graph.output(cubes.colour);
+                if (hooks.with_captures && cubes.distance) frame.graph.output(*cubes.distance);
             }
         }
         const std::optional<CaptureBudget> capture_budget = make_capture_budget(outputs, kept);
@@ -183,7 +180,7 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
                                const TechniqueGraphPart& part) {
     return part.outputs.kept ||
            std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
-               const graph::Pass& pass = frame.graph.list_passes()[planned.pass];
+               const graph::Pass& pass = frame.graph.passes()[planned.pass];
                return pass.name.starts_with(part.prefix) &&
                       (std::ranges::any_of(pass.images,
                                            [](const auto& use) { return use.image.previous; }) ||
@@ -192,9 +189,9 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
            });
 }
 
-measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::SubmittedFrameTicket ticket,
+measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
                                   const TechniqueGraphPart& declared, uvec2 size) {
-    return texels_to_picture(runner.read_back_resource(ticket, declared.outputs.hdr), size,
+    return texels_to_picture(runner.read_back(ticket, declared.outputs.hdr), size,
                              TexelFormat::rgba32f);
 }
 
@@ -244,13 +241,13 @@ std::vector<std::string> describe_unmet_requests(const TechniqueGraphPart& decla
     return said;
 }
 
-TechniqueResult read_technique_result(graph::GraphRunner& runner,
-                                      graph::SubmittedFrameTicket ticket, const FrameGraph& frame,
-                                      std::size_t index, const std::vector<std::string>& mirrors,
+TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                                      const FrameGraph& frame, std::size_t index,
+                                      const std::vector<std::string>& mirrors,
                                       const render::GpuScene& scene, const FrameSpec& spec) {
     const TechniqueGraphPart& declared = frame.parts[index];
     const reflect::TechniqueOutputs& outputs = declared.outputs;
-    const graph::GraphPlan& plan = runner.find_or_make_plan(frame.graph);
+    const graph::GraphPlan& plan = runner.plan(frame.graph);
     TechniqueResult part;
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
@@ -264,20 +261,19 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
         if (choice.shared.capture.chooses_face)
             part.auto_face = AutoFace{scene.common_capture_face_edge(), scene.used_face_edges()};
     for (const graph::BufferHandle counters : outputs.counters)
-        add_ray_counters(runner.read_back_resource(ticket, counters), part);
-    const std::vector<std::byte> texels = runner.read_back_resource(ticket, outputs.hdr);
+        add_ray_counters(runner.read_back(ticket, counters), part);
+    const std::vector<std::byte> texels = runner.read_back(ticket, outputs.hdr);
     part.hdr = texels_to_picture(texels, spec.size, TexelFormat::rgba32f);
     if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
-    part.display = texels_to_picture(runner.read_back_resource(ticket, outputs.display), spec.size,
+    part.display = texels_to_picture(runner.read_back(ticket, outputs.display), spec.size,
                                      TexelFormat::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
         for (const render::CubeCaptureArray& cubes : outputs.captures->arrays)
-            if (frame.graph.list_images()[cubes.colour.id].format == TexelFormat::rgba16f)
+            if (frame.graph.images()[cubes.colour.id].format == TexelFormat::rgba16f)
                 part.saturated = part.saturated.value_or(0) +
-                                 count_saturated_texels(
-                                     runner.read_back_resource(ticket, cubes.colour));
+                                 count_saturated_texels(runner.read_back(ticket, cubes.colour));
     if (outputs.lookup)
-        part.lookup = read_typed_values<vec4>(runner.read_back_resource(ticket, *outputs.lookup));
+        part.lookup = read_typed_values<vec4>(runner.read_back(ticket, *outputs.lookup));
     return part;
 }
 

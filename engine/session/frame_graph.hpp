@@ -48,13 +48,13 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
 bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
                                const TechniqueGraphPart& part);
 
-measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::SubmittedFrameTicket ticket,
+measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
                                   const TechniqueGraphPart& declared, uvec2 size);
 /// Reads the results of a part. `part`: index into the frame's parts. `mirrors`: names of the
 /// mirrors. Throws `exhausted` if rays took more steps than allowed.
-TechniqueResult read_technique_result(graph::GraphRunner& runner,
-                                      graph::SubmittedFrameTicket ticket, const FrameGraph& frame,
-                                      std::size_t part, const std::vector<std::string>& mirrors,
+TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                                      const FrameGraph& frame, std::size_t part,
+                                      const std::vector<std::string>& mirrors,
                                       const render::GpuScene& scene, const FrameSpec& spec);
 
 } // namespace catoptric::session

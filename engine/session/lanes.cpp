@@ -23,13 +23,13 @@ int measure_shader_lanes(gpu::Device& device) {
         .writes(lanes, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"lanes.comp", {}});
-            commands.bind_resource("Lanes", lanes);
+            commands.bind("Lanes", lanes);
             commands.dispatch(1, 1);
         });
-    graph.mark_as_graph_output(lanes);
+    graph.output(lanes);
     runner.run_and_wait(graph, graph::PassTiming::isolated);
     std::uint32_t count = 0;
-    std::memcpy(&count, runner.read_back_resource(lanes).data(), sizeof count);
+    std::memcpy(&count, runner.read_back(lanes).data(), sizeof count);
     return static_cast<int>(count);
 }
 

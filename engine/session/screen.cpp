@@ -74,8 +74,8 @@ bool WindowScreen::fit_to_window(uvec2 window) {
     self.window = window;
     const uvec2 size = self.swapchain.size();
     for (const auto image : self.swapchain.images())
-        self.images.push_back(graph::wrap_external_image(
-            {"window", self.swapchain.texel_format(), size.x, size.y}, image));
+        self.images.push_back(
+            graph::wrap_image({"window", self.swapchain.texel_format(), size.x, size.y}, image));
     self.fits = true;
     return true;
 }
@@ -100,8 +100,7 @@ Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScre
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
     WindowScreen::Impl::OverlayFrameBuffers& slot = onto.slots[index];
-    if (slot.runner == &runner && !runner.has_ended(slot.ticket))
-        runner.wait_for_frame(slot.ticket);
+    if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait_for(slot.ticket);
     std::optional<std::uint32_t> image;
     onto.fits = false; // after a refused frame, the image is returned when all images are made
                        // again
@@ -158,7 +157,7 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
         (showing.first == WindowPictures::kCanvasPicture ? 1u : 0u) |
             (showing.second == WindowPictures::kCanvasPicture ? 2u : 0u),
         showing.divider, showing.gain};
-    const ImageHandle target = frame.graph.import_external_resource(
+    const ImageHandle target = frame.graph.import_resource(
         {"window", swapchain.texel_format(), size.x, size.y}, &images.at(image), std::nullopt,
         graph::ResourceUse::present);
     graph::PassBuilder pass = frame.graph.add_pass("window");
@@ -168,18 +167,18 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
         .record([&slot, this, first, second, screening, size,
                  draws = overlay.draws](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::RasterState{"screen.vert", "screen.frag", {}});
-            commands.bind_resource("first", first);
-            commands.bind_resource("second", second);
-            commands.bind_resource("Canvas", slot.canvas);
+            commands.bind("first", first);
+            commands.bind("second", second);
+            commands.bind("Canvas", slot.canvas);
             commands.push_constants(screening);
-            commands.bind_vertex_and_index_buffers(slot.vertices, slot.indices);
+            commands.bind_geometry(slot.vertices, slot.indices);
             commands.draw(0, 3);
             if (draws.empty()) return;
             commands.bind_pipeline(gpu::RasterState{.vertex = "overlay.vert",
                                                     .fragment = "overlay.frag",
                                                     .blending = gpu::Blending::cover});
-            commands.bind_resource("Corners", slot.vertices);
-            commands.bind_resource("Font", font);
+            commands.bind("Corners", slot.vertices);
+            commands.bind("Font", font);
             commands.push_constants(shared::OverlayParameters{size, font_size});
             for (const WindowOverlay::OverlayDrawRange& draw : draws) {
                 const auto [x, y, width, height] = draw.area;

@@ -26,7 +26,7 @@ struct WindowScreen::Impl {
     struct OverlayFrameBuffers {
         gpu::Buffer vertices, indices, canvas;
         const graph::GraphRunner* runner = nullptr; ///< runner of the frame that reads them
-        graph::SubmittedFrameTicket ticket;
+        graph::FrameTicket ticket;
     };
 
     gpu::Device& device;

@@ -79,7 +79,7 @@ FrameSequence::~FrameSequence() = default;
 
 void Session::Impl::wait_until_scene_copy_is_free(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
-        runner.wait_for_frame(graph::SubmittedFrameTicket{read_by[of]});
+        runner.wait_for(graph::FrameTicket{read_by[of]});
 }
 
 double Session::Impl::update_device_scene(const render::ShownInstant& wanted) {
@@ -125,10 +125,9 @@ std::vector<reflect::TechniquePlan> Session::Impl::find_plans(const FrameSpec& s
     return plans;
 }
 
-graph::SubmittedFrameTicket Session::Impl::run_graph(const graph::Graph& graph,
-                                                     const FrameSpec& spec,
-                                                     const graph::ExternalSemaphores& outside,
-                                                     bool counts_work) {
+graph::FrameTicket Session::Impl::run_graph(const graph::Graph& graph, const FrameSpec& spec,
+                                            const graph::ExternalSemaphores& outside,
+                                            bool counts_work) {
     try {
         return runner.submit_frame(graph,
                                    spec.timing == PassTimingMode::isolated
@@ -170,8 +169,8 @@ const scene::Scene& Session::scene() const { return impl_->scene; }
 SessionCounters Access::session_counters(const Session& session) {
     const Session::Impl& self = *session.impl_;
     SessionCounters counts = self.counts;
-    counts.plans = self.runner.compiled_graph_plan_count();
-    counts.memory_bytes = self.runner.allocated_device_bytes();
+    counts.plans = self.runner.plan_count();
+    counts.memory_bytes = self.runner.allocated_bytes();
     counts.uploads = self.resident->device_buffer_write_count();
     counts.hierarchies_built = self.resident->built_bvh_count();
     counts.hierarchies_refitted = self.resident->refitted_bvh_count();
@@ -313,15 +312,15 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
             if (k > 0 && keeping[i].before) render::mark_captures_unchanged(*keeping[i].before);
         }
         frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident,
-                                    frame.graph.graph_history_for_next_frame(), keeping);
+                                    frame.graph.next_history(), keeping);
     }
-    const graph::GraphPlan& plan = self.runner.find_or_make_plan(frame.graph);
+    const graph::GraphPlan& plan = self.runner.plan(frame.graph);
     switch (format) {
-    case GraphPlanFormat::dot: return graph::graph_plan_to_graphviz_dot(frame.graph, plan);
+    case GraphPlanFormat::dot: return graph::plan_to_dot(frame.graph, plan);
     case GraphPlanFormat::json: return graph::plan_to_json(frame.graph, plan);
     case GraphPlanFormat::text: break;
     }
-    return graph::graph_plan_to_text(frame.graph, plan);
+    return graph::plan_to_text(frame.graph, plan);
 }
 
 FrameTimes Access::measure_cube_clear_time(Session& session) {
@@ -341,17 +340,17 @@ FrameTimes Access::measure_cube_clear_time(Session& session) {
                                                               kClearCostCubeEdge,
                                                               kClearCostCubeEdge, 6, true});
             graph.add_pass(name)
-                .writes(cubes.select_image_layers(6 * cube, 6), graph::ResourceUse::colour,
+                .writes(cubes.layers(6 * cube, 6), graph::ResourceUse::colour,
                         graph::ClearValue{0, 0, 0, 1})
                 .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
-                .set_pass_layer_count(6)
+                .layers(6)
                 .record([](graph::PassCommands&) {});
         }
-        graph.mark_as_graph_output(cubes);
+        graph.output(cubes);
     }
     ++self.counts.frames;
     self.last = self.runner.submit_frame(graph, graph::PassTiming::isolated);
-    return to_public_frame_times(self.runner.wait_for_frame(*self.last));
+    return to_public_frame_times(self.runner.wait_for(*self.last));
 }
 
 } // namespace catoptric::session

@@ -53,8 +53,7 @@ Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_co
 }
 
 void Session::Impl::store_history_of_frame(const FrameSpec& spec, const render::FrameFacts& facts,
-                                           const FrameGraph& frame,
-                                           graph::SubmittedFrameTicket ticket) {
+                                           const FrameGraph& frame, graph::FrameTicket ticket) {
     history.last = facts;
     history.captures.clear();
     for (const TechniqueGraphPart& part : frame.parts) {
@@ -76,7 +75,7 @@ void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
     };
     const auto learns = std::ranges::find_if(history.captures, must_learn);
     if (learns != history.captures.end() && !runner.has_ended({(*learns)->frame}))
-        runner.wait_for_frame({(*learns)->frame});
+        runner.wait_for({(*learns)->frame});
     read_capture_times();
 }
 
@@ -85,7 +84,7 @@ void Session::Impl::read_capture_times() {
     const PendingTimedFrame timed = *std::exchange(history.timed, std::nullopt);
     // The times of the frame may have been overwritten by frames that keep the history unchanged.
     if (last->frame >= timed.frame + read_by.size()) return;
-    const graph::GraphFrameTimes& times = runner.wait_for_frame({timed.frame});
+    const graph::GraphFrameTimes& times = runner.wait_for({timed.frame});
     history.costs.resize(timed.drawn.size());
     for (std::size_t i = 0; i < timed.drawn.size(); ++i)
         history.costs[i].add(sum_capture_milliseconds(times, timed.drawn[i].first),

@@ -55,9 +55,8 @@ struct Session::Impl {
     /// Adds the milliseconds of that to `update_ms`.
     render::FrameFacts prepare_frame_facts(const FrameSpec& spec, double& update_ms);
     /// Submits the graph of a frame. A frame that is stopped leaves the session without history.
-    graph::SubmittedFrameTicket run_graph(const graph::Graph& graph, const FrameSpec& spec,
-                                          const graph::ExternalSemaphores& outside,
-                                          bool counts_work);
+    graph::FrameTicket run_graph(const graph::Graph& graph, const FrameSpec& spec,
+                                 const graph::ExternalSemaphores& outside, bool counts_work);
     /// Returns the model of the scene at its present instant, for these techniques.
     const std::shared_ptr<const require::WorkModel>&
     find_required_work_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
@@ -76,7 +75,7 @@ struct Session::Impl {
     void read_capture_times();
     /// Stores what a submitted frame leaves for the next one.
     void store_history_of_frame(const FrameSpec& spec, const render::FrameFacts& facts,
-                                const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
+                                const FrameGraph& frame, graph::FrameTicket ticket);
 
     Access::EngineImpl& engine_impl;
     scene::Scene scene;
@@ -95,7 +94,7 @@ struct Session::Impl {
     /// Models of `shown`, and the plans for which they were made.
     std::vector<reflect::TechniquePlan> modelled_plans;
     std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::WorkModel>> models;
-    std::optional<graph::SubmittedFrameTicket> last; ///< ticket of the frame submitted last
+    std::optional<graph::FrameTicket> last; ///< ticket of the frame submitted last
     /// For each copy of the scene data, the last frame that reads the copy.
     std::vector<std::uint64_t> read_by;
     std::size_t copy = 0;    ///< copy that frames read now
@@ -106,7 +105,7 @@ struct Session::Impl {
 
 struct Frame::Impl {
     std::shared_ptr<Access::SessionImpl> session;
-    graph::SubmittedFrameTicket ticket;
+    graph::FrameTicket ticket;
     FrameSpec spec;
     FrameHooks hooks;
     FrameGraph frame;
@@ -118,9 +117,7 @@ struct Frame::Impl {
     const TechniqueGraphPart& technique_part_at_index(std::size_t index) const {
         return frame.parts.at(index);
     }
-    const graph::GraphPlan& current_graph_plan() const {
-        return graph_runner().find_or_make_plan(frame.graph);
-    }
+    const graph::GraphPlan& current_graph_plan() const { return graph_runner().plan(frame.graph); }
     /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
     void check_is_last_frame() const {
         check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",

@@ -49,7 +49,7 @@ FrameTimesByRound keep_frames_with_passes(FrameTimesByRound rounds) {
 
 /// Returns the names of all passes that occur in some frame, in order of execution. Frames differ
 /// in their passes, because captures that are kept are not rendered again.
-std::vector<std::string> list_pass_names(const FrameTimesByRound& rounds) {
+std::vector<std::string> pass_names(const FrameTimesByRound& rounds) {
     std::vector<std::string> names;
     for (const std::vector<FrameTimes>& round : rounds)
         for (const FrameTimes& frame : round)
@@ -195,7 +195,7 @@ void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std
                                          [](const FrameTimes& frame) { return frame.frame_ms(); });
     row.host_parts = summarise_host_times(rounds);
     row.passes.clear();
-    for (const std::string& name : list_pass_names(detailed))
+    for (const std::string& name : pass_names(detailed))
         if (name.starts_with(prefix))
             row.passes.push_back(
                 {name, summarise_over_frames(detailed, [&](const FrameTimes& frame) {

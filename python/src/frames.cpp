@@ -113,7 +113,7 @@ session::FrameSpec make_frame_spec(const scene::Scene& scene, const std::string&
 
 using PassList = std::vector<std::tuple<std::string, double>>;
 
-PassList list_passes(const RenderedFrame& frame) {
+PassList passes(const RenderedFrame& frame) {
     PassList passes;
     for (const session::PassTime& pass : frame.times.passes)
         passes.emplace_back(pass.name, pass.ms());
@@ -194,7 +194,7 @@ void bind_frame(nb::module_& module) {
         .def_prop_ro(
             "wall_ms", [](const Frame& f) { return f.times.wall_ms; },
             "The time from submit until the device has finished, milliseconds.")
-        .def_prop_ro("passes", &list_passes,
+        .def_prop_ro("passes", &passes,
                      "The passes in order of execution: name and time in milliseconds.")
         .def_prop_ro(
             "scene_passes", [](const Frame& f) { return f.result.scene_passes; },

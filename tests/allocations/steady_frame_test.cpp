@@ -43,15 +43,15 @@ TEST_P(SteadyFrameAllocationTest, EachFrameMakesTheSameNumberOfAllocations) {
         graph::Graph graph(runner.make_history());
         render::FrameRequests requests(gpu_scene.next_view());
         const render::FrameInputs inputs{gpu_scene, requests, {32, 32}, ""};
-        graph.mark_as_graph_output(test::add_technique(graph, inputs, GetParam()).hdr);
+        graph.output(test::add_technique(graph, inputs, GetParam()).hdr);
         gpu_scene.fulfil(requests, [] {});
         const std::size_t declared = test::allocations();
         runner.submit_frame(graph, graph::PassTiming::isolated);
         const std::size_t recorded = test::allocations();
-        passes = runner.find_or_make_plan(graph).passes.size();
+        passes = runner.plan(graph).passes.size();
         if (frame >= 5) seen.insert({declared - before, recorded - declared});
     }
-    EXPECT_EQ(runner.compiled_graph_plan_count(), 1u);
+    EXPECT_EQ(runner.plan_count(), 1u);
     ASSERT_EQ(seen.size(), 1u);
     std::cout << "[ MEASURED ] " << GetParam() << ", " << passes
               << " passes: " << seen.begin()->declaring << " allocations declaring, "

@@ -15,7 +15,7 @@ constexpr graph::GraphLimits kTestGraphLimits{.max_layers = 1u << 20};
 /// Adds the time per pass to the result, beside the time per graph.
 void report_time_per_pass(benchmark::State& state, const graph::Graph& graph) {
     state.counters["a pass"] = benchmark::Counter(
-        static_cast<double>(state.iterations()) * static_cast<double>(graph.list_passes().size()),
+        static_cast<double>(state.iterations()) * static_cast<double>(graph.passes().size()),
         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
@@ -28,7 +28,7 @@ void measure_graph_declaration(benchmark::State& state) {
 void measure_graph_planning(benchmark::State& state) {
     const graph::Graph graph = test::make_reuse_graph(static_cast<std::uint32_t>(state.range(0)) -
                                                       3);
-    const graph::MemoryRequirementQueries sizer = graph::make_default_requirement_queries();
+    const graph::MemorySizer sizer = graph::default_sizer();
     for (auto _ : state)
         benchmark::DoNotOptimize(graph::plan_graph(graph, kTestGraphLimits, sizer));
     report_time_per_pass(state, graph);
@@ -38,8 +38,8 @@ void measure_graph_dump(benchmark::State& state) {
     const graph::Graph graph = test::make_reuse_graph(static_cast<std::uint32_t>(state.range(0)) -
                                                       3);
     const graph::GraphPlan plan = graph::plan_graph(graph, kTestGraphLimits,
-                                                    graph::make_default_requirement_queries());
-    for (auto _ : state) benchmark::DoNotOptimize(graph::graph_plan_to_text(graph, plan));
+                                                    graph::default_sizer());
+    for (auto _ : state) benchmark::DoNotOptimize(graph::plan_to_text(graph, plan));
     report_time_per_pass(state, graph);
 }
 

@@ -14,7 +14,7 @@ graph::Graph make_one_frame_graph() {
     graph.add_pass("clear it")
         .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
         .record([](graph::PassCommands&) {});
-    graph.mark_as_graph_output(image);
+    graph.output(image);
     return graph;
 }
 
@@ -37,12 +37,11 @@ TEST_F(DeviceLostInFlightTest, WaitReportsTheLostDevice) {
             gpu::Device device({});
             gpu::PipelineStore pipelines(device);
             graph::GraphRunner runner(device, pipelines, 3);
-            std::vector<graph::SubmittedFrameTicket> tickets;
+            std::vector<graph::FrameTicket> tickets;
             for (int i = 0; i < 3; ++i)
                 tickets.push_back(
                     runner.submit_frame(make_one_frame_graph(), graph::PassTiming::isolated));
-            const std::string first = error_text_of_action(
-                [&] { runner.wait_for_frame(tickets[1]); });
+            const std::string first = error_text_of_action([&] { runner.wait_for(tickets[1]); });
             if (first.find("run frame 2 (passes 'clear it')") == std::string::npos) wrong += first;
             const std::string next = error_text_of_action(
                 [&] { runner.submit_frame(make_one_frame_graph(), graph::PassTiming::isolated); });

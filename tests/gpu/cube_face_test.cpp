@@ -95,14 +95,13 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
         .writes(found, graph::ResourceUse::storage_write)
         .record([&, cubes, found](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
-            commands.bind_resource("colour_cubes", cubes.colour, graph::TextureFilter::linear);
-            commands.bind_resource("distance_cubes", *cubes.distance,
-                                   graph::TextureFilter::nearest);
-            commands.bind_resource("Directions", asked);
-            commands.bind_resource("Found", found);
+            commands.bind("colour_cubes", cubes.colour, graph::TextureFilter::linear);
+            commands.bind("distance_cubes", *cubes.distance, graph::TextureFilter::nearest);
+            commands.bind("Directions", asked);
+            commands.bind("Found", found);
             commands.dispatch(static_cast<std::uint32_t>((directions.size() + 63) / 64), 1);
         });
-    graph.mark_as_graph_output(found);
+    graph.output(found);
     test::run_graph(runner, graph);
     const std::vector<vec4> answers = test::read_resource_values<vec4>(runner, found);
     std::size_t judged = 0, wrong = 0;

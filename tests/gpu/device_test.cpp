@@ -105,7 +105,7 @@ TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
         graph.add_pass("fill" + std::to_string(i))
             .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
             .record([](graph::PassCommands&) {});
-        graph.mark_as_graph_output(image);
+        graph.output(image);
     }
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::exhausted,
                        {std::to_string(count << 30), std::to_string(device.memory_budget())});

@@ -30,11 +30,11 @@ std::vector<std::uint32_t> dispatch_and_count_groups(std::uint32_t groups, bool 
         .writes(counts, graph::ResourceUse::storage)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
-            commands.bind_resource("Counts", counts);
+            commands.bind("Counts", counts);
             commands.push_constants(kDispatchedWorkGroups);
             commands.dispatch_indirect(arguments, 4);
         });
-    graph.mark_as_graph_output(counts);
+    graph.output(counts);
     test::run_graph(runner, graph);
     return test::read_resource_values<std::uint32_t>(runner, counts);
 }

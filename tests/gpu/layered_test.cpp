@@ -45,10 +45,10 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
         const graph::ImageHandle depth = graph.add_image(
             {"depth" + std::to_string(mirror), TexelFormat::d32f, face, face, 6, true});
         graph.add_pass("capture" + std::to_string(mirror))
-            .writes(colour.select_image_layers(6 * mirror, 6), graph::ResourceUse::colour,
+            .writes(colour.layers(6 * mirror, 6), graph::ResourceUse::colour,
                     graph::ClearValue{0, 0, 0, 1})
             .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
-            .set_pass_layer_count(6)
+            .layers(6)
             .record([&gpu_scene, mirror](graph::PassCommands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
@@ -68,9 +68,9 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
                 }
             });
     }
-    graph.mark_as_graph_output(colour);
+    graph.output(colour);
     test::run_graph(runner, graph);
-    return runner.read_back_resource(colour);
+    return runner.read_back(colour);
 }
 
 TEST(Culling, CulledCapturesKeepTheirBytes) {

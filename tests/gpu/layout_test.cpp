@@ -134,12 +134,12 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
             for (const char* name :
                  {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies", "Frames", "Draws",
                   "Placements", "Traces", "AllCounters", "Grids", "Extents"})
-                commands.bind_resource(name, input);
-            commands.bind_resource("Words", output);
+                commands.bind(name, input);
+            commands.bind("Words", output);
             commands.bind_pipeline(gpu::ComputeState{"tests/layout.comp", {}});
             commands.dispatch(1, 1);
         });
-    graph.mark_as_graph_output(output);
+    graph.output(output);
     test::run_graph(runner, graph);
     const std::vector<std::uint32_t> found = test::read_resource_values<std::uint32_t>(runner,
                                                                                        output);

@@ -19,15 +19,15 @@ const graph::ImageDesc kDesc{"cubes", TexelFormat::r32f, kStepImageWidth, kHeigh
 std::size_t render_from_persistent_image(graph::GraphRunner& runner, float stamp,
                                          std::vector<float>& shown) {
     graph::Graph graph(runner.make_history());
-    const graph::ImageHandle cubes = graph.add_persistent_image(kDesc);
+    const graph::ImageHandle cubes = graph.add_persistent(kDesc);
     const auto number = static_cast<std::uint64_t>(stamp);
-    if (!graph.has_image_part_content_hash(cubes, number)) {
+    if (!graph.has_content_hash(cubes, number)) {
         add_start_pass(graph, cubes, stamp);
-        graph.set_content_hash_of_image_part(cubes, number);
+        graph.set_content_hash(cubes, number);
     }
     const graph::ImageHandle out = test::add_step_image(graph, "out");
     add_step_pass(graph, "view", cubes, out, 1);
-    graph.mark_as_graph_output(out);
+    graph.output(out);
     const std::size_t passes = test::run_graph(runner, graph).passes.size();
     shown = test::read_resource_values<float>(runner, out);
     return passes;
@@ -45,8 +45,8 @@ TEST(Kept, ImageIsWrittenOnceUntilItsContentHashChanges) {
         }
         // The frames have three shapes: without content, with kept content, and with overwritten
         // content.
-        EXPECT_EQ(runner.compiled_graph_plan_count(), 3u);
-        runner.discard_persistent_image_contents();
+        EXPECT_EQ(runner.plan_count(), 3u);
+        runner.discard_contents();
         EXPECT_EQ(render_from_persistent_image(runner, 2, shown), 2u);
         EXPECT_EQ(shown, expected_step_texels(expected_start_texels(2), 1));
     }
@@ -61,7 +61,7 @@ TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
         const graph::ImageHandle image = test::add_step_image(other,
                                                               "other" + std::to_string(frame));
         add_start_pass(other, image, 9);
-        other.mark_as_graph_output(image);
+        other.output(image);
         test::run_graph(runner, other);
     }
     EXPECT_EQ(render_from_persistent_image(runner, 2, shown), 1u);
@@ -74,32 +74,31 @@ TEST(Kept, LayersAreWrittenOneByOne) {
     desc.layers = 3;
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
         graph::Graph graph(runner.make_history());
-        const graph::ImageHandle cubes = graph.add_persistent_image(desc);
+        const graph::ImageHandle cubes = graph.add_persistent(desc);
         for (std::uint32_t layer = 0; layer < 3; ++layer) {
-            const graph::ImageHandle part = cubes.select_image_layers(layer, 1);
-            EXPECT_EQ(graph.has_image_part_content_hash(part, layer), layer < frame);
+            const graph::ImageHandle part = cubes.layers(layer, 1);
+            EXPECT_EQ(graph.has_content_hash(part, layer), layer < frame);
             if (layer != frame) continue;
             graph.add_pass("fill")
                 .writes(part, ResourceUse::storage_write)
                 .record([=](graph::PassCommands& c) {
                     c.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
-                    c.bind_resource("after", part);
+                    c.bind("after", part);
                     c.push_constants(static_cast<float>(layer + 1));
                     c.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
                 });
-            graph.set_content_hash_of_image_part(part, layer);
+            graph.set_content_hash(part, layer);
         }
-        EXPECT_EQ(graph.has_image_part_content_hash(cubes, 0), false);
+        EXPECT_EQ(graph.has_content_hash(cubes, 0), false);
         const std::uint32_t there = std::min(frame + 1, 3u);
-        graph.mark_as_graph_output(cubes.select_image_layers(0, there));
+        graph.output(cubes.layers(0, there));
         test::run_graph(runner, graph);
         std::vector<float> expected;
         for (std::uint32_t layer = 0; layer < there; ++layer) {
             const std::vector<float> values = expected_start_texels(static_cast<float>(layer + 1));
             expected.insert(expected.end(), values.begin(), values.end());
         }
-        EXPECT_EQ(test::read_resource_values<float>(runner, cubes.select_image_layers(0, there)),
-                  expected);
+        EXPECT_EQ(test::read_resource_values<float>(runner, cubes.layers(0, there)), expected);
     }
 }
 
@@ -110,7 +109,7 @@ TEST(Kept, ImageOfAnotherSizeHasNoContent) {
     graph::Graph graph(runner.make_history());
     graph::ImageDesc desc = kDesc;
     desc.width = 8;
-    EXPECT_FALSE(graph.has_image_part_content_hash(graph.add_persistent_image(desc), 2));
+    EXPECT_FALSE(graph.has_content_hash(graph.add_persistent(desc), 2));
 }
 
 TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
@@ -118,28 +117,27 @@ TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
     graph::ImageDesc desc = kDesc;
     desc.name = "outside";
     const graph::ImageWithMemory owned = graph::make_importable_image(device, desc);
-    graph::PhysicalImage outside = graph::wrap_external_image(desc, owned.image.image);
+    graph::PhysicalImage outside = graph::wrap_image(desc, owned.image.image);
     graph::GraphRunner runner(device, pipelines, 2);
     for (int frame = 0; frame < 4; ++frame) {
         graph::Graph graph;
         const bool first = frame == 0;
         // The first frame writes the image, and later frames sample it. Each frame declares that
         // the next frame samples the image, which sets its layout.
-        const graph::ImageHandle image = graph.import_external_resource(
+        const graph::ImageHandle image = graph.import_resource(
             desc, &outside, first ? std::nullopt : std::optional(ResourceUse::sampled),
             ResourceUse::sampled);
         const graph::ImageHandle out = test::add_step_image(graph, "out");
         if (first) add_start_pass(graph, image, 4);
         add_step_pass(graph, "view", image, out, 5);
-        graph.mark_as_graph_output(out);
-        const graph::SubmittedFrameTicket ticket = runner.submit_frame(
-            graph, graph::PassTiming::pipelined);
-        std::vector<std::byte> bytes = runner.read_back_resource(ticket, out);
+        graph.output(out);
+        const graph::FrameTicket ticket = runner.submit_frame(graph, graph::PassTiming::pipelined);
+        std::vector<std::byte> bytes = runner.read_back(ticket, out);
         std::vector<float> values(bytes.size() / sizeof(float));
         std::memcpy(values.data(), bytes.data(), bytes.size());
         EXPECT_EQ(values, expected_step_texels(expected_start_texels(4), 5));
     }
-    EXPECT_EQ(runner.compiled_graph_plan_count(), 2u);
+    EXPECT_EQ(runner.plan_count(), 2u);
 }
 
 TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
@@ -150,9 +148,9 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
     for (std::uint32_t i = 0; i < kFrameSlotCount; ++i)
         targets.emplace_back(device, "read-back", kStepImageWidth * kHeight * sizeof(float),
                              gpu::BufferUsage::read_back);
-    std::vector<graph::SubmittedFrameTicket> tickets;
+    std::vector<graph::FrameTicket> tickets;
     const auto expect_read = [&](std::uint32_t frame) {
-        runner.wait_for_frame(tickets[frame]);
+        runner.wait_for(tickets[frame]);
         const std::vector<std::byte> bytes = targets[frame % kFrameSlotCount].read();
         std::vector<float> values(kStepImageWidth * kHeight);
         std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
@@ -163,8 +161,8 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
         graph::Graph graph;
         const graph::ImageHandle image = test::add_step_image(graph, "image");
         const gpu::Buffer& target = targets[frame % kFrameSlotCount];
-        const graph::BufferHandle out = graph.import_external_resource(
-            {target.name(), target.bytes()}, &target);
+        const graph::BufferHandle out = graph.import_resource({target.name(), target.bytes()},
+                                                              &target);
         add_start_pass(graph, image, static_cast<float>(frame));
         graph.add_pass("copy")
             .reads(image, ResourceUse::copy_from)
@@ -176,14 +174,14 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
     for (std::uint32_t frame = kLifetimeTestFrames - kFrameSlotCount; frame < kLifetimeTestFrames;
          ++frame)
         expect_read(frame);
-    EXPECT_EQ(runner.compiled_graph_plan_count(), 1u);
+    EXPECT_EQ(runner.plan_count(), 1u);
 }
 
 TEST(Imported, ImageWithoutASourceIsRefused) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
-    const graph::ImageHandle image = graph.import_external_resource(kDesc, nullptr, std::nullopt,
-                                                                    ResourceUse::sampled);
+    const graph::ImageHandle image = graph.import_resource(kDesc, nullptr, std::nullopt,
+                                                           ResourceUse::sampled);
     add_start_pass(graph, image, 1);
     expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
                  {"image 'cubes' is imported from nowhere"});
@@ -196,9 +194,9 @@ TEST(Imported, ImageOfAnotherSizeIsRefused) {
     graph::ImageDesc desc = kDesc;
     desc.height *= 2;
     const graph::ImageWithMemory owned = graph::make_importable_image(device, desc);
-    graph::PhysicalImage outside = graph::wrap_external_image(desc, owned.image.image);
-    const graph::ImageHandle image = graph.import_external_resource(kDesc, &outside, std::nullopt,
-                                                                    ResourceUse::sampled);
+    graph::PhysicalImage outside = graph::wrap_image(desc, owned.image.image);
+    const graph::ImageHandle image = graph.import_resource(kDesc, &outside, std::nullopt,
+                                                           ResourceUse::sampled);
     add_start_pass(graph, image, 1);
     const auto size = [](const graph::ImageDesc& of) {
         return std::to_string(of.width) + "x" + std::to_string(of.height);
@@ -214,16 +212,15 @@ TEST(Mips, EachMipIsComputedFromTheOneBefore) {
         graph::ImageDesc desc = kDesc;
         desc.mips = 4;
         const graph::ImageHandle image = graph.add_image(desc);
-        add_start_pass(graph, image.select_image_mip(0), 2);
+        add_start_pass(graph, image.mip(0), 2);
         for (std::uint32_t m = 1; m < desc.mips; ++m)
-            add_step_pass(graph, "mip" + std::to_string(m), image.select_image_mip(m - 1),
-                          image.select_image_mip(m), 3);
-        graph.mark_as_graph_output(image);
+            add_step_pass(graph, "mip" + std::to_string(m), image.mip(m - 1), image.mip(m), 3);
+        graph.output(image);
         test::run_graph(runner, graph);
         std::vector<float> expected, before;
         for (std::uint32_t m = 0; m < desc.mips; ++m) {
-            const std::uint32_t width = graph::size_at_mip(kStepImageWidth, m),
-                                height = graph::size_at_mip(kHeight, m);
+            const std::uint32_t width = graph::mip_size(kStepImageWidth, m),
+                                height = graph::mip_size(kHeight, m);
             std::vector<float> mip;
             for (std::uint32_t y = 0; y < height; ++y)
                 for (std::uint32_t x = 0; x < width; ++x) {
@@ -247,7 +244,7 @@ TEST(Mips, MipsAreSampledAsOneImage) {
             {"pyramid", TexelFormat::r16f, 16, 16, 1, false, 5});
         for (std::uint32_t m = 0; m < 5; ++m)
             graph.add_pass("mip" + std::to_string(m))
-                .writes(image.select_image_mip(m), ResourceUse::colour,
+                .writes(image.mip(m), ResourceUse::colour,
                         graph::ClearValue{10.0f * static_cast<float>(m)})
                 .record([](graph::PassCommands&) {});
         const graph::ImageHandle out = test::add_step_image(graph, "out");
@@ -256,12 +253,12 @@ TEST(Mips, MipsAreSampledAsOneImage) {
             .writes(out, ResourceUse::storage_write)
             .record([=](graph::PassCommands& commands) {
                 commands.bind_pipeline(gpu::ComputeState{"tests/lod.comp", {}});
-                commands.bind_resource("before", image, graph::TextureFilter::mipmapped);
-                commands.bind_resource("after", out);
+                commands.bind("before", image, graph::TextureFilter::mipmapped);
+                commands.bind("after", out);
                 commands.push_constants(lod);
                 commands.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
             });
-        graph.mark_as_graph_output(out);
+        graph.output(out);
         test::run_graph(runner, graph);
         EXPECT_NEAR(test::read_resource_values<float>(runner, out)[0], std::min(10 * lod, 40.0f),
                     0.1f)
@@ -278,8 +275,8 @@ TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
         .writes(colour, ResourceUse::colour, graph::ClearValue{1, 2, 3, 4})
         .writes(depth, ResourceUse::depth, graph::ClearValue{})
         .record([](graph::PassCommands&) {});
-    graph.mark_as_graph_output(colour);
-    EXPECT_EQ(runner.find_or_make_plan(graph).passes[0].unread, 2u);
+    graph.output(colour);
+    EXPECT_EQ(runner.plan(graph).passes[0].unread, 2u);
     test::run_graph(runner, graph);
     const std::vector<float> found = test::read_resource_values<float>(runner, colour);
     EXPECT_EQ(std::vector<float>(found.begin(), found.begin() + 4),
@@ -300,12 +297,12 @@ TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
             .record([=](graph::PassCommands& commands) {
                 commands.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
                 for (const graph::ImageHandle& after : {unread, out}) {
-                    commands.bind_resource("after", after);
+                    commands.bind("after", after);
                     commands.push_constants(1.0f);
                     commands.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
                 }
             });
-        graph.mark_as_graph_output(out);
+        graph.output(out);
         runner.submit_frame(graph, graph::PassTiming::pipelined);
     }
 }
@@ -323,30 +320,30 @@ TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
         const graph::ImageHandle out = graph.add_image(
             {"out", TexelFormat::rgba16f, 64u << (4 - kind), 64});
         for (const graph::ImageHandle& image : {last, out})
-            graph.add_pass("clear/" + graph.list_images()[image.id].name)
-                .reads(graph.previous_contents(last), ResourceUse::sampled)
+            graph.add_pass("clear/" + graph.images()[image.id].name)
+                .reads(graph.previous(last), ResourceUse::sampled)
                 .writes(image, ResourceUse::colour, graph::ClearValue{})
                 .record([](graph::PassCommands&) {});
         if (kind == 3) {
-            const graph::ImageHandle kept = graph.add_persistent_image(
+            const graph::ImageHandle kept = graph.add_persistent(
                 {"kept", TexelFormat::rgba16f, 64, 64});
-            if (!graph.has_image_part_content_hash(kept, 1)) {
+            if (!graph.has_content_hash(kept, 1)) {
                 graph.add_pass("keep")
                     .writes(kept, ResourceUse::colour, graph::ClearValue{})
                     .record([](graph::PassCommands&) {});
-                graph.set_content_hash_of_image_part(kept, 1);
+                graph.set_content_hash(kept, 1);
             }
         }
-        graph.mark_as_graph_output(out);
+        graph.output(out);
         runner.submit_frame(graph, graph::PassTiming::pipelined);
-        if (frame == 9) after_two_rounds = runner.allocated_device_bytes();
+        if (frame == 9) after_two_rounds = runner.allocated_bytes();
         // Memory is compared every fifth frame, because an image that the next frame reads has the
         // size of the present shape.
         if (frame % 5 == 4 && frame > 9) {
-            EXPECT_EQ(runner.allocated_device_bytes(), after_two_rounds) << frame;
+            EXPECT_EQ(runner.allocated_bytes(), after_two_rounds) << frame;
         }
     }
-    EXPECT_EQ(runner.compiled_graph_plan_count(), 6u);
+    EXPECT_EQ(runner.plan_count(), 6u);
 }
 
 } // namespace

@@ -39,13 +39,13 @@ std::vector<LobeAnswer> evaluate_lobes_on_device(const std::vector<vec4>& asked)
     graph.add_pass("lobe")
         .writes(out, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
-            commands.bind_resource("Asked", input);
-            commands.bind_resource("Answers", out);
+            commands.bind("Asked", input);
+            commands.bind("Answers", out);
             commands.bind_pipeline(gpu::ComputeState{"tests/lobe.comp", {}});
             commands.push_constants(static_cast<std::uint32_t>(asked.size()));
             commands.dispatch(static_cast<std::uint32_t>((asked.size() + 63) / 64), 1);
         });
-    graph.mark_as_graph_output(out);
+    graph.output(out);
     test::run_graph(runner, graph);
     return test::read_resource_values<LobeAnswer>(runner, out);
 }

@@ -18,11 +18,11 @@ std::uint32_t run_loop_shader(std::uint32_t wanted) {
         .writes(counts, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
-            commands.bind_resource("Counts", counts);
+            commands.bind("Counts", counts);
             commands.push_constants(wanted);
             commands.dispatch(4, 1);
         });
-    graph.mark_as_graph_output(counts);
+    graph.output(counts);
     test::run_graph(runner, graph);
     return test::read_resource_values<std::uint32_t>(runner, counts).front();
 }

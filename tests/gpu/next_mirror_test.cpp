@@ -48,17 +48,17 @@ std::vector<NextMirrorAnswer> list_next_mirror_answers(const std::vector<shared:
     graph.add_pass("next_mirror")
         .writes(out, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
-            commands.bind_resource("frame", frame);
-            commands.bind_resource("probe_texels", mirrors);
-            commands.bind_resource("mirror_nodes", tree);
-            commands.bind_resource("Rays", input);
-            commands.bind_resource("Answers", out);
+            commands.bind("frame", frame);
+            commands.bind("probe_texels", mirrors);
+            commands.bind("mirror_nodes", tree);
+            commands.bind("Rays", input);
+            commands.bind("Answers", out);
             commands.bind_pipeline(
                 gpu::ComputeState{"tests/next_mirror.comp", {{"mirror_tree", by_tree ? 1u : 0u}}});
             commands.push_constants(static_cast<std::uint32_t>(rays.size()));
             commands.dispatch(static_cast<std::uint32_t>((rays.size() + 63) / 64), 1);
         });
-    graph.mark_as_graph_output(out);
+    graph.output(out);
     test::run_graph(runner, graph);
     return test::read_resource_values<NextMirrorAnswer>(runner, out);
 }

@@ -108,11 +108,11 @@ TEST(FramePieces, GrowWhereTheyAreShortAndShrinkWhereTheyAreLong) {
     constexpr std::uint64_t kLeast = std::uint64_t{1} << 15, kMost = std::uint64_t{1} << 18;
     std::uint64_t rays = kLeast;
     for (const std::uint64_t wanted : {kLeast * 2, kLeast * 4, kMost, kMost})
-        EXPECT_EQ(rays = graph::fit_rays_of_piece(rays, 49, true), wanted);
-    EXPECT_EQ(graph::fit_rays_of_piece(rays, 100, true), kMost);
+        EXPECT_EQ(rays = graph::fit_rays(rays, 49, true), wanted);
+    EXPECT_EQ(graph::fit_rays(rays, 100, true), kMost);
     for (const std::uint64_t wanted : {kLeast * 4, kLeast * 2, kLeast, kLeast})
-        EXPECT_EQ(rays = graph::fit_rays_of_piece(rays, 201, true), wanted);
-    EXPECT_EQ(graph::fit_rays_of_piece(kLeast, 1, false), kLeast) << "one piece says nothing";
+        EXPECT_EQ(rays = graph::fit_rays(rays, 201, true), wanted);
+    EXPECT_EQ(graph::fit_rays(kLeast, 1, false), kLeast) << "one piece says nothing";
 }
 
 TEST(FramePieces, StopBetweenTwoPiecesLeavesASessionThatDrawsOn) {

@@ -17,9 +17,8 @@ TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
         graph::Graph graph(runner.make_history());
         const graph::ImageHandle image = add_step_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
-        add_step_pass(graph, "step", graph.previous_contents(image), image,
-                      static_cast<float>(frame));
-        graph.mark_as_graph_output(image);
+        add_step_pass(graph, "step", graph.previous(image), image, static_cast<float>(frame));
+        graph.output(image);
         test::run_graph(runner, graph);
         expected = expected_step_texels(expected, static_cast<float>(frame));
         EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
@@ -33,8 +32,8 @@ TEST(Previous, HistoryBelongsToItsRunner) {
         EXPECT_TRUE(runner.make_history().previous.empty());
         graph::Graph graph(runner.make_history());
         const graph::ImageHandle image = add_step_image(graph, "kept");
-        add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
-        graph.mark_as_graph_output(image);
+        add_step_pass(graph, "step", graph.previous(image), image, 5);
+        graph.output(image);
         test::run_graph(runner, graph);
         EXPECT_EQ(test::read_resource_values<float>(runner, image),
                   expected_step_texels(std::vector<float>(kStepImageWidth * kHeight, 0.0f), 5));
@@ -50,9 +49,9 @@ TEST(Previous, ImagesThatAFailedFrameReplacedAreNotReadBack) {
         graph::Graph graph(runner.make_history());
         const graph::ImageHandle image = add_step_image(graph, "kept"),
                                  plain = add_step_image(graph, "plain");
-        add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
+        add_step_pass(graph, "step", graph.previous(image), image, 5);
         add_start_pass(graph, plain, 3);
-        graph.mark_as_graph_output(image), graph.mark_as_graph_output(plain);
+        graph.output(image), graph.output(plain);
         test::run_graph(runner, graph);
 
         graph::Graph other(runner.make_history());
@@ -61,13 +60,13 @@ TEST(Previous, ImagesThatAFailedFrameReplacedAreNotReadBack) {
         const graph::ImageHandle output = other.add_image(
             {"output", TexelFormat::r32f, 8 * kStepImageWidth, kHeight});
         other.add_pass("step")
-            .reads(other.previous_contents(larger), graph::ResourceUse::sampled)
+            .reads(other.previous(larger), graph::ResourceUse::sampled)
             .writes(larger, graph::ResourceUse::storage_write)
             .writes(output, graph::ResourceUse::storage_write)
             .record([](graph::PassCommands&) { throw std::runtime_error("no commands"); });
-        other.mark_as_graph_output(larger), other.mark_as_graph_output(output);
+        other.output(larger), other.output(output);
         EXPECT_THROW(test::run_graph(runner, other), std::runtime_error);
-        test::expect_error([&] { runner.read_back_resource(image); }, Failure::internal,
+        test::expect_error([&] { runner.read_back(image); }, Failure::internal,
                            {in_flight == 1 ? "frame 1 is gone: its place was taken by a frame that "
                                              "failed"
                                            : "image 'kept' is read after it was released"});
@@ -88,12 +87,12 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
         if (frame == 2) { // one image more, declared first, so the number of every image changes
             const graph::ImageHandle other = add_step_image(graph, "other");
             add_start_pass(graph, other, 1);
-            graph.mark_as_graph_output(other);
+            graph.output(other);
         }
         const graph::ImageHandle image = add_step_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
-        add_step_pass(graph, "step", graph.previous_contents(image), image, 2);
-        graph.mark_as_graph_output(image);
+        add_step_pass(graph, "step", graph.previous(image), image, 2);
+        graph.output(image);
         test::run_graph(runner, graph);
         expected = expected_step_texels(expected, 2);
         EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
@@ -106,18 +105,18 @@ constexpr std::size_t kStepBufferWords = 100;
 /// output.
 graph::BufferHandle add_buffer_step(graph::Graph& graph, std::uint32_t number) {
     const graph::BufferHandle buffer = graph.add_buffer({"words", 4 * kStepBufferWords}),
-                              before = graph.previous_contents(buffer);
+                              before = graph.previous(buffer);
     graph.add_pass("step")
         .reads(before, graph::ResourceUse::storage_read)
         .writes(buffer, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/step_buffer.comp", {}});
-            commands.bind_resource("Before", before);
-            commands.bind_resource("After", buffer);
+            commands.bind("Before", before);
+            commands.bind("After", buffer);
             commands.push_constants(number);
             commands.dispatch(2, 1, 1);
         });
-    graph.mark_as_graph_output(buffer);
+    graph.output(buffer);
     return buffer;
 }
 
@@ -146,7 +145,7 @@ TEST(Previous, BufferIsZeroInTheFirstFrameAndThenTheLastFrame) {
             if (!stays) expected = next;
         }
         EXPECT_EQ(runner.read_history().size(), 4 * kStepBufferWords);
-        runner.discard_persistent_image_contents();
+        runner.discard_contents();
         graph::Graph graph(runner.make_history());
         const graph::BufferHandle buffer = add_buffer_step(graph, 9);
         test::run_graph(runner, graph);
@@ -175,8 +174,8 @@ TEST(Previous, RetainedResourcesCanBeExchanged) {
 
 TEST(Previous, PreviousOfAnImportedBufferIsRefused) {
     graph::Graph graph;
-    const graph::BufferHandle buffer = graph.import_external_resource({"outside", 16}, nullptr);
-    test::expect_error([&] { graph.previous_contents(buffer); }, Failure::internal,
+    const graph::BufferHandle buffer = graph.import_resource({"outside", 16}, nullptr);
+    test::expect_error([&] { graph.previous(buffer); }, Failure::internal,
                        {"buffer 'outside'", "imported"});
 }
 
@@ -185,14 +184,14 @@ TEST(Previous, PreviousOfAnImportedBufferIsRefused) {
 graph::ImageHandle add_chain_of_steps(graph::Graph& graph, int length, bool apart) {
     graph::ImageHandle last = add_step_image(graph, "image0");
     add_start_pass(graph, last, 7);
-    if (apart) graph.mark_as_graph_output(last);
+    if (apart) graph.output(last);
     for (int i = 1; i <= length; ++i) {
         const graph::ImageHandle next = add_step_image(graph, "image" + std::to_string(i));
         add_step_pass(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
-        if (apart) graph.mark_as_graph_output(next);
+        if (apart) graph.output(next);
         last = next;
     }
-    graph.mark_as_graph_output(last);
+    graph.output(last);
     return last;
 }
 
@@ -205,7 +204,7 @@ TEST(Aliasing, ImagesThatShareMemoryEqualImagesApart) {
         for (int frame = 0; frame < 3; ++frame) { // later frames reuse memory
             graph::Graph graph;
             const graph::ImageHandle last = add_chain_of_steps(graph, 9, apart);
-            bytes[apart] = runner.find_or_make_plan(graph).bytes;
+            bytes[apart] = runner.plan(graph).bytes;
             runner.run_and_wait(graph, frame == 1 ? graph::PassTiming::pipelined
                                                   : graph::PassTiming::isolated);
             found[apart] = test::read_resource_values<float>(runner, last);

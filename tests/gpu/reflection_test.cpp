@@ -199,7 +199,7 @@ void make_and_run_dispatch(
             prepare(commands, buffer);
             commands.dispatch(1, 1);
         });
-    graph.mark_as_graph_output(buffer);
+    graph.output(buffer);
     test::run_graph(runner, graph);
 }
 
@@ -223,10 +223,10 @@ TEST(Binding, ImageBoundAsABufferIsRefused) {
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.push_constants(1u);
-            commands.bind_resource("Counts", image);
+            commands.bind("Counts", image);
             commands.dispatch(1, 1);
         });
-    graph.mark_as_graph_output(image);
+    graph.output(image);
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
                        {"pass 'mixed'", "'Counts'", "is a buffer, bound is an image"});
 }
@@ -238,8 +238,8 @@ TEST(Binding, UndeclaredResourceIsRefused) {
                               other = graph.add_buffer({"other", 64});
     graph.add_pass("sly")
         .writes(declared, graph::ResourceUse::storage_write)
-        .record([=](graph::PassCommands& commands) { commands.bind_resource("Counts", other); });
-    graph.mark_as_graph_output(declared);
+        .record([=](graph::PassCommands& commands) { commands.bind("Counts", other); });
+    graph.output(declared);
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
                        {"pass 'sly'", "'other'", "does not declare it"});
 }
@@ -249,7 +249,7 @@ TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
         [] {
             make_and_run_dispatch({"tests/spin.comp", {}},
                                   [](graph::PassCommands& commands, graph::BufferHandle buffer) {
-                                      commands.bind_resource("Counts", buffer);
+                                      commands.bind("Counts", buffer);
                                       commands.push_constants(uvec2(1, 2));
                                   });
         },
@@ -266,9 +266,9 @@ TEST(Binding, PushConstantsOfThePipelineBeforeAreChecked) {
         .writes(picture, graph::ResourceUse::storage_write)
         .writes(counts, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_resource("picture", picture);
+            commands.bind("picture", picture);
             for (const char* name : {"Counts", "counters", "arguments", "List"})
-                commands.bind_resource(name, counts);
+                commands.bind(name, counts);
             commands.push_constants(1u);
             for (int turn = 0; turn < 2; ++turn) {
                 commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
@@ -277,7 +277,7 @@ TEST(Binding, PushConstantsOfThePipelineBeforeAreChecked) {
             commands.bind_pipeline(gpu::ComputeState{"trace_list.comp#first", {}});
             commands.dispatch(1, 1);
         });
-    graph.mark_as_graph_output(counts);
+    graph.output(counts);
     test::expect_error(
         [&] { test::run_graph(runner, graph); }, Failure::internal,
         {"pass 'two'", "trace_list.comp#first wants 8 bytes of push constants, got 4"});

@@ -24,10 +24,10 @@ std::vector<std::byte> render_resident_scene(render::GpuScene& scene,
     render::FrameRequests requests(scene.next_view());
     const reflect::TechniqueOutputs outputs = test::add_technique(
         graph, {scene, requests, kResidentPictureSize, ""}, technique);
-    graph.mark_as_graph_output(outputs.hdr);
+    graph.output(outputs.hdr);
     scene.fulfil(requests, [] {});
     test::run_graph(runner, graph);
-    return runner.read_back_resource(outputs.hdr);
+    return runner.read_back(outputs.hdr);
 }
 
 /// A test room on the device whose objects, materials and camera tests change.

@@ -129,7 +129,7 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         const render::FrameInputs inputs{gpu_scene, requests, {48, 32}, ""};
         const render::ShadingLights lighting{render::add_shadow_passes(graph, inputs, 64)};
         const graph::ImageHandle hdr = render::add_camera_view(graph, inputs, lighting, {}).hdr;
-        graph.mark_as_graph_output(hdr);
+        graph.output(hdr);
         gpu_scene.fulfil(requests, [] {});
         test::run_graph(runner, graph);
         return test::read_resource_values<float>(runner, hdr);

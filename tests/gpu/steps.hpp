@@ -18,11 +18,11 @@ inline graph::ImageHandle add_step_image(graph::Graph& graph, const std::string&
 
 /// Adds a pass that sets each texel of `after` to number * (1 + the texel's index).
 inline void add_start_pass(graph::Graph& graph, graph::ImageHandle after, float number) {
-    graph.add_pass("start/" + graph.list_images()[after.id].name)
+    graph.add_pass("start/" + graph.images()[after.id].name)
         .writes(after, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
-            commands.bind_resource("after", after);
+            commands.bind("after", after);
             commands.push_constants(number);
             commands.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
         });
@@ -35,8 +35,8 @@ inline void add_step_pass(graph::Graph& graph, const std::string& name, graph::I
         .writes(after, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/step.comp", {}});
-            commands.bind_resource("before", before);
-            commands.bind_resource("after", after);
+            commands.bind("before", before);
+            commands.bind("after", after);
             commands.push_constants(number);
             commands.dispatch((kStepImageWidth + 7) / 8, (kHeight + 7) / 8);
         });

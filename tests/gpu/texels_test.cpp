@@ -69,17 +69,17 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     graph.add_pass("texels")
         .writes(output, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
-            commands.bind_resource("surface_texels", surface_list);
-            commands.bind_resource("probe_texels", probe_list);
-            commands.bind_resource("detail_quads", detail_list);
-            commands.bind_resource("attribute_texels", attribute_list);
-            commands.bind_resource("texture_words", texture_list);
-            commands.bind_resource("Words", output);
+            commands.bind("surface_texels", surface_list);
+            commands.bind("probe_texels", probe_list);
+            commands.bind("detail_quads", detail_list);
+            commands.bind("attribute_texels", attribute_list);
+            commands.bind("texture_words", texture_list);
+            commands.bind("Words", output);
             commands.bind_pipeline(gpu::ComputeState{"tests/texels.comp", {}});
             commands.push_constants(kAskedStructCount);
             commands.dispatch(1, 1);
         });
-    graph.mark_as_graph_output(output);
+    graph.output(output);
     test::run_graph(runner, graph);
     EXPECT_EQ(test::read_resource_values<std::uint32_t>(runner, output), expected);
 }

@@ -141,12 +141,12 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
                 .writes(counts, graph::ResourceUse::storage)
                 .record([=](graph::PassCommands& commands) {
                     commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
-                    commands.bind_resource("Counts", counts);
+                    commands.bind("Counts", counts);
                     commands.push_constants(4000u);
                     commands.dispatch(groups, 1);
                 });
         }
-        graph.mark_as_graph_output(counts);
+        graph.output(counts);
         const graph::GraphFrameTimes times = test::run_graph(runner, graph);
         if (frame < 2) continue;
         for (const graph::GraphPassTime& pass : times.passes) {

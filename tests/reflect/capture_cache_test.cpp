@@ -29,15 +29,15 @@ protected:
         outputs_ = reflect::add_frame_passes(graph, {*shown_, requests, kCachedPictureSize, ""},
                                              assignment, {model_, kept_, &comparisons_, most_});
         shown_->fulfil(requests, [] {});
-        graph.mark_as_graph_output(outputs_.hdr);
+        graph.output(outputs_.hdr);
         runner_.run_and_wait(graph, graph::PassTiming::isolated);
         kept_ = outputs_.kept;
         if (learns_)
             render::read_finished_face_comparisons(kept_, [](std::uint64_t) { return true; });
         Names names;
-        for (const graph::PlannedPass& planned : runner_.find_or_make_plan(graph).passes)
-            if (graph.list_passes()[planned.pass].name != "view")
-                names.push_back(graph.list_passes()[planned.pass].name);
+        for (const graph::PlannedPass& planned : runner_.plan(graph).passes)
+            if (graph.passes()[planned.pass].name != "view")
+                names.push_back(graph.passes()[planned.pass].name);
         return names;
     }
     void render_until_captures_are_kept(const std::string& technique = "parallax:face=8") {
@@ -50,8 +50,8 @@ protected:
     std::vector<std::byte> read_capture_colours(std::uint32_t mirror, std::uint32_t face = 0,
                                                 std::uint32_t count = 6) {
         const auto& [array, cube] = outputs_.captures->places[mirror];
-        return runner_.read_back_resource(
-            outputs_.captures->arrays[array].colour.select_image_layers(6 * cube + face, count));
+        return runner_.read_back(
+            outputs_.captures->arrays[array].colour.layers(6 * cube + face, count));
     }
 
     static constexpr uvec2 kCachedPictureSize{32, 24};
@@ -195,7 +195,7 @@ TEST_F(CaptureCacheFramesTest, FacesThatNobodyReadsAreCleared) {
     EXPECT_TRUE(std::ranges::find(names, "capture/2.4-6") != names.end()) << "now they are";
     render_until_captures_are_kept();
     const std::vector<std::byte> late = read_capture_colours(1);
-    kept_ = nullptr, runner_.discard_persistent_image_contents();
+    kept_ = nullptr, runner_.discard_contents();
     render_until_captures_are_kept();
     EXPECT_EQ(late, read_capture_colours(1));
 }
@@ -221,7 +221,7 @@ TEST_F(CaptureCacheFramesTest, MirrorsThatAreCapturedLaterAreAdded) {
     render_until_captures_are_kept();
     model_.mirrors[1].is_captured = true;
     render_until_captures_are_kept();
-    kept_ = nullptr, runner_.discard_persistent_image_contents();
+    kept_ = nullptr, runner_.discard_contents();
     render_until_captures_are_kept();
     for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
         EXPECT_EQ(late[mirror], read_capture_colours(mirror)) << mirror;

@@ -17,7 +17,7 @@ namespace {
 using namespace catoptric;
 
 graph::ImageHandle find_image_by_name(const graph::Graph& graph, const std::string& name) {
-    const auto& images = graph.list_images();
+    const auto& images = graph.images();
     const auto found = std::ranges::find(images, name, &graph::ImageDesc::name);
     if (found == images.end()) throw std::runtime_error("no image " + name);
     return {static_cast<std::uint32_t>(found - images.begin()), 0, found->layers};
@@ -78,17 +78,17 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
             .writes(found[i], graph::ResourceUse::storage_write)
             .record([=, &asked, count = directions.size()](graph::PassCommands& commands) {
                 commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
-                commands.bind_resource("colour_cubes", colour, graph::TextureFilter::linear);
-                commands.bind_resource("distance_cubes", distance,
-                                       i == 0 ? graph::TextureFilter::linear
-                                              : graph::TextureFilter::nearest);
-                commands.bind_resource("Directions", asked);
-                commands.bind_resource("Found", found[i]);
+                commands.bind("colour_cubes", colour, graph::TextureFilter::linear);
+                commands.bind("distance_cubes", distance,
+                              i == 0 ? graph::TextureFilter::linear
+                                     : graph::TextureFilter::nearest);
+                commands.bind("Directions", asked);
+                commands.bind("Found", found[i]);
                 commands.dispatch(static_cast<std::uint32_t>((count + 63) / 64), 1);
             });
-        graph.mark_as_graph_output(found[i]);
+        graph.output(found[i]);
     }
-    graph.mark_as_graph_output(pyramid);
+    graph.output(pyramid);
     test::run_graph(runner, graph);
     return {*choice.shared.capture.face, test::read_resource_values<std::uint32_t>(runner, pyramid),
             test::read_resource_values<vec4>(runner, found[0]),

@@ -416,7 +416,7 @@ TEST(Refraction, ScreenBlursRoughGlassByTheLevelOfThreeJs) {
 }
 
 /// Returns the names of the passes of a frame.
-std::vector<std::string> list_pass_names(const session::RunResult& run) {
+std::vector<std::string> pass_names(const session::RunResult& run) {
     std::vector<std::string> names;
     for (const session::PassTime& pass : run.frames.back().passes) names.push_back(pass.name);
     return names;
@@ -432,26 +432,25 @@ TEST(Refraction, ScreenAddsPassesOnlyWhereGlassReadsThem) {
                                              {.6, .5, 4.5});
     const session::RunResult bodies = render(glass, "secant:face=32"),
                              screen = render(glass, "secant:face=32,refract=screen");
-    std::vector<std::string> wanted = list_pass_names(bodies);
+    std::vector<std::string> wanted = pass_names(bodies);
     const auto view = std::ranges::find(wanted, "view");
     ASSERT_NE(view, wanted.end());
     wanted.insert(view + 1, {"opaque_picture", "view.glass"});
-    EXPECT_EQ(list_pass_names(screen), wanted);
+    EXPECT_EQ(pass_names(screen), wanted);
     EXPECT_EQ(screen.parts.front().scene_passes, bodies.parts.front().scene_passes);
 
     glass.materials.front().roughness = .2f;
     scene::find_mirrors(glass);
     for (const auto& [technique, levels] : {std::pair{"secant:face=32,refract=screen", 1},
                                             {"secant:face=32,refract=screen,rough=none", 0}})
-        EXPECT_EQ(
-            std::ranges::count(list_pass_names(render(glass, technique)), "opaque_picture/levels"),
-            levels)
+        EXPECT_EQ(std::ranges::count(pass_names(render(glass, technique)), "opaque_picture/levels"),
+                  levels)
             << technique;
 
     const scene::Scene room = test::make_lit_room(1, 1);
     const session::RunResult with = render(room, "secant:refract=screen,face=32"),
                              without = render(room, "secant:face=32");
-    EXPECT_EQ(list_pass_names(with), list_pass_names(without));
+    EXPECT_EQ(pass_names(with), pass_names(without));
     EXPECT_TRUE(test::have_equal_pixel_bytes(with.parts.front().hdr, without.parts.front().hdr));
     EXPECT_EQ(with.parts.front().memory_bytes, without.parts.front().memory_bytes);
 }

@@ -22,7 +22,7 @@ constexpr uvec2 kRequiredPictureSize{40, 32};
 /// Largest number of bounces that can change a byte of a picture in the random halls.
 constexpr int kMaxVisibleBounces = 8;
 
-Names list_pass_names(const session::FrameTimes& times) {
+Names pass_names(const session::FrameTimes& times) {
     Names names;
     for (const session::PassTime& pass : times.passes) names.push_back(pass.name);
     return names;
@@ -66,7 +66,7 @@ public:
                                          session::Access::read_next_frame_state(wanted))
                 << "frame " << number_;
         }
-        return list_pass_names(found.times());
+        return pass_names(found.times());
     }
     /// Renders twice `most` frames. Expects that the pictures of both sessions are equal after the
     /// first `most` frames. Returns the number of the last frame in which they differed.
@@ -415,7 +415,7 @@ TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
     std::optional<session::Frame> wanted, found;
     for (int k = 0; k < 48; ++k) wanted = all.frame(spec), found = few.frame(required);
     EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
-    EXPECT_EQ(list_pass_names(found->times()), kSettledPassNames);
+    EXPECT_EQ(pass_names(found->times()), kSettledPassNames);
 }
 
 TEST(RequiredFrames, MemoryStaysConstantOverTime) {

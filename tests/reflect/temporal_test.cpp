@@ -43,7 +43,7 @@ reflect::TechniqueOutputs add_temporal_picture(graph::Graph& graph,
     const reflect::FirstSurfaceImages first = reflect::add_first_surface_tracing(graph, inputs);
     const graph::ImageHandle mean = graph.add_image(
         {inputs.prefix + "mean", TexelFormat::rgba32f, inputs.size.x, inputs.size.y});
-    const graph::ImageHandle history = graph.previous_contents(mean);
+    const graph::ImageHandle history = graph.previous(mean);
     const struct {
         TemporalEye now, before;
     } eyes{make_temporal_eye(inputs, inputs.facts.now.camera),
@@ -55,10 +55,10 @@ reflect::TechniqueOutputs add_temporal_picture(graph::Graph& graph,
         .reads(history, ResourceUse::sampled)
         .writes(mean, ResourceUse::storage_write)
         .record([=, size = inputs.size](graph::PassCommands& commands) {
-            commands.bind_resource("traced", traced.hdr);
-            commands.bind_resource("normals_and_distances", first.normals_and_distances);
-            commands.bind_resource("history", history);
-            commands.bind_resource("mean", mean);
+            commands.bind("traced", traced.hdr);
+            commands.bind("normals_and_distances", first.normals_and_distances);
+            commands.bind("history", history);
+            commands.bind("mean", mean);
             commands.bind_pipeline(gpu::ComputeState{"tests/temporal.comp", {}});
             commands.push_constants(eyes);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);

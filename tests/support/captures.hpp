@@ -48,12 +48,12 @@ inline CapturedLayers draw_cube_captures_with_options(const scene::Scene& scene,
     const render::CubeCaptureArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
-        if (image) graph.mark_as_graph_output(*image);
+        if (image) graph.output(*image);
     gpu_scene.fulfil(requests, [] {});
     run_graph(runner, graph);
     const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
-        return CapturedCubes{options.face, runner.read_back_resource(colour),
-                             runner.read_back_resource(distance), gpu_scene.scene_units()};
+        return CapturedCubes{options.face, runner.read_back(colour), runner.read_back(distance),
+                             gpu_scene.scene_units()};
     };
     CapturedLayers layers{read(cubes.colour, *cubes.distance), {}};
     if (options.second_layer) layers.second = read(*cubes.colour2, *cubes.distance2);

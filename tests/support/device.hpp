@@ -122,7 +122,7 @@ inline graph::GraphFrameTimes run_graph(graph::GraphRunner& runner, const graph:
 /// Returns the texels of an image, or the contents of a buffer, as numbers of type T.
 template <typename T, typename Resource>
 std::vector<T> read_resource_values(graph::GraphRunner& runner, Resource resource) {
-    const std::vector<std::byte> bytes = runner.read_back_resource(resource);
+    const std::vector<std::byte> bytes = runner.read_back(resource);
     std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     return values;

@@ -29,18 +29,18 @@ inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
     const graph::ImageHandle display = add("display", TexelFormat::rgba8_unorm, 1, false);
     g.add_pass("shadow", graph::PassPurpose::scene)
         .writes(shadow, ResourceUse::depth, kBlackClearValue)
-        .set_pass_layer_count(5)
+        .layers(5)
         .record(nothing);
     for (std::uint32_t n = 0; n < mirrors; ++n) {
         const std::string name = "capture/" + std::to_string(n + 1);
         const graph::ImageHandle depth = add(name + ".depth", TexelFormat::d32f, 6, true);
         g.add_pass(name, graph::PassPurpose::scene)
             .reads(shadow, ResourceUse::sampled)
-            .reads(g.previous_contents(cubes), ResourceUse::sampled)
-            .writes(cubes.select_image_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
-            .writes(distance.select_image_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
+            .reads(g.previous(cubes), ResourceUse::sampled)
+            .writes(cubes.layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
+            .writes(distance.layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
             .writes(depth, ResourceUse::depth, kBlackClearValue)
-            .set_pass_layer_count(6)
+            .layers(6)
             .record(nothing);
     }
     g.add_pass("view", graph::PassPurpose::scene)
@@ -54,8 +54,8 @@ inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
         .reads(hdr, ResourceUse::sampled)
         .writes(display, ResourceUse::storage_write)
         .record(nothing);
-    g.mark_as_graph_output(hdr);
-    g.mark_as_graph_output(display);
+    g.output(hdr);
+    g.output(display);
     return g;
 }
 

@@ -8,10 +8,9 @@ namespace test {
 inline constexpr catoptric::graph::ClearValue kBlackClearColour{};
 inline void record_no_commands(catoptric::graph::PassCommands&) {}
 /// Returns the plan of a graph whose images all have the bytes that
-/// `make_default_requirement_queries` states.
+/// `default_sizer` states.
 inline catoptric::graph::GraphPlan plan_test_graph(const catoptric::graph::Graph& graph) {
-    return catoptric::graph::plan_graph(graph, {},
-                                        catoptric::graph::make_default_requirement_queries());
+    return catoptric::graph::plan_graph(graph, {}, catoptric::graph::default_sizer());
 }
 
 } // namespace test

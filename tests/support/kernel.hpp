@@ -136,16 +136,16 @@ private:
         graph.add_pass("kernel")
             .writes(out, graph::ResourceUse::storage_write)
             .record([&](graph::PassCommands& commands) {
-                commands.bind_resource("bvh_nodes", nodes_);
-                commands.bind_resource("bvh_triangles", triangles_);
-                commands.bind_resource(input, input_);
-                commands.bind_resource("Lows", lows_);
-                commands.bind_resource(output, out);
+                commands.bind("bvh_nodes", nodes_);
+                commands.bind("bvh_triangles", triangles_);
+                commands.bind(input, input_);
+                commands.bind("Lows", lows_);
+                commands.bind(output, out);
                 commands.bind_pipeline(gpu::ComputeState{shader, constants});
                 commands.push_constants(push);
                 commands.dispatch((list_size_as_uint32(in) + 63) / 64, 1);
             });
-        graph.mark_as_graph_output(out);
+        graph.output(out);
         test::run_graph(runner_, graph);
         return read_resource_values<Out>(runner_, out);
     }

@@ -31,7 +31,7 @@ struct GraphDumpTest : ::testing::Test {
         g.add_pass("one", PassPurpose::scene)
             .writes(first, ResourceUse::colour, kBlackClearColour)
             .writes(args, ResourceUse::storage_write)
-            .set_pass_layer_count(2)
+            .layers(2)
             .record(body);
         g.add_pass("two")
             .reads(first, ResourceUse::sampled)
@@ -48,16 +48,16 @@ struct GraphDumpTest : ::testing::Test {
             .record(body);
         g.add_pass("four")
             .reads(third, ResourceUse::sampled)
-            .reads(g.previous_contents(kept), ResourceUse::sampled)
+            .reads(g.previous(kept), ResourceUse::sampled)
             .writes(out, ResourceUse::storage_write)
             .record(body);
         g.add_pass("five")
             .writes(kept, ResourceUse::colour, kBlackClearColour)
-            .set_pass_layer_count(2)
+            .layers(2)
             .record(body);
-        g.add_pass("six").writes(kept.select_image_layers(0, 1), ResourceUse::colour).record(body);
-        g.mark_as_graph_output(out);
-        plan = graph::plan_graph(g, {}, make_default_requirement_queries());
+        g.add_pass("six").writes(kept.layers(0, 1), ResourceUse::colour).record(body);
+        g.output(out);
+        plan = graph::plan_graph(g, {}, default_sizer());
     }
 
     ImageHandle add_graph_image(const std::string& name) {
@@ -66,7 +66,7 @@ struct GraphDumpTest : ::testing::Test {
 };
 
 TEST_F(GraphDumpTest, TextListsPassesImagesAndBuffers) {
-    EXPECT_EQ(graph_plan_to_text(g, plan),
+    EXPECT_EQ(plan_to_text(g, plan),
               R"(6 passes, scene_passes 1, 5376 bytes (6400 without sharing)
 
 passes
@@ -106,7 +106,7 @@ buffers
 }
 
 TEST_F(GraphDumpTest, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
-    const std::string dot = graph_plan_to_graphviz_dot(g, plan);
+    const std::string dot = plan_to_dot(g, plan);
     EXPECT_THAT(dot, HasSubstr("p0 [shape=box, style=solid, label=\"one\\n(scene)\"]"));
     EXPECT_THAT(dot, HasSubstr("p3 [shape=box, style=dashed, label=\"vain\"]"));
     EXPECT_THAT(dot, HasSubstr("i5 [shape=ellipse, label=\"say \\\"no\\\"\"]"));
@@ -150,18 +150,17 @@ TEST_F(GraphDumpTest, JsonListsPassesImagesAndBuffers) {
 
 TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
     const Graph g;
-    const GraphPlan plan = graph::plan_graph(g, {}, make_default_requirement_queries());
-    EXPECT_EQ(graph_plan_to_text(g, plan),
+    const GraphPlan plan = graph::plan_graph(g, {}, default_sizer());
+    EXPECT_EQ(plan_to_text(g, plan),
               "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
-    EXPECT_THAT(graph_plan_to_graphviz_dot(g, plan), Not(HasSubstr("->")));
+    EXPECT_THAT(plan_to_dot(g, plan), Not(HasSubstr("->")));
     EXPECT_EQ(Json::parse(plan_to_json(g, plan))["passes"], Json::array());
 }
 
 // In a frame of 100 mirrors, the depth images of all captures share the same memory.
 TEST(LargeDump, DumpNamesTheFirstSharingImagesAndCountsTheOthers) {
     const Graph g = test::make_reuse_graph(100);
-    const std::string text = graph_plan_to_text(
-        g, graph::plan_graph(g, {}, make_default_requirement_queries()));
+    const std::string text = plan_to_text(g, graph::plan_graph(g, {}, default_sizer()));
     EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));
     EXPECT_THAT(text, HasSubstr(", 'capture/31.depth' and 68 more\n"));
     EXPECT_THAT(text, HasSubstr(", 'capture/32.depth' and 68 more\n"));

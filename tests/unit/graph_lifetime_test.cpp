@@ -24,7 +24,7 @@ std::string graph_lifetime_error_text(const Graph& graph) {
 /// other uses that the barrier waits for.
 std::string describe_layer_barrier(const PlannedBarrier& b) {
     const auto word = [](const AccessState& t) {
-        return t.nothing ? "nothing" : std::string(resource_use_name(t.use)) + (t.write ? "!" : "");
+        return t.nothing ? "nothing" : std::string(use_name(t.use)) + (t.write ? "!" : "");
     };
     const std::string more = b.shared.empty() ? "" : " +" + std::to_string(b.shared.size());
     if (b.is_buffer) return "buffer " + word(b.before) + " > " + word(b.after) + more;
@@ -46,45 +46,45 @@ const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 
 /// Returns a history in which layers [first, end) of image "cubes" have the content hash `stamp`.
 GraphHistory make_history_with_hash(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
-    ContentHashPerLayer stamps(12);
-    stamps.fill_cell_range(first, end, stamp);
+    LayerHashes stamps(12);
+    stamps.fill(first, end, stamp);
     return {.previous = {}, .persistent = {{"cubes", {kDesc, stamps}}}};
 }
 
 struct HashedCubeGraph {
     explicit HashedCubeGraph(GraphHistory history = {}) : g(std::move(history)) {}
     Graph g;
-    ImageHandle cubes = g.add_persistent_image(kDesc);
+    ImageHandle cubes = g.add_persistent(kDesc);
     ImageHandle out = g.add_image({.name = "out", .width = 8, .height = 8});
 
     void add_writing_pass_with_hash(ImageHandle part, std::uint64_t stamp) {
         g.add_pass("make")
             .writes(part, ResourceUse::colour, kBlackClearColour)
-            .set_pass_layer_count(part.layer_count)
+            .layers(part.layer_count)
             .record(record_no_commands);
-        g.set_content_hash_of_image_part(part, stamp);
+        g.set_content_hash(part, stamp);
     }
     void add_reading_pass(ImageHandle part) {
         g.add_pass("view")
             .reads(part, ResourceUse::sampled)
             .writes(out, ResourceUse::colour, kBlackClearColour)
             .record(record_no_commands);
-        g.mark_as_graph_output(out);
+        g.output(out);
     }
 };
 
 TEST(PersistentImages, HistoryDecidesWhichContentIsHeld) {
     const HashedCubeGraph fresh;
-    EXPECT_FALSE(fresh.g.has_image_part_content_hash(fresh.cubes, 0));
+    EXPECT_FALSE(fresh.g.has_content_hash(fresh.cubes, 0));
     const HashedCubeGraph later(make_history_with_hash(0, 6, 7));
-    EXPECT_TRUE(later.g.has_image_part_content_hash(later.cubes.select_image_layers(0, 6), 7));
-    EXPECT_TRUE(later.g.has_image_part_content_hash(later.cubes.select_image_layers(2, 3), 7));
-    EXPECT_FALSE(later.g.has_image_part_content_hash(later.cubes.select_image_layers(0, 6), 8));
-    EXPECT_FALSE(later.g.has_image_part_content_hash(later.cubes, 7));
+    EXPECT_TRUE(later.g.has_content_hash(later.cubes.layers(0, 6), 7));
+    EXPECT_TRUE(later.g.has_content_hash(later.cubes.layers(2, 3), 7));
+    EXPECT_FALSE(later.g.has_content_hash(later.cubes.layers(0, 6), 8));
+    EXPECT_FALSE(later.g.has_content_hash(later.cubes, 7));
     Graph other(make_history_with_hash(0, 12, 7));
     ImageDesc desc = kDesc;
     desc.width = 16;
-    EXPECT_FALSE(other.has_image_part_content_hash(other.add_persistent_image(desc), 7));
+    EXPECT_FALSE(other.has_content_hash(other.add_persistent(desc), 7));
 }
 
 TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
@@ -106,13 +106,13 @@ TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
                 ElementsAre("image 1 mips [0,1) layers [0,1) colour! > copy_from"));
     EXPECT_TRUE(plan.images[0].alone);
     EXPECT_EQ(plan.images[0].bytes, 12u * 8 * 8 * 8); // a persistent image has one copy
-    EXPECT_THAT(graph_plan_to_text(second.g, plan),
+    EXPECT_THAT(plan_to_text(second.g, plan),
                 HasSubstr("'cubes' rgba16f 8x8, 12 layers, kept, passes"));
 }
 
 TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
     HashedCubeGraph v(make_history_with_hash(0, 12, 7));
-    v.g.mark_as_graph_output(v.cubes.select_image_layers(0, 6));
+    v.g.output(v.cubes.layers(0, 6));
     const GraphPlan plan = plan_test_graph(v.g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_THAT(plan.last, IsEmpty()); // the image is already readable
@@ -120,7 +120,7 @@ TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
 
 TEST(PersistentImages, PassThatWritesAPersistentImageIsNotCulled) {
     HashedCubeGraph v;
-    v.add_writing_pass_with_hash(v.cubes.select_image_layers(6, 6), 7);
+    v.add_writing_pass_with_hash(v.cubes.layers(6, 6), 7);
     const GraphPlan plan = plan_test_graph(v.g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
@@ -138,9 +138,9 @@ TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
     HashedCubeGraph v;
     v.g.add_pass("make")
         .writes(v.cubes, ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(12)
+        .layers(12)
         .record(record_no_commands);
-    v.g.set_content_hash_of_image_part(v.cubes.select_image_layers(0, 6), 7);
+    v.g.set_content_hash(v.cubes.layers(0, 6), 7);
     EXPECT_EQ(graph_lifetime_error_text(v.g),
               "pass 'make' writes 'cubes' [0,12), which is persistent, but no content hash "
               "is set for layers [6,12)");
@@ -149,13 +149,13 @@ TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
 TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
     HashedCubeGraph v(make_history_with_hash(0, 12, 7));
     v.add_reading_pass(v.cubes);
-    v.g.set_content_hash_of_image_part(v.cubes.select_image_layers(0, 6), 7);
+    v.g.set_content_hash(v.cubes.layers(0, 6), 7);
     EXPECT_EQ(graph_lifetime_error_text(v.g),
               "'cubes' [0,6) has a content hash, but no pass writes "
               "layers [0,6)");
     HashedCubeGraph w;
-    w.add_writing_pass_with_hash(w.cubes.select_image_layers(6, 6), 1);
-    w.g.set_content_hash_of_image_part(w.cubes.select_image_layers(6, 7), 1);
+    w.add_writing_pass_with_hash(w.cubes.layers(6, 6), 1);
+    w.g.set_content_hash(w.cubes.layers(6, 7), 1);
     EXPECT_EQ(graph_lifetime_error_text(w.g),
               "'cubes' [6,13) has a content hash, but the image has "
               "layers [0,12) and 1 mip(s)");
@@ -164,31 +164,30 @@ TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
 TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
     HashedCubeGraph v;
     try {
-        v.g.previous_contents(v.cubes);
+        v.g.previous(v.cubes);
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(),
-                     "previous_contents() of image 'cubes', which is persistent and has one copy");
+                     "previous() of image 'cubes', which is persistent and has one copy");
     }
     try {
-        v.g.set_content_hash_of_image_part(v.out, 1);
+        v.g.set_content_hash(v.out, 1);
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(),
-                     "set_content_hash_of_image_part() of image 'out', which is not persistent");
+        EXPECT_STREQ(error.what(), "set_content_hash() of image 'out', which is not persistent");
     }
 }
 
 TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
     Graph g;
-    const ImageHandle texture = g.import_external_resource(kDesc, nullptr, ResourceUse::sampled,
-                                                           ResourceUse::sampled);
+    const ImageHandle texture = g.import_resource(kDesc, nullptr, ResourceUse::sampled,
+                                                  ResourceUse::sampled);
     const ImageHandle out = g.add_image({.name = "out"});
     g.add_pass("view")
         .reads(texture, ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
-    g.mark_as_graph_output(out);
+    g.output(out);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(describe_barriers(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
@@ -200,17 +199,17 @@ TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
                               alone.add_pass("view")
                                   .writes(image, ResourceUse::colour, kBlackClearColour)
                                   .record(record_no_commands);
-                              alone.mark_as_graph_output(image);
+                              alone.output(image);
                               return alone;
                           }())
                               .bytes);
-    EXPECT_THAT(graph_plan_to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
+    EXPECT_THAT(plan_to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
 }
 
 TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
     Graph g;
-    const ImageHandle window = g.import_external_resource({.name = "window"}, nullptr, std::nullopt,
-                                                          ResourceUse::present);
+    const ImageHandle window = g.import_resource({.name = "window"}, nullptr, std::nullopt,
+                                                 ResourceUse::present);
     // No output depends on the window.
     g.add_pass("show")
         .writes(window, ResourceUse::colour, kBlackClearColour)
@@ -226,11 +225,11 @@ TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
 
 TEST(Imported, AllLayersEndInTheDeclaredUse) {
     Graph g;
-    const ImageHandle image = g.import_external_resource(kDesc, nullptr, ResourceUse::copy_from,
-                                                         ResourceUse::sampled);
+    const ImageHandle image = g.import_resource(kDesc, nullptr, ResourceUse::copy_from,
+                                                ResourceUse::sampled);
     g.add_pass("some")
-        .writes(image.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .writes(image.layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
     EXPECT_THAT(describe_barriers(plan_test_graph(g).last),
                 ElementsAre("image 0 mips [0,1) layers [0,6) colour! > sampled",
@@ -239,8 +238,8 @@ TEST(Imported, AllLayersEndInTheDeclaredUse) {
 
 TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
     Graph g;
-    const ImageHandle image = g.import_external_resource({.name = "window"}, nullptr, std::nullopt,
-                                                         ResourceUse::present);
+    const ImageHandle image = g.import_resource({.name = "window"}, nullptr, std::nullopt,
+                                                ResourceUse::present);
     const ImageHandle out = g.add_image({.name = "out"});
     g.add_pass("view")
         .reads(image, ResourceUse::sampled)
@@ -252,25 +251,22 @@ TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
 
 TEST(Imported, ImportedResourceAsOutputIsRefused) {
     Graph g;
-    const ImageHandle image = g.import_external_resource(
-        {.name = "window"}, nullptr, ResourceUse::sampled, ResourceUse::sampled);
-    g.mark_as_graph_output(image);
+    const ImageHandle image = g.import_resource({.name = "window"}, nullptr, ResourceUse::sampled,
+                                                ResourceUse::sampled);
+    g.output(image);
     EXPECT_EQ(graph_lifetime_error_text(g),
               "'window' [0,1) is an output, but imported: read it where it comes from");
     Graph h;
-    const BufferHandle buffer = h.import_external_resource(BufferDesc{.name = "back", .bytes = 4},
-                                                           nullptr);
-    h.mark_as_graph_output(buffer);
+    const BufferHandle buffer = h.import_resource(BufferDesc{.name = "back", .bytes = 4}, nullptr);
+    h.output(buffer);
     EXPECT_EQ(graph_lifetime_error_text(h),
               "buffer 'back' is an output, but imported: read it where it comes from");
 }
 
 TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     Graph g;
-    const BufferHandle list = g.import_external_resource(BufferDesc{.name = "list", .bytes = 64},
-                                                         nullptr);
-    const BufferHandle back = g.import_external_resource(BufferDesc{.name = "back", .bytes = 64},
-                                                         nullptr);
+    const BufferHandle list = g.import_resource(BufferDesc{.name = "list", .bytes = 64}, nullptr);
+    const BufferHandle back = g.import_resource(BufferDesc{.name = "back", .bytes = 64}, nullptr);
     g.add_pass("fill")
         .reads(list, ResourceUse::storage_read) // no pass of this frame writes the list
         .writes(back, ResourceUse::storage_write)
@@ -291,16 +287,15 @@ struct GraphMipLevelTest : ::testing::Test {
 
     void add_mip_writing_pass(std::uint32_t mip) {
         PassBuilder pass = g.add_pass("mip" + std::to_string(mip));
-        if (mip > 0) pass.reads(image.select_image_mip(mip - 1), ResourceUse::sampled);
-        pass.writes(image.select_image_mip(mip), ResourceUse::storage_write)
-            .record(record_no_commands);
+        if (mip > 0) pass.reads(image.mip(mip - 1), ResourceUse::sampled);
+        pass.writes(image.mip(mip), ResourceUse::storage_write).record(record_no_commands);
     }
     void add_mip_reading_pass(ImageHandle part) {
         g.add_pass("view")
             .reads(part, ResourceUse::sampled)
             .writes(out, ResourceUse::colour, kBlackClearColour)
             .record(record_no_commands);
-        g.mark_as_graph_output(out);
+        g.output(out);
     }
 };
 
@@ -320,7 +315,7 @@ TEST_F(GraphMipLevelTest, EachMipHasItsOwnBarriers) {
 
 TEST_F(GraphMipLevelTest, BarriersCoverRangesOfMipsAndLayers) {
     for (std::uint32_t m = 0; m < 4; ++m) add_mip_writing_pass(m);
-    add_mip_reading_pass(image.select_image_layers(1, 1));
+    add_mip_reading_pass(image.layers(1, 1));
     EXPECT_THAT(describe_barriers(plan_test_graph(g).passes.at(4).barriers),
                 ElementsAre("image 0 mips [0,3) layers [1,2) sampled > sampled",
                             "image 0 mips [3,4) layers [1,2) storage_write! > sampled",
@@ -330,7 +325,7 @@ TEST_F(GraphMipLevelTest, BarriersCoverRangesOfMipsAndLayers) {
 TEST_F(GraphMipLevelTest, ReadingUnwrittenMipsIsRefused) {
     add_mip_writing_pass(0);
     add_mip_writing_pass(1);
-    add_mip_reading_pass(image.select_image_mips(0, 3));
+    add_mip_reading_pass(image.mips(0, 3));
     EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'view' reads 'pyramid' [0,2) mips [0,3) as sampled before any pass "
               "writes layers [0,2) of mip 2");
@@ -344,9 +339,7 @@ TEST_F(GraphMipLevelTest, WritingSeveralMipsAtOnceIsRefused) {
 }
 
 TEST_F(GraphMipLevelTest, MipOutOfRangeIsRefused) {
-    g.add_pass("all")
-        .writes(image.select_image_mip(4), ResourceUse::storage_write)
-        .record(record_no_commands);
+    g.add_pass("all").writes(image.mip(4), ResourceUse::storage_write).record(record_no_commands);
     EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'all' uses 'pyramid' [0,2) mip 4 as storage_write, but the image has "
               "mips [0,4)");
@@ -360,7 +353,7 @@ TEST_F(GraphMipLevelTest, MoreMipsThanTheSizeAllowsAreRefused) {
 
 TEST_F(GraphMipLevelTest, OutputOfMipsOutOfRangeIsRefused) {
     add_mip_writing_pass(0);
-    g.mark_as_graph_output(image.select_image_mips(0, 5));
+    g.output(image.mips(0, 5));
     EXPECT_EQ(graph_lifetime_error_text(g),
               "'pyramid' [0,2) mips [0,5) is an output, but the image has mips [0,4)");
 }
@@ -369,8 +362,7 @@ TEST_F(GraphMipLevelTest, AttachmentsOfDifferentSizesAreRefused) {
     const ImageHandle depth = g.add_image(
         {.name = "depth", .format = TexelFormat::d32f, .width = 8, .height = 4});
     g.add_pass("draw")
-        .writes(image.select_image_mip(1).select_image_layers(0, 1), ResourceUse::colour,
-                kBlackClearColour)
+        .writes(image.mip(1).layers(0, 1), ResourceUse::colour, kBlackClearColour)
         .writes(depth, ResourceUse::depth, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(graph_lifetime_error_text(g),
@@ -381,8 +373,8 @@ TEST_F(GraphMipLevelTest, AttachmentsOfDifferentSizesAreRefused) {
 TEST_F(GraphMipLevelTest, ReadingAndWritingOneMipInTheSamePassIsRefused) {
     add_mip_writing_pass(0);
     g.add_pass("twice")
-        .reads(image.select_image_mip(0), ResourceUse::sampled)
-        .writes(image.select_image_mip(0), ResourceUse::storage_write)
+        .reads(image.mip(0), ResourceUse::sampled)
+        .writes(image.mip(0), ResourceUse::storage_write)
         .record(record_no_commands);
     EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
@@ -400,15 +392,15 @@ TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
         g.add_pass(name)
             .writes(colour, ResourceUse::colour, kBlackClearColour)
             .writes(depth, ResourceUse::depth, clear)
-            .set_pass_layer_count(2)
+            .layers(2)
             .record(record_no_commands);
     };
     // The second pass loads the depth of the first pass.
     draw("first", a, kBlackClearColour);
     draw("second", b, std::nullopt);
     draw("third", a, kBlackClearColour);
-    g.mark_as_graph_output(a);
-    g.mark_as_graph_output(b);
+    g.output(a);
+    g.output(b);
     const GraphPlan plan = plan_test_graph(g);
     ASSERT_EQ(plan.passes.size(), 3u);
     // Bit 0: the colour of the first pass is written again before any read.
@@ -430,9 +422,9 @@ TEST(Shape, GraphShapeIgnoresClearValuesAndContentHashes) {
     };
     const Graph known = graph("p", 0, 1, false);
     const auto same = [&](const Graph& other) {
-        EXPECT_EQ(have_equal_graph_declarations(other, known.copy_graph_without_record_callbacks()),
-                  hash_graph_shape(other) == hash_graph_shape(known));
-        return have_equal_graph_declarations(other, known.copy_graph_without_record_callbacks());
+        EXPECT_EQ(same_declarations(other, known.copy_declarations()),
+                  hash_shape(other) == hash_shape(known));
+        return same_declarations(other, known.copy_declarations());
     };
     EXPECT_TRUE(same(graph("p", 0, 1, false)));
     EXPECT_TRUE(same(graph("p", 1, 1, false)));

@@ -42,12 +42,12 @@ TEST(Runs, RunsEqualOneValuePerCell) {
             const int value = static_cast<int>(draw.random_number_below(3));
             const bool set = draw.random_number_below(2) == 0;
             const auto change = [&](int& cell) { cell = set ? value : (cell + value) % 5; };
-            runs.modify_each_equal_run(
-                first, end, [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
+            runs.modify_runs(first, end,
+                             [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
             for (std::uint32_t i = first; i < end; ++i) change(cells[i]);
             ASSERT_EQ(list_run_length_cells(runs), cells) << "seed " << seed << ", step " << step;
             const auto begin = cells.begin();
-            EXPECT_EQ(runs.has_any_equal_value(first, end, value),
+            EXPECT_EQ(runs.has_any(first, end, value),
                       std::count(begin + first, begin + end, value) > 0);
         }
     }
@@ -55,8 +55,8 @@ TEST(Runs, RunsEqualOneValuePerCell) {
 
 TEST(Runs, NeighbouringRunsOfEqualValueAreJoined) {
     RunLengthArray<int> runs(100, 0);
-    for (std::uint32_t i = 0; i < 100; i += 2) runs.fill_cell_range(i, i + 1, 1);
-    for (std::uint32_t i = 1; i < 100; i += 2) runs.fill_cell_range(i, i + 1, 1);
+    for (std::uint32_t i = 0; i < 100; i += 2) runs.fill(i, i + 1, 1);
+    for (std::uint32_t i = 1; i < 100; i += 2) runs.fill(i, i + 1, 1);
     int count = 0;
     runs.for_each_run([&](std::uint32_t, std::uint32_t, int) { ++count; });
     EXPECT_EQ(count, 1);
@@ -79,20 +79,19 @@ TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
                                           draw.random_number_below(2)));
         std::vector<MemoryPlacement> all = plan.images;
         all.insert(all.end(), plan.buffers.begin(), plan.buffers.end());
-        LastUsersOfSharedMemory users(plan);
-        std::vector<std::pair<MemoryPlacement, AccessStateSet>> left;
+        MemoryUsers users(plan);
+        std::vector<std::pair<MemoryPlacement, AccessSet>> left;
         for (int step = 0; step < 40; ++step) {
             const MemoryPlacement& mine = all[draw.random_number_below(count)];
-            AccessStateSet expected = 0;
+            AccessSet expected = 0;
             for (const auto& [other, touches] : left)
                 if (other.heap == mine.heap && other.offset < mine.offset + mine.bytes &&
                     mine.offset < other.offset + other.bytes)
                     expected |= touches;
-            ASSERT_EQ(users.unfinished_accesses_in_memory(mine), expected)
+            ASSERT_EQ(users.unfinished_accesses(mine), expected)
                 << "seed " << seed << ", step " << step;
-            const AccessStateSet touches = AccessStateSet{1}
-                                           << draw.random_number_below(kAccessStateCodeCount);
-            users.record_last_accesses_to_memory(mine, touches);
+            const AccessSet touches = AccessSet{1} << draw.random_number_below(kAccessCodeCount);
+            users.record(mine, touches);
             left.emplace_back(mine, touches);
         }
     }
@@ -106,11 +105,11 @@ TEST(Touches, TouchCodesAreOneToOne) {
                                         .use = static_cast<ResourceUse>(use),
                                         .write = write,
                                         .raster = raster};
-                EXPECT_EQ(make_access_state(encode_access_state(touch)), touch);
-                EXPECT_EQ(decode_access_use(encode_access_state(touch)), touch.use);
-                EXPECT_LT(encode_access_state(touch), kAccessStateCodeCount);
+                EXPECT_EQ(access_state(encode_access(touch)), touch);
+                EXPECT_EQ(decode_use(encode_access(touch)), touch.use);
+                EXPECT_LT(encode_access(touch), kAccessCodeCount);
             }
-    EXPECT_EQ(make_access_state(encode_access_state({})), AccessState{});
+    EXPECT_EQ(access_state(encode_access({})), AccessState{});
 }
 
 /// Returns the lowest free offset for `mine`. Tries every offset against every image that lives at
@@ -152,13 +151,13 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
             }
             pass.record([](PassCommands&) {});
         }
-        g.mark_as_graph_output(out);
-        const MemoryRequirementQueries sizer{
-            .image =
-                [](const ImageDesc& desc) {
-                    return MemoryRequirements{.bytes = desc.width, .alignment = 2, .heap = 0};
-                },
-            .buffer = make_default_requirement_queries().buffer};
+        g.output(out);
+        const MemorySizer sizer{.image =
+                                    [](const ImageDesc& desc) {
+                                        return MemoryRequirements{
+                                            .bytes = desc.width, .alignment = 2, .heap = 0};
+                                    },
+                                .buffer = default_sizer().buffer};
         const GraphPlan found = plan_graph(g, {}, sizer);
         std::vector<std::uint32_t> order(kImages);
         for (std::uint32_t i = 0; i < kImages; ++i) order[i] = i;
@@ -176,7 +175,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
 TEST(LargeFrames, CapturesShareTheMemoryOfOneDepthImage) {
     constexpr std::uint32_t kMirrorCountOfGraph = 200;
     const Graph g = test::make_reuse_graph(kMirrorCountOfGraph);
-    const GraphPlan found = plan_graph(g, {}, make_default_requirement_queries());
+    const GraphPlan found = plan_graph(g, {}, default_sizer());
     ASSERT_EQ(found.passes.size(), kMirrorCountOfGraph + 3);
     for (std::uint32_t n = 0; n < kMirrorCountOfGraph; ++n)
         EXPECT_EQ(found.images[6 + n].offset, found.images[6].offset);

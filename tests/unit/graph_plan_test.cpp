@@ -21,8 +21,7 @@ constexpr std::uint32_t kCaptureFaceTexels = 64;
 
 std::vector<std::string> list_surviving_pass_names(const Graph& graph, const GraphPlan& plan) {
     std::vector<std::string> names;
-    for (const PlannedPass& pass : plan.passes)
-        names.push_back(graph.list_passes()[pass.pass].name);
+    for (const PlannedPass& pass : plan.passes) names.push_back(graph.passes()[pass.pass].name);
     return names;
 }
 
@@ -40,7 +39,7 @@ const AccessState kCopyReadAccess = make_planned_access_state(ResourceUse::copy_
 std::string describe_planned_barrier(const PlannedBarrier& b) {
     const auto word = [](const AccessState& t) {
         return t.nothing ? std::string("nothing")
-                         : std::string(resource_use_name(t.use)) + (t.write ? "!" : "") +
+                         : std::string(use_name(t.use)) + (t.write ? "!" : "") +
                                (t.raster ? "/raster" : "");
     };
     std::string out = (b.is_buffer  ? "buffer "
@@ -90,10 +89,9 @@ struct SeedReportFrame {
             PassBuilder pass = g.add_pass(name + "/" + std::to_string(n), PassPurpose::scene);
             pass.reads(shadow, ResourceUse::sampled);
             if (source) pass.reads(*source, ResourceUse::sampled);
-            pass.writes(target.select_image_layers(6 * n, 6), ResourceUse::colour,
-                        kBlackClearColour)
+            pass.writes(target.layers(6 * n, 6), ResourceUse::colour, kBlackClearColour)
                 .writes(depth, ResourceUse::depth, kBlackClearColour)
-                .set_pass_layer_count(6)
+                .layers(6)
                 .record(record_no_commands);
         }
     }
@@ -108,7 +106,7 @@ struct SeedReportFrame {
             .reads(hdr, ResourceUse::sampled)
             .writes(ldr, ResourceUse::colour, kBlackClearColour)
             .record(record_no_commands);
-        g.mark_as_graph_output(ldr);
+        g.output(ldr);
     }
 
     std::uint32_t mirrors;
@@ -144,7 +142,7 @@ struct NaiveSeedReportFrame : SeedReportFrame {
 /// from the captures of the previous frame.
 struct ReuseSeedReportFrame : SeedReportFrame {
     explicit ReuseSeedReportFrame(int mirror_count) : SeedReportFrame(mirror_count) {
-        add_capture_passes("capture", captured, g.previous_contents(captured));
+        add_capture_passes("capture", captured, g.previous(captured));
         add_camera_view_pass(captured);
     }
     ImageHandle captured = add_capture_image("cubes");
@@ -157,8 +155,7 @@ TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
             const GraphPlan plan = plan_test_graph(frame.g);
             EXPECT_EQ(plan.scene_passes, mirrors * bounces + 2);
             EXPECT_THAT(plan.culled, IsEmpty());
-            EXPECT_THAT(replay_graph_plan(frame.g, plan, make_default_requirement_queries()),
-                        IsEmpty());
+            EXPECT_THAT(replay_graph_plan(frame.g, plan, default_sizer()), IsEmpty());
         }
 }
 
@@ -192,7 +189,7 @@ TEST(GraphPlan, ReuseFrameRendersTheSceneOncePerMirror) {
     const ReuseSeedReportFrame frame(4);
     const GraphPlan plan = plan_test_graph(frame.g);
     EXPECT_EQ(plan.scene_passes, 6);
-    EXPECT_THAT(replay_graph_plan(frame.g, plan, make_default_requirement_queries()), IsEmpty());
+    EXPECT_THAT(replay_graph_plan(frame.g, plan, default_sizer()), IsEmpty());
 }
 
 TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
@@ -238,7 +235,7 @@ struct SmallGraphPlanTest : ::testing::Test {
     PassBuilder add_clearing_pass(const std::string& name, ImageHandle image) {
         return g.add_pass(name)
             .writes(image, ResourceUse::colour, kBlackClearColour)
-            .set_pass_layer_count(image.layer_count);
+            .layers(image.layer_count);
     }
 };
 
@@ -257,7 +254,7 @@ TEST_F(SmallGraphPlanTest, UnneededPassIsCulledWithAReason) {
         .writes(args, ResourceUse::storage_write)
         .record(record_no_commands);
     add_clearing_pass("c", c).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(c);
+    g.output(c);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_surviving_pass_names(g, plan), ElementsAre("a", "c"));
     ASSERT_EQ(plan.culled.size(), 1u);
@@ -272,30 +269,28 @@ TEST_F(SmallGraphPlanTest, PassWhoseImageIsOverwrittenUnreadIsCulled) {
     add_clearing_pass("seen", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("wanted", a).record(record_no_commands);
-    g.mark_as_graph_output(a);
-    g.mark_as_graph_output(b);
+    g.output(a);
+    g.output(b);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("seen", "b", "wanted"));
 }
 
 TEST_F(SmallGraphPlanTest, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
     add_clearing_pass("base", a).record(record_no_commands);
-    add_clearing_pass("part", a.select_image_layers(1, 2)).record(record_no_commands);
-    g.add_pass("load")
-        .writes(a.select_image_layers(0, 1), ResourceUse::colour)
-        .record(record_no_commands);
-    g.mark_as_graph_output(a);
+    add_clearing_pass("part", a.layers(1, 2)).record(record_no_commands);
+    g.add_pass("load").writes(a.layers(0, 1), ResourceUse::colour).record(record_no_commands);
+    g.output(a);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("base", "part", "load"));
 }
 
 TEST_F(SmallGraphPlanTest, PassWhoseLayersAreNotReadIsCulled) {
-    add_clearing_pass("low", a.select_image_layers(0, 2)).record(record_no_commands);
-    add_clearing_pass("high", a.select_image_layers(2, 2)).record(record_no_commands);
+    add_clearing_pass("low", a.layers(0, 2)).record(record_no_commands);
+    add_clearing_pass("high", a.layers(2, 2)).record(record_no_commands);
     add_clearing_pass("b", b)
-        .reads(a.select_image_layers(0, 2), ResourceUse::sampled)
+        .reads(a.layers(0, 2), ResourceUse::sampled)
         .record(record_no_commands);
-    g.mark_as_graph_output(b);
+    g.output(b);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)), ElementsAre("low", "b"));
 }
 
@@ -304,34 +299,34 @@ TEST_F(SmallGraphPlanTest, PassWhoseImageTheNextFrameReadsIsKept) {
     // The next frame reads image `a`, so passes `history` and `base` are kept.
     add_clearing_pass("history", a).reads(b, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("view", c)
-        .reads(g.previous_contents(a), ResourceUse::sampled)
+        .reads(g.previous(a), ResourceUse::sampled)
         .record(record_no_commands);
-    g.mark_as_graph_output(c);
+    g.output(c);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("base", "history", "view"));
 }
 
 TEST_F(SmallGraphPlanTest, OnlyTheLastWriterIsKeptForTheNextFrame) {
     add_clearing_pass("view", c)
-        .reads(g.previous_contents(a), ResourceUse::sampled)
+        .reads(g.previous(a), ResourceUse::sampled)
         .record(record_no_commands);
     add_clearing_pass("lost", a).record(record_no_commands);
     add_clearing_pass("history", a)
-        .reads(g.previous_contents(b), ResourceUse::sampled)
+        .reads(g.previous(b), ResourceUse::sampled)
         .record(record_no_commands);
     // Only pass `history`, which the next frame needs, reads image `b`.
     add_clearing_pass("deeper", b).record(record_no_commands);
-    g.mark_as_graph_output(c);
+    g.output(c);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("view", "history", "deeper"));
 }
 
 TEST_F(SmallGraphPlanTest, HistoryThatFeedsOnlyItselfIsCulled) {
     add_clearing_pass("loop", a)
-        .reads(g.previous_contents(a), ResourceUse::sampled)
+        .reads(g.previous(a), ResourceUse::sampled)
         .record(record_no_commands);
     add_clearing_pass("view", c).record(record_no_commands);
-    g.mark_as_graph_output(c);
+    g.output(c);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_surviving_pass_names(g, plan), ElementsAre("view"));
     EXPECT_FALSE(plan.images[a.id].used);
@@ -343,7 +338,7 @@ TEST_F(SmallGraphPlanTest, ImageLifetimeSpansFirstToLastUse) {
     add_clearing_pass("culled", d).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("c", c).reads(b, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(c);
+    g.output(c);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_EQ(plan.images[a.id].first, 0u);
     EXPECT_EQ(plan.images[a.id].last, 1u);
@@ -358,8 +353,8 @@ TEST_F(SmallGraphPlanTest, ImagesOfDifferentHeapsShareNoMemory) {
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("c", c).reads(b, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("d", d).reads(c, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(d);
-    MemoryRequirementQueries sizer = make_default_requirement_queries();
+    g.output(d);
+    MemorySizer sizer = default_sizer();
     sizer.image = [](const ImageDesc& desc) {
         return MemoryRequirements{
             .bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
@@ -376,7 +371,7 @@ TEST_F(SmallGraphPlanTest, ImagesOfDifferentHeapsShareNoMemory) {
 TEST_F(SmallGraphPlanTest, FirstWriteAndReadAfterWriteNeedBarriers) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(b);
+    g.output(b);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
     EXPECT_THAT(list_barrier_texts(plan, 1),
@@ -390,8 +385,8 @@ TEST_F(SmallGraphPlanTest, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("c", c).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(b);
-    g.mark_as_graph_output(c);
+    g.output(b);
+    g.output(c);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 2),
                 ElementsAre("image 2 [0,4] nothing > colour!/raster"));
 }
@@ -404,9 +399,9 @@ TEST_F(SmallGraphPlanTest, ReadInAnotherStageWaitsForTheFirstReader) {
         .writes(args, ResourceUse::storage_write)
         .record(record_no_commands);
     add_clearing_pass("rewrite", a).record(record_no_commands);
-    g.mark_as_graph_output(a);
-    g.mark_as_graph_output(b);
-    g.mark_as_graph_output(args);
+    g.output(a);
+    g.output(b);
+    g.output(args);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > sampled"));
     EXPECT_THAT(list_barrier_texts(plan, 3),
@@ -421,9 +416,9 @@ TEST_F(SmallGraphPlanTest, ReadInAnotherLayoutNeedsABarrier) {
         .writes(c, ResourceUse::copy_to)
         .record(record_no_commands);
     add_clearing_pass("d", d).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(b);
-    g.mark_as_graph_output(c);
-    g.mark_as_graph_output(d);
+    g.output(b);
+    g.output(c);
+    g.output(d);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > copy_from",
                                                          "image 2 [0,4] nothing > copy_to!"));
@@ -436,7 +431,7 @@ TEST_F(SmallGraphPlanTest, WriteAfterWriteNeedsABarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
     g.add_pass("blur").writes(a, ResourceUse::storage).record(record_no_commands);
     g.add_pass("again").writes(a, ResourceUse::storage).record(record_no_commands);
-    g.mark_as_graph_output(a);
+    g.output(a);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 1),
                 ElementsAre("image 0 [0,4] colour!/raster > storage!"));
@@ -444,12 +439,12 @@ TEST_F(SmallGraphPlanTest, WriteAfterWriteNeedsABarrier) {
 }
 
 TEST_F(SmallGraphPlanTest, BarriersMergeLayersOfEqualUse) {
-    add_clearing_pass("low", a.select_image_layers(0, 2)).record(record_no_commands);
+    add_clearing_pass("low", a.layers(0, 2)).record(record_no_commands);
     g.add_pass("high")
-        .writes(a.select_image_layers(2, 2), ResourceUse::storage_write)
+        .writes(a.layers(2, 2), ResourceUse::storage_write)
         .record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_as_graph_output(b);
+    g.output(b);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 2),
                 ElementsAre("image 1 [0,4] nothing > colour!/raster",
@@ -460,10 +455,10 @@ TEST_F(SmallGraphPlanTest, BarriersMergeLayersOfEqualUse) {
 TEST_F(SmallGraphPlanTest, BarriersDoNotMergeLayersOfDifferentUses) {
     add_clearing_pass("a", a).record(record_no_commands);
     g.add_pass("blur")
-        .reads(a.select_image_layers(0, 2), ResourceUse::sampled)
-        .writes(a.select_image_layers(2, 2), ResourceUse::storage_write)
+        .reads(a.layers(0, 2), ResourceUse::sampled)
+        .writes(a.layers(2, 2), ResourceUse::storage_write)
         .record(record_no_commands);
-    g.mark_as_graph_output(a);
+    g.output(a);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 1),
                 ElementsAre("image 0 [0,2] colour!/raster > sampled",
                             "image 0 [2,2] colour!/raster > storage_write!"));
@@ -477,13 +472,13 @@ TEST_F(SmallGraphPlanTest, BarriersDoNotMergeLayersOfDifferentFrames) {
         .record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     g.add_pass("copy")
-        .reads(g.previous_contents(a.select_image_layers(0, 2)), ResourceUse::copy_from)
-        .reads(a.select_image_layers(2, 2), ResourceUse::copy_from)
+        .reads(g.previous(a.layers(0, 2)), ResourceUse::copy_from)
+        .reads(a.layers(2, 2), ResourceUse::copy_from)
         .writes(c, ResourceUse::copy_to)
         .record(record_no_commands);
-    g.mark_as_graph_output(args);
-    g.mark_as_graph_output(b);
-    g.mark_as_graph_output(c);
+    g.output(args);
+    g.output(b);
+    g.output(c);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 3),
                 ElementsAre("previous 0 [0,2] sampled > copy_from +sampled/raster",
                             "image 0 [2,2] sampled > copy_from +sampled/raster",
@@ -498,9 +493,9 @@ TEST_F(SmallGraphPlanTest, BuffersNeedBarriersOnlyBetweenUses) {
         .writes(b, ResourceUse::storage_write)
         .record(record_no_commands);
     g.add_pass("refill").writes(args, ResourceUse::copy_to).record(record_no_commands);
-    g.mark_as_graph_output(a);
-    g.mark_as_graph_output(b);
-    g.mark_as_graph_output(args);
+    g.output(a);
+    g.output(b);
+    g.output(args);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 0), IsEmpty());
     EXPECT_THAT(list_barrier_texts(plan, 1), ElementsAre("image 0 [0,4] nothing > colour!/raster",
@@ -515,10 +510,10 @@ TEST_F(SmallGraphPlanTest, BuffersNeedBarriersOnlyBetweenUses) {
 }
 
 TEST_F(SmallGraphPlanTest, HistoryImageAsOutputIsLeftSampledInAllLayers) {
-    add_clearing_pass("a", a.select_image_layers(0, 2))
-        .reads(g.previous_contents(a.select_image_layers(0, 2)), ResourceUse::sampled)
+    add_clearing_pass("a", a.layers(0, 2))
+        .reads(g.previous(a.layers(0, 2)), ResourceUse::sampled)
         .record(record_no_commands);
-    g.mark_as_graph_output(a.select_image_layers(0, 1));
+    g.output(a.layers(0, 1));
     EXPECT_THAT(
         list_last_barrier_texts(plan_test_graph(g)),
         ElementsAre("image 0 [0,2] colour!/raster > sampled", "image 0 [2,2] nothing > sampled"));
@@ -526,30 +521,30 @@ TEST_F(SmallGraphPlanTest, HistoryImageAsOutputIsLeftSampledInAllLayers) {
 
 TEST_F(SmallGraphPlanTest, OverlappingOutputsGetOneFinalBarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
-    g.mark_as_graph_output(a.select_image_layers(0, 3));
-    g.mark_as_graph_output(a.select_image_layers(1, 2));
+    g.output(a.layers(0, 3));
+    g.output(a.layers(1, 2));
     EXPECT_THAT(list_last_barrier_texts(plan_test_graph(g)),
                 ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
 }
 
 TEST_F(SmallGraphPlanTest, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
     g.add_pass("copy")
-        .reads(g.previous_contents(a), ResourceUse::copy_from)
+        .reads(g.previous(a), ResourceUse::copy_from)
         .writes(b, ResourceUse::copy_to)
         .record(record_no_commands);
     add_clearing_pass("a", a).record(record_no_commands);
-    g.mark_as_graph_output(b);
+    g.output(b);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 0),
                 ElementsAre("previous 0 [0,4] sampled > copy_from +sampled/raster",
                             "image 1 [0,4] nothing > copy_to!"));
 }
 
 TEST(PlainSizer, SizerCountsTexelsAndPadsTo256Bytes) {
-    const MemoryRequirements image = make_default_requirement_queries().image(
+    const MemoryRequirements image = default_sizer().image(
         {.name = "x", .format = TexelFormat::rgba16f, .width = 5, .height = 3, .layers = 6});
     EXPECT_EQ(image.bytes, 768u); // 720 bytes, padded to a multiple of 256
     EXPECT_EQ(image.alignment, 256u);
-    EXPECT_EQ(make_default_requirement_queries().buffer({.name = "y", .bytes = 256}).bytes, 256u);
+    EXPECT_EQ(default_sizer().buffer({.name = "y", .bytes = 256}).bytes, 256u);
 }
 
 } // namespace

@@ -14,7 +14,7 @@ using ::testing::Not;
 constexpr unsigned kRandomGraphCount = 500;
 
 /// Returns memory requirements with two heaps, and with alignments that do not divide the sizes.
-MemoryRequirementQueries make_memory_queries_with_two_heaps() {
+MemorySizer make_memory_queries_with_two_heaps() {
     return {.image =
                 [](const ImageDesc& desc) {
                     return MemoryRequirements{.bytes = std::uint64_t{desc.layers} * 1000 *
@@ -30,8 +30,7 @@ MemoryRequirementQueries make_memory_queries_with_two_heaps() {
 
 struct RandomGraphSample {
     explicit RandomGraphSample(unsigned seed)
-        : sizer(seed % 2 ? make_memory_queries_with_two_heaps()
-                         : make_default_requirement_queries()) {
+        : sizer(seed % 2 ? make_memory_queries_with_two_heaps() : default_sizer()) {
         std::mt19937 random(seed);
         graph = make_random_graph(random);
         right = plan_graph(graph, {}, sizer);
@@ -40,9 +39,9 @@ struct RandomGraphSample {
     void expect_replay_error(const GraphPlan& wrong, const std::string& mistake) const {
         EXPECT_THAT(replay_graph_plan(graph, wrong, sizer), Not(IsEmpty()))
             << mistake << "\n"
-            << graph_plan_to_text(graph, right);
+            << plan_to_text(graph, right);
     }
-    MemoryRequirementQueries sizer;
+    MemorySizer sizer;
     Graph graph;
     GraphPlan right;
 };
@@ -127,7 +126,7 @@ TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
     for_each_random_graph([&](const RandomGraphSample& sample) {
         for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
             const PlannedPass& planned = sample.right.passes[p];
-            const Pass& pass = sample.graph.list_passes()[planned.pass];
+            const Pass& pass = sample.graph.passes()[planned.pass];
             for (std::size_t i = 0; i < pass.images.size(); ++i) {
                 const ImageUse& use = pass.images[i];
                 if (!use.write || (use.use != ResourceUse::colour && use.use != ResourceUse::depth))
@@ -152,7 +151,7 @@ TEST(RandomGraphs, RandomGraphsUseEveryFeatureOfPlans) {
     for (unsigned seed = 0; seed < kRandomGraphCount; ++seed) {
         std::mt19937 random(seed);
         const Graph graph = make_random_graph(random);
-        const GraphPlan plan = graph::plan_graph(graph, {}, make_default_requirement_queries());
+        const GraphPlan plan = graph::plan_graph(graph, {}, default_sizer());
         culled += plan.culled.empty() ? 0 : 1;
         empty += plan.passes.empty() ? 1 : 0;
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)

@@ -15,13 +15,13 @@ bool does_frame_remember(bool reads_image, bool reads_buffer) {
     const graph::ImageHandle image = frame.graph.add_image({"image", TexelFormat::rgba32f, 8, 8});
     const graph::BufferHandle buffer = frame.graph.add_buffer({"buffer", 64});
     graph::PassBuilder pass = frame.graph.add_pass("pass");
-    if (reads_image) pass.reads(frame.graph.previous_contents(image), ResourceUse::sampled);
-    if (reads_buffer) pass.reads(frame.graph.previous_contents(buffer), ResourceUse::storage_read);
+    if (reads_image) pass.reads(frame.graph.previous(image), ResourceUse::sampled);
+    if (reads_buffer) pass.reads(frame.graph.previous(buffer), ResourceUse::storage_read);
     pass.writes(image, ResourceUse::storage_write).writes(buffer, ResourceUse::storage_write);
     pass.record([](graph::PassCommands&) {});
-    frame.graph.mark_as_graph_output(image);
+    frame.graph.output(image);
     return session::depends_on_previous_frame(
-        frame, graph::plan_graph(frame.graph, {}, graph::make_default_requirement_queries()), {});
+        frame, graph::plan_graph(frame.graph, {}, graph::default_sizer()), {});
 }
 
 TEST(PreviousFrame, ImagesAndBuffersOfTheFrameBeforeAreHistory) {

@@ -28,7 +28,7 @@ private:
     }
     bool is_chosen_with_chance(std::uint32_t percent) { return random_number_below(100) < percent; }
     bool is_depth_image(const ImageHandle& image) const {
-        return catoptric::is_depth(graph_.list_images()[image.id].format);
+        return catoptric::is_depth(graph_.images()[image.id].format);
     }
 
     void add_random_resources() {
@@ -59,7 +59,7 @@ private:
 
     ImageHandle choose_random_part_of_image(const ImageHandle& image) {
         const std::uint32_t first = random_number_below(image.layer_count);
-        return image.select_image_layers(first, random_number_below(image.layer_count - first) + 1);
+        return image.layers(first, random_number_below(image.layer_count - first) + 1);
     }
 
     void add_random_pass(std::uint32_t number) {
@@ -91,11 +91,11 @@ private:
         const ResourceUse use = is_depth_image(target) ? ResourceUse::depth : ResourceUse::colour;
         std::optional<ClearValue> clear;
         if (!is_image_written(target) || is_chosen_with_chance(60)) clear = ClearValue{};
-        pass.writes(target, use, clear).set_pass_layer_count(target.layer_count);
+        pass.writes(target, use, clear).layers(target.layer_count);
         if (use == ResourceUse::depth || is_chosen_with_chance(50)) return;
         for (const ImageHandle& image : images_) { // attaches a depth image for the depth test
             if (!is_depth_image(image) || image.layer_count < target.layer_count) continue;
-            const ImageHandle depth = image.select_image_layers(0, target.layer_count);
+            const ImageHandle depth = image.layers(0, target.layer_count);
             if (!is_image_written(depth)) continue;
             touched_[image.id] = true;
             pass.reads(depth, ResourceUse::depth);
@@ -119,7 +119,7 @@ private:
                 pass.reads(image, random_reading_use(image, copy));
             } else if (is_chosen_with_chance(6)) {
                 touched_[image.id] = true;
-                pass.reads(graph_.previous_contents(image), random_reading_use(image, copy));
+                pass.reads(graph_.previous(image), random_reading_use(image, copy));
             }
         }
     }
@@ -128,11 +128,11 @@ private:
     /// frame.
     void add_disjoint_read(PassBuilder& pass, const ImageHandle& target, bool copy) {
         if (target.first_layer == 0) return;
-        const ImageHandle rest = images_[target.id].select_image_layers(0, target.first_layer);
+        const ImageHandle rest = images_[target.id].layers(0, target.first_layer);
         if (is_image_written(rest) && is_chosen_with_chance(50))
             pass.reads(rest, random_reading_use(rest, copy));
         else if (is_chosen_with_chance(10))
-            pass.reads(graph_.previous_contents(target), ResourceUse::sampled);
+            pass.reads(graph_.previous(target), ResourceUse::sampled);
     }
 
     void add_random_buffers(PassBuilder& pass, bool copy) {
@@ -160,7 +160,7 @@ private:
             .writes(images_[id],
                     is_depth_image(images_[id]) ? ResourceUse::depth : ResourceUse::colour,
                     ClearValue{})
-            .set_pass_layer_count(images_[id].layer_count)
+            .layers(images_[id].layer_count)
             .record([](PassCommands&) {});
         written_[id].assign(images_[id].layer_count, true);
     }
@@ -168,17 +168,14 @@ private:
     void mark_random_output() {
         for (const ImageHandle& image : images_) {
             const ImageHandle part = choose_random_part_of_image(image);
-            if (is_image_written(part) && is_chosen_with_chance(15))
-                graph_.mark_as_graph_output(part);
+            if (is_image_written(part) && is_chosen_with_chance(15)) graph_.output(part);
         }
         // Output images are marked, so that most graphs have an output.
         for (const ImageHandle& image : images_)
-            if (graph_.list_output_images().empty() &&
-                is_image_written(image.select_image_layers(0, 1)))
-                graph_.mark_as_graph_output(image.select_image_layers(0, 1));
+            if (graph_.output_images().empty() && is_image_written(image.layers(0, 1)))
+                graph_.output(image.layers(0, 1));
         for (std::uint32_t b = 0; b < buffers_.size(); ++b)
-            if (buffer_written_[b] && is_chosen_with_chance(20))
-                graph_.mark_as_graph_output(buffers_[b]);
+            if (buffer_written_[b] && is_chosen_with_chance(20)) graph_.output(buffers_[b]);
     }
 
     std::mt19937& random_;

@@ -35,15 +35,14 @@ struct PastSubresourceAccess {
 
 class GraphPlanReplay {
 public:
-    GraphPlanReplay(const Graph& graph, const GraphPlan& plan,
-                    const MemoryRequirementQueries& sizer)
+    GraphPlanReplay(const Graph& graph, const GraphPlan& plan, const MemorySizer& sizer)
         : replayed_graph_(graph), plan_(plan), sizer_(sizer) {
         const AccessState raster{
             .nothing = false, .use = ResourceUse::sampled, .write = false, .raster = true};
         AccessState compute = raster;
         compute.raster = false;
-        for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
-            for (std::uint32_t l = 0; l < graph.list_images()[i].layers; ++l) {
+        for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+            for (std::uint32_t l = 0; l < graph.images()[i].layers; ++l) {
                 const GraphSubresource subresource{GraphSubresourceKind::previous, i, l};
                 layouts_[subresource] = ResourceUse::sampled;
                 events_[subresource] = {
@@ -55,7 +54,7 @@ public:
         check_order_of_passes();
         check_memory_placements();
         for (const PlannedPass& planned : plan_.passes) {
-            where_ = "'" + replayed_graph_.list_passes()[planned.pass].name + "'";
+            where_ = "'" + replayed_graph_.passes()[planned.pass].name + "'";
             apply_barriers_of_pass(planned.barriers);
             execute_planned_pass(planned);
         }
@@ -71,8 +70,8 @@ private:
                                             const Parts&... parts) {
         if (ok) return;
         const std::string name = subresource.kind == GraphSubresourceKind::buffer
-                                     ? replayed_graph_.list_buffers()[subresource.id].name
-                                     : replayed_graph_.list_images()[subresource.id].name;
+                                     ? replayed_graph_.buffers()[subresource.id].name
+                                     : replayed_graph_.images()[subresource.id].name;
         faults_.push_back(
             where_ + ": " + name + " layer " + std::to_string(subresource.layer) +
             (subresource.kind == GraphSubresourceKind::previous ? " of last frame" : "") + ": " +
@@ -99,14 +98,14 @@ private:
         int scene = 0;
         for (const PlannedPass& planned : plan_.passes) {
             kept.push_back(planned.pass);
-            scene += replayed_graph_.list_passes()[planned.pass].tag == PassPurpose::scene ? 1 : 0;
+            scene += replayed_graph_.passes()[planned.pass].tag == PassPurpose::scene ? 1 : 0;
         }
         if (!std::ranges::is_sorted(kept)) faults_.push_back("passes are reordered");
         if (scene != plan_.scene_passes) faults_.push_back("scene passes are miscounted");
         all = kept;
         for (const CulledPass& culled : plan_.culled) all.push_back(culled.pass);
         std::ranges::sort(all);
-        for (std::uint32_t p = 0; p < replayed_graph_.list_passes().size(); ++p)
+        for (std::uint32_t p = 0; p < replayed_graph_.passes().size(); ++p)
             if (p >= all.size() || all[p] != p) faults_.push_back("a pass is lost or doubled");
         const std::vector<GraphSubresource> subresources = list_outcome_subresources(
             replayed_graph_, plan_);
@@ -116,16 +115,15 @@ private:
             std::vector<std::uint32_t> fewer = kept;
             std::erase(fewer, p);
             if (simulate_with_separate_memory(replayed_graph_, fewer, subresources) == outcome)
-                faults_.push_back("nobody needs pass '" + replayed_graph_.list_passes()[p].name +
-                                  "'");
+                faults_.push_back("nobody needs pass '" + replayed_graph_.passes()[p].name + "'");
         }
     }
 
     void check_memory_placements() {
         std::map<GraphSubresource, std::pair<std::uint32_t, std::uint32_t>> lives;
         for (std::uint32_t at = 0; at < plan_.passes.size(); ++at)
-            for (GraphSubresourceUse u : list_subresource_uses_of_pass(
-                     replayed_graph_.list_passes()[plan_.passes[at].pass])) {
+            for (GraphSubresourceUse u :
+                 list_subresource_uses_of_pass(replayed_graph_.passes()[plan_.passes[at].pass])) {
                 u.subresource.layer = 0;
                 if (u.subresource.kind == GraphSubresourceKind::previous)
                     u.subresource.kind = GraphSubresourceKind::image;
@@ -158,10 +156,10 @@ private:
 
     bool must_subresource_have_own_memory(const GraphSubresource& subresource) const {
         if (subresource.kind == GraphSubresourceKind::buffer)
-            return std::ranges::count(replayed_graph_.list_output_buffers(), subresource.id,
+            return std::ranges::count(replayed_graph_.output_buffers(), subresource.id,
                                       &BufferHandle::id) > 0;
         return (replayed_graph_.image_lifetime(subresource.id) == Lifetime::previous) ||
-               std::ranges::count(replayed_graph_.list_output_images(), subresource.id,
+               std::ranges::count(replayed_graph_.output_images(), subresource.id,
                                   &ImageHandle::id) > 0;
     }
 
@@ -169,8 +167,8 @@ private:
         const MemoryPlacement& p = placement_of_subresource(subresource);
         const bool is_buffer = subresource.kind == GraphSubresourceKind::buffer;
         const MemoryRequirements wanted =
-            is_buffer ? sizer_.buffer(replayed_graph_.list_buffers()[subresource.id])
-                      : sizer_.image(replayed_graph_.list_images()[subresource.id]);
+            is_buffer ? sizer_.buffer(replayed_graph_.buffers()[subresource.id])
+                      : sizer_.image(replayed_graph_.images()[subresource.id]);
         std::uint64_t bytes = wanted.bytes;
         if (!is_buffer && (replayed_graph_.image_lifetime(subresource.id) == Lifetime::previous)) {
             const std::uint64_t padding = wanted.alignment - 1;
@@ -228,7 +226,7 @@ private:
 
     void execute_planned_pass(const PlannedPass& planned) {
         const std::uint32_t index = planned.pass;
-        const Pass& pass = replayed_graph_.list_passes()[index];
+        const Pass& pass = replayed_graph_.passes()[index];
         const std::vector<GraphSubresourceUse> uses = list_subresource_uses_of_pass(pass);
         for (const GraphSubresourceUse& u : uses)
             check_access_state_of_use(u, make_access_state_of_use(pass, u));
@@ -260,14 +258,14 @@ private:
     }
 
     static AccessState make_access_state_of_use(const Pass& pass, const GraphSubresourceUse& u) {
-        return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster_pass()};
+        return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster()};
     }
 
     void check_access_state_of_use(const GraphSubresourceUse& u, const AccessState& t) {
         if (u.subresource.kind != GraphSubresourceKind::buffer)
             record_fault_of_subresource_unless(
                 layouts_.contains(u.subresource) && layouts_[u.subresource] == u.use, u.subresource,
-                "wrong layout for ", std::string(resource_use_name(u.use)));
+                "wrong layout for ", std::string(use_name(u.use)));
         for (const auto& [other, events] : events_) {
             if (other != u.subresource && !do_subresources_share_memory(u.subresource, other))
                 continue;
@@ -275,14 +273,13 @@ private:
                 if (u.write || e.is_write)
                     record_fault_of_subresource_unless(
                         e.is_ordered_before(u.subresource, t), u.subresource,
-                        std::string(resource_use_name(u.use)), " races with ",
-                        std::string(resource_use_name(e.touch.use)), " of image ",
-                        std::to_string(other.id));
+                        std::string(use_name(u.use)), " races with ",
+                        std::string(use_name(e.touch.use)), " of image ", std::to_string(other.id));
         }
     }
 
     void check_contents_at_frame_end() {
-        std::vector<std::uint32_t> all(replayed_graph_.list_passes().size());
+        std::vector<std::uint32_t> all(replayed_graph_.passes().size());
         for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = p;
         const std::vector<GraphSubresource> subresources = list_outcome_subresources(
             replayed_graph_, plan_);
@@ -299,7 +296,7 @@ private:
                 expect_ordered_access(subresource, ResourceUse::copy_from);
         }
         for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
-            for (std::uint32_t l = 0; l < replayed_graph_.list_images()[i].layers; ++l)
+            for (std::uint32_t l = 0; l < replayed_graph_.images()[i].layers; ++l)
                 if (plan_.images[i].used &&
                     (replayed_graph_.image_lifetime(i) == Lifetime::previous))
                     check_no_access_left_unordered({GraphSubresourceKind::image, i, l});
@@ -325,7 +322,7 @@ private:
 
     const Graph& replayed_graph_;
     const GraphPlan& plan_;
-    const MemoryRequirementQueries& sizer_;
+    const MemorySizer& sizer_;
     std::string where_ = "memory";
     std::vector<std::string> faults_;
     SimulatedGraphContents contents_;
@@ -336,7 +333,7 @@ private:
 } // namespace
 
 std::vector<std::string> replay_graph_plan(const Graph& graph, const GraphPlan& plan,
-                                           const MemoryRequirementQueries& sizer) {
+                                           const MemorySizer& sizer) {
     return GraphPlanReplay(graph, plan, sizer).run_replay();
 }
 

@@ -13,7 +13,7 @@ namespace catoptric::graph {
 /// race. A read in another layout is an error. In the end, all outputs must hold the same contents
 /// as if each resource had its own memory and all passes had run.
 std::vector<std::string> replay_graph_plan(const Graph& graph, const GraphPlan& plan,
-                                           const MemoryRequirementQueries& sizer);
+                                           const MemorySizer& sizer);
 
 /// Returns a random valid graph. Over many graphs, passes use resources in every way that a graph
 /// allows.

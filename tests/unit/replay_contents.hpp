@@ -91,14 +91,14 @@ private:
 inline std::vector<GraphSubresource> list_outcome_subresources(const Graph& graph,
                                                                const GraphPlan& plan) {
     std::vector<GraphSubresource> subresources;
-    for (const ImageHandle& image : graph.list_output_images())
+    for (const ImageHandle& image : graph.output_images())
         for (std::uint32_t l = 0; l < image.layer_count; ++l)
             subresources.push_back({GraphSubresourceKind::image, image.id, image.first_layer + l});
-    for (const BufferHandle& buffer : graph.list_output_buffers())
+    for (const BufferHandle& buffer : graph.output_buffers())
         subresources.push_back({GraphSubresourceKind::buffer, buffer.id, 0});
     for (const PlannedPass& planned : plan.passes)
         for (const GraphSubresourceUse& u :
-             list_subresource_uses_of_pass(graph.list_passes()[planned.pass]))
+             list_subresource_uses_of_pass(graph.passes()[planned.pass]))
             if (u.subresource.kind == GraphSubresourceKind::previous)
                 subresources.push_back(
                     {GraphSubresourceKind::image, u.subresource.id, u.subresource.layer});
@@ -111,7 +111,7 @@ inline std::vector<Value>
 simulate_with_separate_memory(const Graph& graph, const std::vector<std::uint32_t>& passes,
                               const std::vector<GraphSubresource>& subresources) {
     SimulatedGraphContents contents;
-    for (const std::uint32_t p : passes) contents.execute_pass(graph.list_passes()[p], p);
+    for (const std::uint32_t p : passes) contents.execute_pass(graph.passes()[p], p);
     std::vector<Value> values;
     for (const GraphSubresource& subresource : subresources)
         values.push_back(contents.content_of_subresource(subresource));

@@ -5,30 +5,30 @@
 
 namespace {
 
-using catoptric::graph::timestamps_to_milliseconds;
+using catoptric::graph::to_milliseconds;
 
 TEST(Timestamps, CountFromTheFirst) {
     const std::uint64_t stamps[] = {1'000'000, 1'000'000, 3'500'000};
-    EXPECT_EQ(timestamps_to_milliseconds(stamps, 64, 1), (std::vector<double>{0, 0, 2.5}));
-    EXPECT_EQ(timestamps_to_milliseconds(stamps, 64, 10), (std::vector<double>{0, 0, 25}));
-    EXPECT_TRUE(timestamps_to_milliseconds({}, 64, 1).empty());
+    EXPECT_EQ(to_milliseconds(stamps, 64, 1), (std::vector<double>{0, 0, 2.5}));
+    EXPECT_EQ(to_milliseconds(stamps, 64, 10), (std::vector<double>{0, 0, 25}));
+    EXPECT_TRUE(to_milliseconds({}, 64, 1).empty());
 }
 
 // A frame on a slow device can take longer than 2^32 ns = 4.3 s.
 TEST(Timestamps, AreNotCutToThirtyTwoBits) {
     const std::uint64_t stamps[] = {5, 5 + (std::uint64_t{10} << 32)};
-    EXPECT_EQ(timestamps_to_milliseconds(stamps, 64, 1)[1], 10 * 4294.967296);
-    EXPECT_EQ(timestamps_to_milliseconds(stamps, 48, 1)[1], 10 * 4294.967296);
+    EXPECT_EQ(to_milliseconds(stamps, 64, 1)[1], 10 * 4294.967296);
+    EXPECT_EQ(to_milliseconds(stamps, 48, 1)[1], 10 * 4294.967296);
 }
 
 TEST(Timestamps, SurviveAWrapOfTheirValidBits) {
     const std::uint64_t stamps[] = {(std::uint64_t{1} << 36) - 1'000'000, 2'000'000};
-    EXPECT_EQ(timestamps_to_milliseconds(stamps, 36, 1), (std::vector<double>{0, 3}));
+    EXPECT_EQ(to_milliseconds(stamps, 36, 1), (std::vector<double>{0, 3}));
     // Bits above the valid ones are not part of the time.
     const std::uint64_t noisy[] = {std::uint64_t{7} << 40, (std::uint64_t{3} << 40) + 1'000'000};
-    EXPECT_EQ(timestamps_to_milliseconds(noisy, 36, 1)[1], 1);
+    EXPECT_EQ(to_milliseconds(noisy, 36, 1)[1], 1);
     const std::uint64_t full[] = {~std::uint64_t{0} - 999'999, 0};
-    EXPECT_EQ(timestamps_to_milliseconds(full, 64, 1)[1], 1);
+    EXPECT_EQ(to_milliseconds(full, 64, 1)[1], 1);
 }
 
 TEST(Timestamps, LeaveOutTheGapsBetweenPieces) {

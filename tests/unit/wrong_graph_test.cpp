@@ -17,8 +17,7 @@ using ::testing::HasSubstr;
 /// fails in another way.
 std::string wrong_graph_error_text(const Graph& graph, Failure failure = Failure::internal,
                                    GraphLimits limits = {}) {
-    return test::catch_error_text(
-        failure, [&] { plan_graph(graph, limits, make_default_requirement_queries()); });
+    return test::catch_error_text(failure, [&] { plan_graph(graph, limits, default_sizer()); });
 }
 
 /// Holds a graph with images and a buffer. Each test adds passes with one mistake.
@@ -34,7 +33,7 @@ struct WrongGraphTest : ::testing::Test {
     void add_writing_pass(ImageHandle image) {
         g.add_pass("make")
             .writes(image, ResourceUse::colour, kBlackClearColour)
-            .set_pass_layer_count(image.layer_count)
+            .layers(image.layer_count)
             .record(record_no_commands);
     }
 };
@@ -45,8 +44,8 @@ TEST_F(WrongGraphTest, GraphWithoutAMistakeIsAccepted) {
         .reads(cubes, ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
-    g.mark_as_graph_output(out);
-    EXPECT_EQ(plan_graph(g, {}, make_default_requirement_queries()).passes.size(), 2u);
+    g.output(out);
+    EXPECT_EQ(plan_graph(g, {}, default_sizer()).passes.size(), 2u);
 }
 
 TEST_F(WrongGraphTest, ReadBeforeWriteIsRefused) {
@@ -63,9 +62,9 @@ TEST_F(WrongGraphTest, ReadBeforeWriteIsRefused) {
 TEST_F(WrongGraphTest, UpdateOfUnwrittenLayersIsRefused) {
     g.add_pass("mend")
         .updates(out, ResourceUse::colour, kBlackClearColour)
-        .set_pass_render_area({1, 1, 2, 2})
+        .render_area({1, 1, 2, 2})
         .record(record_no_commands);
-    g.mark_as_graph_output(out);
+    g.output(out);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
               "[0,1)");
@@ -82,12 +81,12 @@ TEST_F(WrongGraphTest, UpdateWithoutAnAreaIsRefused) {
 
 TEST_F(WrongGraphTest, ReadOfPartlyWrittenLayersIsRefused) {
     g.add_pass("a")
-        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
     g.add_pass("b")
-        .writes(cubes.select_image_layers(12, 12), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(12)
+        .writes(cubes.layers(12, 12), ResourceUse::colour, kBlackClearColour)
+        .layers(12)
         .record(record_no_commands);
     g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
@@ -100,7 +99,7 @@ TEST_F(WrongGraphTest, ReadOfPartlyWrittenLayersIsRefused) {
 
 TEST_F(WrongGraphTest, ReadOfTheLastFrameDoesNotCountAsAWrite) {
     g.add_pass("old")
-        .reads(g.previous_contents(cubes), ResourceUse::sampled)
+        .reads(g.previous(cubes), ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     g.add_pass("new")
@@ -140,8 +139,8 @@ TEST_F(WrongGraphTest, SamplingAnAttachedLayerIsRefused) {
     add_writing_pass(cubes);
     g.add_pass("capture")
         .reads(cubes, ResourceUse::sampled)
-        .writes(cubes.select_image_layers(6, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .writes(cubes.layers(6, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' reads 'cubes' [0,24) as sampled while it writes 'cubes' "
@@ -162,13 +161,13 @@ TEST_F(WrongGraphTest, SamplingAStorageTargetIsRefused) {
 TEST_F(WrongGraphTest, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
     add_writing_pass(cubes);
     g.add_pass("capture")
-        .reads(cubes.select_image_layers(0, 6), ResourceUse::sampled)
-        .reads(g.previous_contents(cubes), ResourceUse::sampled)
-        .writes(cubes.select_image_layers(6, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .reads(cubes.layers(0, 6), ResourceUse::sampled)
+        .reads(g.previous(cubes), ResourceUse::sampled)
+        .writes(cubes.layers(6, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
-    g.mark_as_graph_output(cubes);
-    EXPECT_EQ(plan_graph(g, {}, make_default_requirement_queries()).passes.size(), 2u);
+    g.output(cubes);
+    EXPECT_EQ(plan_graph(g, {}, default_sizer()).passes.size(), 2u);
 }
 
 TEST_F(WrongGraphTest, BufferReadWhileWrittenIsRefused) {
@@ -184,8 +183,8 @@ TEST_F(WrongGraphTest, BufferReadWhileWrittenIsRefused) {
 
 TEST_F(WrongGraphTest, TwoWritesOfTheSameLayersAreRefused) {
     g.add_pass("twice")
-        .writes(cubes.select_image_layers(0, 6), ResourceUse::storage_write)
-        .writes(cubes.select_image_layers(4, 6), ResourceUse::copy_to)
+        .writes(cubes.layers(0, 6), ResourceUse::storage_write)
+        .writes(cubes.layers(4, 6), ResourceUse::copy_to)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
@@ -207,50 +206,50 @@ TEST_F(WrongGraphTest, TwoLayoutsAtOnceAreRefused) {
 
 TEST_F(WrongGraphTest, OutputThatIsNeverWrittenIsRefused) {
     add_writing_pass(cubes);
-    g.mark_as_graph_output(out);
+    g.output(out);
     EXPECT_EQ(wrong_graph_error_text(g),
               "'out' [0,1) is an output, but no pass writes layers [0,1)");
 }
 
 TEST_F(WrongGraphTest, OutputLayersThatAreNeverWrittenAreRefused) {
     g.add_pass("a")
-        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
-    g.mark_as_graph_output(cubes.select_image_layers(3, 6));
+    g.output(cubes.layers(3, 6));
     EXPECT_EQ(wrong_graph_error_text(g),
               "'cubes' [3,9) is an output, but no pass writes layers [6,9)");
 }
 
 TEST_F(WrongGraphTest, OutputBufferThatIsNeverWrittenIsRefused) {
     add_writing_pass(out);
-    g.mark_as_graph_output(args);
+    g.output(args);
     EXPECT_EQ(wrong_graph_error_text(g), "buffer 'args' is an output, but no pass writes it");
 }
 
 TEST_F(WrongGraphTest, OutputLayersOutOfRangeAreRefused) {
     add_writing_pass(out);
-    g.mark_as_graph_output(out.select_image_layers(0, 2));
+    g.output(out.layers(0, 2));
     EXPECT_EQ(wrong_graph_error_text(g),
               "'out' [0,2) is an output, but the image has layers [0,1)");
 }
 
 TEST_F(WrongGraphTest, OutputOfThePreviousFrameIsRefused) {
     add_writing_pass(out);
-    g.mark_as_graph_output(g.previous_contents(out));
+    g.output(g.previous(out));
     EXPECT_EQ(wrong_graph_error_text(g),
               "previous('out') [0,1) is an output: only this frame's contents can be");
 }
 
 TEST_F(WrongGraphTest, OutputOfAnotherGraphIsRefused) {
     add_writing_pass(out);
-    g.mark_as_graph_output(ImageHandle{.id = 9, .layer_count = 1});
+    g.output(ImageHandle{.id = 9, .layer_count = 1});
     EXPECT_EQ(wrong_graph_error_text(g), "image number 9 is an output, but the graph has 3");
 }
 
 TEST_F(WrongGraphTest, PreviousOfAnUnwrittenImageIsRefused) {
     g.add_pass("view")
-        .reads(g.previous_contents(cubes), ResourceUse::sampled)
+        .reads(g.previous(cubes), ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
@@ -259,11 +258,11 @@ TEST_F(WrongGraphTest, PreviousOfAnUnwrittenImageIsRefused) {
 
 TEST_F(WrongGraphTest, PreviousOfUnwrittenLayersIsRefused) {
     g.add_pass("a")
-        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
     g.add_pass("view")
-        .reads(g.previous_contents(cubes.select_image_layers(0, 12)), ResourceUse::sampled)
+        .reads(g.previous(cubes.layers(0, 12)), ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
@@ -273,7 +272,7 @@ TEST_F(WrongGraphTest, PreviousOfUnwrittenLayersIsRefused) {
 
 TEST_F(WrongGraphTest, WriteToThePreviousFrameIsRefused) {
     g.add_pass("rewrite")
-        .writes(g.previous_contents(out), ResourceUse::colour, kBlackClearColour)
+        .writes(g.previous(out), ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'rewrite' writes previous('out') [0,1) as colour: last frame's "
@@ -282,18 +281,17 @@ TEST_F(WrongGraphTest, WriteToThePreviousFrameIsRefused) {
 
 TEST_F(WrongGraphTest, PreviousOfAnotherGraphIsRefused) {
     try {
-        g.previous_contents(ImageHandle{.id = 9});
+        g.previous(ImageHandle{.id = 9});
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(),
-                     "previous_contents() of image number 9, but the graph has 3 images");
+        EXPECT_STREQ(error.what(), "previous() of image number 9, but the graph has 3 images");
     }
 }
 
 TEST_F(WrongGraphTest, LayersOutOfRangeAreRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_image_layers(20, 6), ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(6)
+        .writes(cubes.layers(20, 6), ResourceUse::colour, kBlackClearColour)
+        .layers(6)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
@@ -302,14 +300,14 @@ TEST_F(WrongGraphTest, LayersOutOfRangeAreRefused) {
 
 TEST_F(WrongGraphTest, LayerRangeThatOverflowsIsRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_image_layers(1, ~0u), ResourceUse::storage_write)
+        .writes(cubes.layers(1, ~0u), ResourceUse::storage_write)
         .record(record_no_commands);
     EXPECT_THAT(wrong_graph_error_text(g), HasSubstr("but the image has layers [0,24)"));
 }
 
 TEST_F(WrongGraphTest, EmptyLayerRangeIsRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_image_layers(3, 0), ResourceUse::storage_write)
+        .writes(cubes.layers(3, 0), ResourceUse::storage_write)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' names no layer of 'cubes' as storage_write");
@@ -329,7 +327,7 @@ TEST_F(WrongGraphTest, BufferOfAnotherGraphIsRefused) {
 
 TEST_F(WrongGraphTest, AttachmentWithAnotherLayerCountIsRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
@@ -417,7 +415,7 @@ TEST_F(WrongGraphTest, PassThatWritesNothingIsRefused) {
 TEST_F(WrongGraphTest, PassWithoutLayersIsRefused) {
     g.add_pass("view")
         .writes(out, ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(0)
+        .layers(0)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'view' renders 0 layers");
 }
@@ -477,7 +475,7 @@ TEST_F(WrongGraphTest, UsesInTheWrongDirectionAreRefused) {
         const bool reads = use == ResourceUse::sampled || use == ResourceUse::storage_read ||
                            use == ResourceUse::copy_from || use == ResourceUse::indirect;
         const bool image_only = use == ResourceUse::colour || use == ResourceUse::depth;
-        const std::string name(resource_use_name(use));
+        const std::string name(use_name(use));
         if (reads) {
             Graph wrong = g;
             wrong.add_pass("p").writes(out, use).record(record_no_commands);
@@ -508,7 +506,7 @@ TEST_F(WrongGraphTest, UsesInTheWrongDirectionAreRefused) {
 // A mistake is reported even in a pass on which no output depends.
 TEST_F(WrongGraphTest, CulledPassesAreValidated) {
     add_writing_pass(out);
-    g.mark_as_graph_output(out);
+    g.output(out);
     g.add_pass("debug")
         .reads(cubes, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
@@ -543,7 +541,7 @@ TEST_F(WrongGraphTest, PassOverTheFramebufferLayerLimitIsRefused) {
 
 TEST_F(WrongGraphTest, FrameOverTheMemoryLimitIsRefused) {
     add_writing_pass(cubes);
-    g.mark_as_graph_output(cubes);
+    g.output(cubes);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_memory = 12287}),
               "the frame wants 12288 bytes of memory, device allows max_memory = 12287; the "
               "largest is 'cubes' with 12288");
@@ -551,7 +549,7 @@ TEST_F(WrongGraphTest, FrameOverTheMemoryLimitIsRefused) {
 
 TEST_F(WrongGraphTest, MemoryOverTheAllocationLimitIsRefused) {
     add_writing_pass(cubes);
-    g.mark_as_graph_output(cubes);
+    g.output(cubes);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_allocation = 12287}),
               "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = "
               "12287; the "
@@ -566,23 +564,23 @@ TEST_F(WrongGraphTest, OutputsAndOtherImagesAreAllocatedApart) {
     g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
         .writes(picture, ResourceUse::colour, kBlackClearColour)
-        .set_pass_layer_count(24)
+        .layers(24)
         .record(record_no_commands);
-    g.mark_as_graph_output(picture);
+    g.output(picture);
     const GraphLimits limits{.max_allocation = 12288};
-    EXPECT_EQ(plan_graph(g, limits, make_default_requirement_queries()).bytes, 24576u);
+    EXPECT_EQ(plan_graph(g, limits, default_sizer()).bytes, 24576u);
 }
 
 TEST_F(WrongGraphTest, GraphAtEveryLimitIsAccepted) {
     add_writing_pass(cubes);
-    g.mark_as_graph_output(cubes);
+    g.output(cubes);
     const GraphLimits limits{.max_size_2d = 8,
                              .max_size_cube = 8,
                              .max_layers = 24,
                              .max_framebuffer_layers = 24,
                              .max_memory = 12288,
                              .max_allocation = 12288};
-    EXPECT_EQ(plan_graph(g, limits, make_default_requirement_queries()).bytes, 12288u);
+    EXPECT_EQ(plan_graph(g, limits, default_sizer()).bytes, 12288u);
 }
 
 } // namespace
