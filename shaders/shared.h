@@ -1,7 +1,7 @@
 // Structures that C++ and GLSL share. The layout is scalar: members follow each other without padding, so the size of
 // a structure is the sum of its members' sizes. Assertions below check sizes, tests/gpu/layout_test.cpp checks offsets.
 // All lengths and positions are in scene units: world positions minus an origin, times a power of two, so that the
-// scene is about 1 in size (render::SceneUnitTransform).
+// scene is about 1 in size (render::SceneUnits).
 #ifndef CATOPTRIC_SHARED_H
 #define CATOPTRIC_SHARED_H
 

@@ -47,11 +47,11 @@ CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::Device& device,
 }
 
 void CubeCapturePrototypeRenderer::add_scene(const session::Request& request) {
-    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
     const scene::Scene now = scene::scene_at(request.scene, request.time);
-    geometry_ = render::make_frame_geometry(now, space);
+    geometry_ = render::make_geometry(now, space);
     const scene::PointLight light = scene::list_lights(now).at(0);
-    const vec3 at = space.world_to_scene_point(light.position);
+    const vec3 at = space.to_scene_point(light.position);
     views_ = {render::make_camera_view(request.camera, space, request.size, 1)};
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Material& material = now.materials[now.objects[i].material];
@@ -148,7 +148,7 @@ void CubeCapturePrototypeRenderer::draw_object(VkCommandBuffer commands,
                                                const BoundPrototypePipeline& program,
                                                std::size_t object, std::uint32_t first_view,
                                                std::uint32_t layers) const {
-    const render::ObjectDrawRange& range = geometry_.ranges[object];
+    const render::DrawRange& range = geometry_.ranges[object];
     const auto mirror = std::ranges::find(mirrors_, object);
     const vec3 centre = mirror == mirrors_.end() ? vec3(0) : range.bounds.centre();
     program.push_draw_constants(
@@ -156,7 +156,7 @@ void CubeCapturePrototypeRenderer::draw_object(VkCommandBuffer commands,
                                     materials_[object].emission, vec4(centre, 0), first_view,
                                     static_cast<float>(mirror - mirrors_.begin())});
     const auto meets = [&](std::uint32_t layer) {
-        return render::may_view_show_box(views_[first_view + layer], range);
+        return render::may_show(views_[first_view + layer], range);
     };
     for (std::uint32_t layer = 0, end; layer < layers; layer = end + 1) {
         for (end = layer; end < layers && meets(end);) ++end;

@@ -19,7 +19,7 @@ PeerVector3 vec3_to_peer_vector(const vec3& v) { return {v.x, v.y, v.z}; }
 
 PeerSurfaceMaterial make_peer_surface_material(const scene::Scene& scene,
                                                const scene::Object& object,
-                                               const render::ObjectDrawRange& range) {
+                                               const render::DrawRange& range) {
     const scene::Material& material = scene.materials[object.material];
     PeerSurfaceMaterial surface{.albedo = vec3_to_peer_vector(material.albedo),
                                 .emission = vec3_to_peer_vector(material.emission)};
@@ -27,7 +27,7 @@ PeerSurfaceMaterial make_peer_surface_material(const scene::Scene& scene,
     surface.is_sharp = range.varies && !surface.is_mirror &&
                        material.roughness <= scene.mirror_max_roughness;
     surface.turns = range.turns;
-    surface.fades = render::do_vertex_normals_differ_from_facets(scene.meshes[object.mesh]);
+    surface.fades = render::normals_differ_from_facets(scene.meshes[object.mesh]);
     if (surface.is_mirror) surface.reflectance = vec3_to_peer_vector(material.reflectance);
     if (surface.is_sharp) surface.reflectance = vec3_to_peer_vector(material.dielectric_f0);
     if (material.albedo_texture) surface.texture = object.material;
@@ -80,8 +80,8 @@ EmbreeWhittedTracer::EmbreeWhittedTracer(const EmbreeDevice& device,
 void EmbreeWhittedTracer::add_objects(const EmbreeDevice& device, const session::Request& request,
                                       bool exact) {
     const scene::Scene& scene = request.scene;
-    const render::SceneUnitTransform space = render::make_scene_units(scene);
-    const render::FrameGeometry geometry = render::make_frame_geometry(
+    const render::SceneUnits space = render::make_scene_units(scene);
+    const render::FrameGeometry geometry = render::make_geometry(
         scene::scene_at(scene, request.time), space);
     std::ranges::transform(scene.materials, std::back_inserter(whitted_.textures),
                            make_albedo_texture);
@@ -90,12 +90,12 @@ void EmbreeWhittedTracer::add_objects(const EmbreeDevice& device, const session:
     std::vector<std::size_t> lamps;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
-        const render::ObjectDrawRange& range = geometry.ranges[i];
+        const render::DrawRange& range = geometry.ranges[i];
         whitted_.surfaces.push_back(make_peer_surface_material(scene, object, range));
         if (exact && object.sphere) {
             whitted_.spheres.push_back(
-                {vec3_to_peer_vector(space.world_to_scene_point(object.sphere->centre)),
-                 space.world_to_scene_length(object.sphere->radius)});
+                {vec3_to_peer_vector(space.to_scene_point(object.sphere->centre)),
+                 space.to_scene_length(object.sphere->radius)});
             whitted_.sphere_objects.push_back(static_cast<std::uint32_t>(i));
         } else if (!range.casts_shadow && !range.one_sided) {
             lamps.push_back(i);
@@ -120,7 +120,7 @@ void EmbreeWhittedTracer::add_objects(const EmbreeDevice& device, const session:
 
 void EmbreeWhittedTracer::add_triangles(const render::FrameGeometry& geometry, std::size_t object,
                                         std::vector<bvh::Triangle>& triangles) {
-    const render::ObjectDrawRange& range = geometry.ranges[object];
+    const render::DrawRange& range = geometry.ranges[object];
     const auto place = [&](std::uint32_t vertex) {
         if (!range.first_attribute) return UvCoordinates{};
         const vec4& uv =
@@ -145,14 +145,14 @@ void EmbreeWhittedTracer::add_triangles(const render::FrameGeometry& geometry, s
 }
 
 void EmbreeWhittedTracer::add_view(const session::Request& request) {
-    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
     for (const scene::PointLight& light : scene::list_lights(request.scene)) {
         PeerSceneLight& added = whitted_.lights.emplace_back();
         check(light.cosines == dvec3(0), Failure::usage, "a lamp of two sides is closed, or none");
         const bool has_cosine = light.normal != dvec3(0);
         const double share = has_cosine ? 1 : scene::light_share(light, {0, 0, 1});
         const double area = share * light.area * space.scale * space.scale;
-        added.position = vec3_to_peer_vector(space.world_to_scene_point(light.position));
+        added.position = vec3_to_peer_vector(space.to_scene_point(light.position));
         added.normal = vec3_to_peer_vector(vec3(light.normal));
         added.intensity = vec3_to_peer_vector(light.emission * static_cast<float>(area));
         added.is_spot = light.axis != dvec3(0);
@@ -171,8 +171,8 @@ void EmbreeWhittedTracer::add_view(const session::Request& request) {
 }
 
 std::vector<bvh::Triangle> make_bvh_triangles_of_scene(const scene::Scene& scene) {
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene::scene_at(scene, 0), render::make_scene_units(scene));
+    const render::FrameGeometry geometry = render::make_geometry(scene::scene_at(scene, 0),
+                                                                 render::make_scene_units(scene));
     std::vector<bvh::Triangle> triangles;
     for (std::size_t k = 0; k < geometry.indices.size() / 3; ++k)
         triangles.push_back(make_bvh_triangle(geometry, k));

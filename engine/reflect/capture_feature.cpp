@@ -69,7 +69,7 @@ std::vector<render::CaptureOptions> choose_capture_options(FrameDeclaration& fra
 /// Returns how a mirror is drawn inside captures: by look-ups in the captures of the last frame.
 /// Without such a capture, the mirror is black.
 render::MirrorShader choose_look_in_captures(const FrameDeclaration& frame, std::uint32_t mirror) {
-    const render::FrameCaptureUpdate& update = *frame.captures;
+    const render::CaptureUpdate& update = *frame.captures;
     const TechniqueChoice& choice = frame.choices()[frame.assignment.of_mirror[mirror]];
     const bool is_kept = update.kept != nullptr;
     render::MirrorShader look;
@@ -90,8 +90,8 @@ render::MirrorShader choose_look_in_captures(const FrameDeclaration& frame, std:
     return look;
 }
 
-render::ShaderOfEachMirror choose_looks_in_captures(const FrameDeclaration& frame) {
-    render::ShaderOfEachMirror looks;
+render::MirrorShaders choose_looks_in_captures(const FrameDeclaration& frame) {
+    render::MirrorShaders looks;
     for (std::uint32_t i = 0; i < frame.assignment.of_mirror.size(); ++i) {
         render::MirrorShader look = choose_look_in_captures(frame, i);
         const auto found = std::ranges::find_if(
@@ -136,9 +136,9 @@ constexpr FrameFeature kCapturePassFeature{
     .order = feature_order::kCapturePasses,
     .applies = has_captures,
     .add = [](FrameDeclaration& frame) {
-        render::add_capture_passes(frame.graph, frame.inputs, *frame.captures->captures,
-                                   std::move(frame.captured_looks), frame.captures->work);
-        render::add_capture_comparison_pass(frame.graph, frame.inputs, *frame.captures);
+        render::add_captures(frame.graph, frame.inputs, *frame.captures->captures,
+                             std::move(frame.captured_looks), frame.captures->work);
+        render::add_comparison_pass(frame.graph, frame.inputs, *frame.captures);
     }};
 const RegisteredFeature kCapturePassRegistration{kCapturePassFeature};
 

@@ -69,24 +69,23 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
                                             const KnobSettings& settings) {
     const SharedKnobs knobs = read_shared_knobs(settings);
     render::CaptureOptions options;
-    options.face = knobs.capture.face ? *knobs.capture.face
-                                      : inputs.scene.common_capture_face_edge();
+    options.face = knobs.capture.face ? *knobs.capture.face : inputs.scene.common_face_edge();
     if (knobs.capture.stores_floats) {
-        check(inputs.scene.scene_device().filters_floats(), Failure::no_device,
+        check(inputs.scene.device().filters_floats(), Failure::no_device,
               "colour=float filters images of 32-bit floats, which device '",
-              inputs.scene.scene_device().info().name, "' cannot; take colour=half");
+              inputs.scene.device().info().name, "' cannot; take colour=half");
         options.colour = TexelFormat::rgba32f;
     }
     if (!knobs.capture.distance) return options;
     options.distance = knobs.capture.distance;
     if (options.distance == TexelFormat::r8_unorm)
-        options.stored_unit = inputs.scene.scene_units().world_to_scene_length(knobs.capture.range);
+        options.stored_unit = inputs.scene.scene_units().to_scene_length(knobs.capture.range);
     const bool continues = knobs.search.continues > 0;
     const bool wants_normals = knobs.rough.uses_filtered_levels() &&
                                knobs.rough.law == RoughKnobs::Law::exact &&
                                inputs.scene.has_rough_mirrors();
     options.surfaces = knobs.search.by_object || knobs.search.asks_all || wants_normals ||
-                       (continues && inputs.scene.has_nonspherical_or_lit_mirrors());
+                       (continues && inputs.scene.has_complex_mirrors());
     // A blurred look-up of a rough mirror does not follow rays through other mirrors, so captures
     // must show the other mirrors.
     options.leaves_out_spheres = continues && knobs.search.leaves_out_spheres &&
@@ -121,8 +120,7 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
     // Among mirrors with the same technique, either all captures hold surface numbers or none does.
     // All mirrors are checked, because some may have no capture.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
-            const render::CubeCaptureArray* const cubes = around.captures->find_array_of_mirror(
-                mirror);
+            const render::CubeCaptureArray* const cubes = around.captures->find_array(mirror);
             return cubes && cubes->surfaces;
         }))
         set("has_surfaces", 1);

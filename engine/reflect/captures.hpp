@@ -252,7 +252,7 @@ find_outdated_cubes(graph::Graph& graph, const render::MirrorCaptures& captures,
                     std::uint32_t array, graph::ImageHandle derived, Hash&& hash) {
     std::vector<CaptureCubeRange> runs;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
-        const render::CubeArraySlotOfMirror& place = captures.places[mirror];
+        const render::CubeSlot& place = captures.places[mirror];
         if (place.array != array) continue;
         const std::uint32_t first = 6 * place.cube;
         if (!captures.drawings.empty()) {

@@ -46,15 +46,15 @@ struct FrameDeclaration {
     bool completes_view = false;
     /// Whether a technique declares the whole picture, so that no view is rasterised.
     bool is_traced_whole = false;
-    render::ShadingLights lighting;                     ///< of captures and mirrored views
-    render::ShadingLights view_lighting;                ///< of the camera's view
-    std::optional<render::FrameCaptureUpdate> captures; ///< none: no technique needs captures
-    std::optional<RoughLevels> levels;                  ///< of `captures`
-    render::ShaderOfEachMirror captured_looks;          ///< shaders of mirrors in `captures`
-    std::optional<render::OpaquePicture> opaque;        ///< the picture without glass; none: unused
-    render::ShaderOfEachMirror looks;                   ///< shaders of mirrors in the camera's view
+    render::ShadingLights lighting;                ///< of captures and mirrored views
+    render::ShadingLights view_lighting;           ///< of the camera's view
+    std::optional<render::CaptureUpdate> captures; ///< none: no technique needs captures
+    std::optional<RoughLevels> levels;             ///< of `captures`
+    render::MirrorShaders captured_looks;          ///< shaders of mirrors in `captures`
+    std::optional<render::OpaquePicture> opaque;   ///< the picture without glass; none: unused
+    render::MirrorShaders looks;                   ///< shaders of mirrors in the camera's view
     std::vector<TracerSettings> tracers;           ///< of the pixels that `looks` leave to rays
-    std::optional<render::CameraPassOutputs> view; ///< the rasterised view
+    std::optional<render::CameraOutputs> view;     ///< the rasterised view
     TechniqueOutputs outputs;
 
 private:

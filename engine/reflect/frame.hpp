@@ -13,7 +13,7 @@ struct PreviousCaptureHistory {
     /// TechniqueOutputs::kept of the previous frame; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
     /// Buffers for comparing captures with those of the previous frame; may be null.
-    render::CaptureComparisonBufferPool* comparisons = nullptr;
+    render::ComparisonBuffers* comparisons = nullptr;
     std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };
 /// The model that culls no work, so that all captures are drawn.

@@ -50,7 +50,7 @@ MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameI
     // Reading the triangle numbers of the rasteriser costs more than tracing camera rays for the
     // few unknown pixels. Blended surfaces would also be drawn over the triangle numbers.
     if (traces_all && !inputs.scene.has_blended_surfaces() &&
-        inputs.scene.scene_device().has_primitive_id()) {
+        inputs.scene.device().has_primitive_id()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }

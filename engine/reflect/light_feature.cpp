@@ -54,10 +54,10 @@ constexpr FrameFeature kLightProbeCaptureFeature{
     .applies = [](const FrameDeclaration& frame) { return frame.probes && is_rasterised(frame); },
     .add =
         [](FrameDeclaration& frame) {
-            render::add_light_probe_passes(
-                frame.graph, frame.inputs, *frame.probes, frame.lighting,
-                frame.captures ? frame.captured_looks
-                               : render::use_same_shader_for_mirrors(frame.inputs.scene, {}));
+            render::add_light_probes(frame.graph, frame.inputs, *frame.probes, frame.lighting,
+                                     frame.captures
+                                         ? frame.captured_looks
+                                         : render::use_same_shader(frame.inputs.scene, {}));
             frame.outputs.draws_everything = true;
             if (!frame.probes->note.empty()) frame.outputs.notes.push_back(frame.probes->note);
             if (frame.history.most > 0)
@@ -103,11 +103,11 @@ constexpr FrameFeature kOcclusionFeature{
             char note[96];
             std::snprintf(
                 note, sizeof note, "ao=screen: surfaces up to %.3g world units away hide the %s",
-                render::find_ambient_occlusion_radius(frame.inputs.scene),
+                render::occlusion_radius(frame.inputs.scene),
                 has_light_between_surfaces(frame) ? "light of light probes" : "environment");
             frame.outputs.notes.emplace_back(note);
-            frame.view_lighting.ambient_occlusion = render::add_ambient_occlusion_passes(
-                frame.graph, frame.inputs);
+            frame.view_lighting.ambient_occlusion = render::add_ambient_occlusion(frame.graph,
+                                                                                  frame.inputs);
         }};
 const RegisteredFeature kOcclusionRegistration{kOcclusionFeature};
 

@@ -16,7 +16,7 @@ std::optional<bool> find_levels_of_opaque_picture(const FrameDeclaration& frame)
     for (std::uint32_t mirror = 0; mirror < frame.assignment.of_mirror.size(); ++mirror) {
         const SharedKnobs& knobs = frame.choices()[frame.assignment.of_mirror[mirror]].shared;
         if (knobs.refract != render::kRefractScreen) continue;
-        is_read = is_read || scene.list_draw_ranges()[scene.object_index_of_mirror(mirror)].glass;
+        is_read = is_read || scene.draw_ranges()[scene.mirror_object(mirror)].glass;
         // Shaders of rough mirrors read levels.
         has_levels = has_levels ||
                      (knobs.rough.uses_filtered_levels() && scene.is_rough_mirror(mirror));

@@ -36,8 +36,7 @@ struct FlatMirrorFaceList {
 /// Returns the angle, radians, around the mirrored direction that holds most of the light of a
 /// rough mirror's lobe.
 double find_blur_angle(const render::GpuScene& scene, std::uint32_t mirror) {
-    const render::ObjectDrawRange& range =
-        scene.list_draw_ranges()[scene.object_index_of_mirror(mirror)];
+    const render::DrawRange& range = scene.draw_ranges()[scene.mirror_object(mirror)];
     // Nine tenths of the normals of a GGX lobe have a slope of up to three times its width (Walter
     // et al. 2007, equation 35). A mirrored direction turns by twice the normal's angle.
     constexpr double kSlopeOfMostNormals = 3;
@@ -51,7 +50,7 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         if (!choice.technique->traits.draws_mirrored_views) continue;
-        const scene::FlatFaces& flats = scene.list_flat_mirror_faces()[i];
+        const scene::FlatFaces& flats = scene.flat_faces()[i];
         MirroredViewOptions options = choice.technique->mirrored_views(choice.settings);
         if (!scene.is_rough_mirror(i)) options.rough = RoughKnobs::Lookup::none;
         const double blur_angle = options.rough == RoughKnobs::Lookup::none
@@ -60,7 +59,7 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
         if (!flats.is_plane()) all.bodies.emplace_back(i, flats.bent);
         for (std::size_t k = 0; k < flats.faces.size(); ++k) {
             const scene::FlatFace& face = flats.faces[k];
-            if (face.off > scene.flat_mirror_tolerance()) {
+            if (face.off > scene.flat_tolerance()) {
                 std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
                 continue;
             }
@@ -111,8 +110,8 @@ render::MirrorShader make_planar_shader(const FlatMirrorFace& face, const Mirror
 /// Adds to `looks` how mirrors are drawn inside the view with index `within`, or in the picture if
 /// `within` is none. Faces with mirrored views show the images `made`. Faces without views, and
 /// triangles outside all flat faces, are black.
-render::ShaderOfEachMirror
-add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const FlatMirrorFaceList& all,
+render::MirrorShaders
+add_mirror_shaders_of_mirrored_view(render::MirrorShaders looks, const FlatMirrorFaceList& all,
                                     const std::vector<MirroredView>& views,
                                     const std::vector<render::MirroredViewImages>& made, uvec2 size,
                                     std::optional<std::size_t> within) {
@@ -126,7 +125,7 @@ add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const Flat
                                                  size, within.has_value()));
     }
     for (const auto& [mirror, bent] : all.bodies) {
-        looks.of_mirror[mirror] = render::ShaderOfEachMirror::kShaderChosenByPart;
+        looks.of_mirror[mirror] = render::MirrorShaders::kByPart;
         if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
@@ -147,8 +146,8 @@ bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
 /// Returns how all other mirrors inside mirrored views are drawn: as in the picture, but without
 /// ray tracing. Mirrors that are only ray traced in the picture are drawn from their captures, if
 /// they have any.
-render::ShaderOfEachMirror choose_looks_in_mirrored_views(const FrameDeclaration& frame) {
-    render::ShaderOfEachMirror looks = frame.looks;
+render::MirrorShaders choose_looks_in_mirrored_views(const FrameDeclaration& frame) {
+    render::MirrorShaders looks = frame.looks;
     for (std::size_t i = 0; i < looks.looks.size(); ++i) {
         const TechniqueChoice& choice = frame.choices()[i];
         render::MirrorShader& look = looks.looks[i];
@@ -168,9 +167,9 @@ render::ShaderOfEachMirror choose_looks_in_mirrored_views(const FrameDeclaration
 }
 
 /// Returns the images that each view has besides its colour.
-std::vector<render::MirroredViewImageWishes>
+std::vector<render::MirroredViewWishes>
 choose_images_of_views(const FlatMirrorFaceList& all, const std::vector<MirroredView>& views) {
-    std::vector<render::MirroredViewImageWishes> wanted;
+    std::vector<render::MirroredViewWishes> wanted;
     for (const MirroredView& view : views) {
         const FlatMirrorFace& face = all.faces[view.plane_index];
         // The distance of a mirror's surface is not that of what the mirror shows, so a view inside
@@ -184,14 +183,14 @@ choose_images_of_views(const FlatMirrorFaceList& all, const std::vector<Mirrored
 
 void add_mirrored_views(FrameDeclaration& frame) {
     const render::FrameInputs& inputs = frame.inputs;
-    const render::ShaderOfEachMirror others = choose_looks_in_mirrored_views(frame);
+    const render::MirrorShaders others = choose_looks_in_mirrored_views(frame);
     const FlatMirrorFaceList all = list_flat_mirror_faces_to_view(inputs.scene, frame.assignment);
     int asked = 0;
     for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
     int most = asked;
     const std::vector<MirroredView> views = render::find_mirrored_views(
         inputs.scene.eye(), all.planes, inputs.size, most);
-    const std::vector<render::MirroredViewImageWishes> wanted = choose_images_of_views(all, views);
+    const std::vector<render::MirroredViewWishes> wanted = choose_images_of_views(all, views);
     std::vector<render::MirroredViewImages> made(views.size());
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first

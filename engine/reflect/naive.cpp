@@ -36,8 +36,7 @@ MirrorShadingSetup make_naive_shading(graph::Graph& graph, const render::FrameIn
             render::declare_capture_images(graph, inputs, "bounce" + std::to_string(bounce),
                                            std::move(of_mirrors)));
         remove_images_of_camera_view(look);
-        render::add_capture_passes(graph, inputs, *captures,
-                                   render::use_same_shader_for_mirrors(inputs.scene, look));
+        render::add_captures(graph, inputs, *captures, render::use_same_shader(inputs.scene, look));
         look = make_capture_shader({captures, around.lighting, around.mirrors},
                                    "reflect/naive.frag", settings);
     }

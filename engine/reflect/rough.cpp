@@ -126,7 +126,7 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
     graph::PassBuilder pass = graph.add_pass(name);
     for (const CaptureLevelRange& run : runs) {
         pass.reads(run.boxes, ResourceUse::sampled);
-        render::declare_writes_of_all_mips(pass, run.levels);
+        render::declare_mip_writes(pass, run.levels);
     }
     pass.record([runs, rough, taps](graph::PassCommands& commands) {
         for (const CaptureLevelRange& run : runs) {
@@ -258,7 +258,7 @@ void RoughLevels::add_passes_of_level_filter(graph::Graph& graph, const LevelFil
     if (runs.empty()) return;
     std::vector<render::BoxFilteredLayers> filtered_layers;
     for (const CaptureLevelRange& run : runs) filtered_layers.push_back({run.captured, run.boxes});
-    render::add_box_filter_pass(graph, name + "/boxes", filtered_layers);
+    render::add_box_filter(graph, name + "/boxes", filtered_layers);
     if (filter.rough != RoughMirrorLookup::mips)
         add_prefilter_pass(graph, name, runs, filter.rough, filter.taps);
 }

@@ -11,11 +11,11 @@ render::ShadingLights FrameDeclaration::find_or_add_shadow_map(std::uint32_t edg
     if (found != shadow_maps_.end()) return found->second;
     const std::string suffix = shadow_maps_.empty() ? "" : "." + std::to_string(edge);
     render::ShadingLights made{
-        render::add_shadow_passes(graph, inputs, edge, continued_history().model, suffix),
+        render::add_shadows(graph, inputs, edge, continued_history().model, suffix),
         probes ? std::optional(probes->images) : std::nullopt};
     if (made.shadow_map && inputs.scene.has_tinted_shadows())
-        made.glass_depths = render::add_glass_shadow_passes(graph, inputs, *made.shadow_map, edge,
-                                                            suffix);
+        made.glass_depths = render::add_glass_shadows(graph, inputs, *made.shadow_map, edge,
+                                                      suffix);
     return shadow_maps_[edge] = made;
 }
 

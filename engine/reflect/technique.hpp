@@ -30,7 +30,7 @@ struct TechniqueOutputs {
     /// (shaders/lib/mirror.glsl), rgba32f; only if the inputs ask for this image.
     std::optional<graph::ImageHandle> lookup;
     /// Image with the number of the tracer that traces each pixel which the search leaves open
-    /// (render::CameraPassOutputs). Only set with `lookup`, and only if tracers of listed pixels
+    /// (render::CameraOutputs). Only set with `lookup`, and only if tracers of listed pixels
     /// complete the picture.
     std::optional<graph::ImageHandle> tracer_marks;
     /// Whether rays draw all mirrors of the picture, so that `lookup` says nothing.

@@ -15,9 +15,8 @@ using graph::ResourceUse;
 /// Offset of a ray's origin in the seed report, in world units.
 constexpr double kSeedReportRayOffset = 1e-3;
 
-render::SphereIntersectionMode sphere_mode_of_tracer(const TracerSettings& tracer) {
-    return tracer.exact_spheres ? render::SphereIntersectionMode::exact
-                                : render::SphereIntersectionMode::mesh;
+render::SphereMode sphere_mode_of_tracer(const TracerSettings& tracer) {
+    return tracer.exact_spheres ? render::SphereMode::exact : render::SphereMode::mesh;
 }
 
 /// Returns whether rays may aim at lamps. Exact spheres and points in double precision differ from
@@ -73,8 +72,8 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
          {"traces_paths", tracer.paths ? 1u : 0u},
          {"environment_shadows", schedule_environment_rays(tracer, scene).rays},
          {"without", tracer.without},
-         {"fixed_offset", scene.scene_units().world_to_scene_length(kSeedReportRayOffset)}},
-        scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))};
+         {"fixed_offset", scene.scene_units().to_scene_length(kSeedReportRayOffset)}},
+        scene.tracing_constants(sphere_mode_of_tracer(tracer))};
     if (reads_ambient_occlusion(tracer, listed))
         state.constants.emplace_back("has_ambient_occlusion", 1u);
     return state;
@@ -84,10 +83,10 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
 void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene& scene,
                            const TracerSettings& tracer) {
     scene.bind(commands);
-    scene.bind_ray_tracing_buffers(commands, sphere_mode_of_tracer(tracer));
+    scene.bind_tracing(commands, sphere_mode_of_tracer(tracer));
     render::ShadingLights read = tracer.lighting;
     if (!does_ray_tracer_read_shadow_map(tracer)) read.shadow_map.reset();
-    render::bind_lighting_images(commands, read);
+    render::bind_lighting(commands, read);
 }
 
 /// Declares the reads of the images that bind_tracer_resources binds.
@@ -101,7 +100,7 @@ PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
                                                    const render::FrameInputs& inputs,
                                                    const std::string& suffix, std::uint32_t number,
                                                    bool first_raster,
-                                                   const render::CameraPassOutputs& view) {
+                                                   const render::CameraOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
     PixelsToTraceList list;
@@ -194,9 +193,7 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
             commands.bind("objects_and_roughness", images.objects_and_roughness);
             commands.bind("counters", images.counters);
             commands.bind_pipeline(gpu::ComputeState{
-                "first_surface.comp",
-                {},
-                scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))});
+                "first_surface.comp", {}, scene.tracing_constants(sphere_mode_of_tracer(tracer))});
             struct {
                 uvec2 size;
                 std::uint32_t first_group;
@@ -209,7 +206,7 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
 graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
                                               const render::FrameInputs& inputs,
                                               const TracerSettings& tracer, std::uint32_t number,
-                                              const render::CameraPassOutputs& view) {
+                                              const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const PixelsToTraceList list = add_pass_listing_pixels_to_trace(graph, inputs, suffix, number,
                                                                     tracer.first_raster, view);

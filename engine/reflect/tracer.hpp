@@ -60,6 +60,6 @@ FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
 graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
                                               const render::FrameInputs& inputs,
                                               const TracerSettings& tracer, std::uint32_t number,
-                                              const render::CameraPassOutputs& view);
+                                              const render::CameraOutputs& view);
 
 } // namespace catoptric::reflect

@@ -27,7 +27,7 @@ constexpr FrameFeature kTracedPictureFeature{
 const RegisteredFeature kTracedPictureRegistration{kTracedPictureFeature};
 
 void add_rasterised_view(FrameDeclaration& frame) {
-    std::optional<render::GlassOverOpaquePicture> glass;
+    std::optional<render::GlassOverPicture> glass;
     if (frame.opaque) {
         glass = {*frame.opaque, frame.looks};
         std::ranges::for_each(glass->opaque_looks.looks, remove_images_of_camera_view);

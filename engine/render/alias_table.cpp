@@ -2,8 +2,8 @@
 
 namespace catoptric::render {
 
-std::vector<AliasTableCell> make_alias_table(std::vector<double> weights) {
-    std::vector<AliasTableCell> cells(weights.size());
+std::vector<AliasCell> make_alias_table(std::vector<double> weights) {
+    std::vector<AliasCell> cells(weights.size());
     std::vector<std::uint32_t> small, large;
     for (std::uint32_t i = 0; i < weights.size(); ++i)
         (weights[i] < 1 ? small : large).push_back(i);

@@ -20,29 +20,28 @@ ImageHandle add_surface_pass(graph::Graph& graph, const FrameInputs& inputs) {
         {inputs.prefix + "occlusion.depth", TexelFormat::d32f, size.x, size.y});
     graph.add_pass(inputs.prefix + "occlusion/surfaces")
         .writes(surfaces, ResourceUse::colour, graph::ClearValue{})
-        .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+        .writes(depth, ResourceUse::depth, kClearFarthest)
         .record([&scene = inputs.scene](PassCommands& commands) {
             scene.bind(commands);
-            draw_objects_with_backface_culling(
-                commands, scene, {"", "occlusion/surface.frag", {}}, GpuScene::kCameraViewIndex, 1,
-                {}, [&](std::size_t object) {
-                    const ObjectDrawRange& range = scene.list_draw_ranges()[object];
-                    return range.seen_by_camera && !range.glass;
-                });
+            draw_without_back_faces(commands, scene, {"", "occlusion/surface.frag", {}},
+                                    GpuScene::kCameraViewIndex, 1, {}, [&](std::size_t object) {
+                                        const DrawRange& range = scene.draw_ranges()[object];
+                                        return range.seen_by_camera && !range.glass;
+                                    });
         });
     return surfaces;
 }
 
 } // namespace
 
-double find_ambient_occlusion_radius(const GpuScene& scene) {
+double occlusion_radius(const GpuScene& scene) {
     constexpr double kPartOfDiagonal = .125;
-    const SceneUnitTransform& units = scene.scene_units();
+    const SceneUnits& units = scene.scene_units();
     return units.core.empty() ? 0
                               : kPartOfDiagonal * length(dvec3(units.core.extent())) / units.scale;
 }
 
-ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs& inputs) {
+ImageHandle add_ambient_occlusion(graph::Graph& graph, const FrameInputs& inputs) {
     const uvec2 size = inputs.size;
     const ImageHandle surfaces = add_surface_pass(graph, inputs);
     const ImageHandle solid_angles = graph.add_image(
@@ -51,7 +50,7 @@ ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs&
         {inputs.prefix + "occlusion", TexelFormat::r32f, size.x, size.y});
     const auto bind_and_dispatch = [&scene = inputs.scene, size](PassCommands& commands,
                                                                  const char* shader, auto&& push) {
-        commands.bind_pipeline(gpu::ComputeState{shader, {}, scene.shader_feature_constants()});
+        commands.bind_pipeline(gpu::ComputeState{shader, {}, scene.feature_constants()});
         push();
         commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
     };
@@ -63,8 +62,8 @@ ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs&
             commands.bind("surfaces", surfaces);
             commands.bind("solid_angles", solid_angles);
             bind_and_dispatch(commands, "occlusion/share.comp", [&] {
-                commands.push_constants(scene.scene_units().world_to_scene_length(
-                    find_ambient_occlusion_radius(scene)));
+                commands.push_constants(
+                    scene.scene_units().to_scene_length(occlusion_radius(scene)));
             });
         });
     graph.add_pass(inputs.prefix + "occlusion/mean")

@@ -10,7 +10,7 @@ namespace catoptric::render {
 /// Returns the distance up to which surfaces hide light from other surfaces, in world units: an
 /// eighth of the diagonal of the scene's core (scene/scene_core.hpp). All frames of a scene have
 /// the same distance.
-double find_ambient_occlusion_radius(const GpuScene& scene);
+double occlusion_radius(const GpuScene& scene);
 
 /// Declares three passes: one draws normals and distances of the camera's view, without glass and
 /// without the parts of blended surfaces that are not opaque; one computes horizon angles of each
@@ -18,6 +18,6 @@ double find_ambient_occlusion_radius(const GpuScene& scene);
 /// in each pixel, 0 to 1, as an image of r32f. Surfaces outside the picture, and surfaces hidden in
 /// it, hide nothing. The passes count as no scene pass. They take 28 bytes a pixel besides the
 /// result.
-graph::ImageHandle add_ambient_occlusion_passes(graph::Graph& graph, const FrameInputs& inputs);
+graph::ImageHandle add_ambient_occlusion(graph::Graph& graph, const FrameInputs& inputs);
 
 } // namespace catoptric::render

@@ -16,7 +16,6 @@ namespace catoptric::render {
 /// Tests only objects of few triangles in scene units. Every other object gets 0, and so does every
 /// object after some millions of comparisons. Compares bounds first, and vertices where the bounds
 /// do not decide.
-std::vector<std::uint8_t> find_shadowless_backdrops(const FrameGeometry& geometry,
-                                                    const shared::Light& light);
+std::vector<std::uint8_t> find_backdrops(const FrameGeometry& geometry, const shared::Light& light);
 
 } // namespace catoptric::render

@@ -10,7 +10,7 @@ namespace catoptric::render {
 using graph::ImageHandle;
 using graph::ResourceUse;
 
-void declare_writes_of_all_mips(graph::PassBuilder& pass, const ImageHandle& levels) {
+void declare_mip_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
     for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
         pass.writes(levels.mip(mip), ResourceUse::storage_write);
 }
@@ -38,7 +38,7 @@ struct TexelRange {
 
 /// Returns the texels of a level of an image of this size that have a value. At level 0 these are
 /// the pixels of `area`.
-TexelRange find_defined_texels(const graph::PixelRectangle& area, uvec2 size, std::uint32_t level) {
+TexelRange defined_texels(const graph::PixelRectangle& area, uvec2 size, std::uint32_t level) {
     const uvec2 low(area.x, area.y), end = low + uvec2(area.width, area.height);
     if (level == 0) return {low, end - 1u};
     const uvec2 own(graph::mip_size(size.x, level), graph::mip_size(size.y, level));
@@ -48,8 +48,8 @@ TexelRange find_defined_texels(const graph::PixelRectangle& area, uvec2 size, st
 
 } // namespace
 
-void add_box_filter_pass(graph::Graph& graph, const std::string& name,
-                         const std::vector<BoxFilteredLayers>& filtered) {
+void add_box_filter(graph::Graph& graph, const std::string& name,
+                    const std::vector<BoxFilteredLayers>& filtered) {
     struct LayersOfSize {
         BoxFilteredLayers layers;
         uvec2 size; ///< of the image, texels
@@ -59,7 +59,7 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
     for (const BoxFilteredLayers& layers : filtered) {
         pass.reads(layers.unfiltered, ResourceUse::sampled);
         if (layers.distances) pass.reads(*layers.distances, ResourceUse::sampled);
-        declare_writes_of_all_mips(pass, layers.levels);
+        declare_mip_writes(pass, layers.levels);
         const graph::ImageDesc& desc = graph.images()[layers.unfiltered.id];
         runs.push_back({layers, {desc.width, desc.height}});
     }
@@ -73,8 +73,8 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
                 if (level > layers.levels.mip_count) continue;
                 const graph::PixelRectangle area = layers.area.value_or(
                     graph::PixelRectangle{0, 0, size.x, size.y});
-                const TexelRange written = find_defined_texels(area, size, level),
-                                 read = find_defined_texels(area, size, level - 1);
+                const TexelRange written = defined_texels(area, size, level),
+                                 read = defined_texels(area, size, level - 1);
                 commands.bind_pipeline(
                     gpu::ComputeState{"rough/box.comp",
                                       {{"from_level", level > 1 ? 1u : 0u},

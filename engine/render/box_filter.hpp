@@ -26,10 +26,10 @@ struct BoxFilteredLayers {
 graph::ImageHandle add_picture_levels(graph::Graph& graph, std::string name, uvec2 size);
 
 /// Declares that the pass writes all mips. A storage image has one mip.
-void declare_writes_of_all_mips(graph::PassBuilder& pass, const graph::ImageHandle& levels);
+void declare_mip_writes(graph::PassBuilder& pass, const graph::ImageHandle& levels);
 
 /// Declares the pass that computes these levels. Values are clamped to the largest half float.
-void add_box_filter_pass(graph::Graph& graph, const std::string& name,
-                         const std::vector<BoxFilteredLayers>& filtered);
+void add_box_filter(graph::Graph& graph, const std::string& name,
+                    const std::vector<BoxFilteredLayers>& filtered);
 
 } // namespace catoptric::render

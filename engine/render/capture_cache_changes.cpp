@@ -6,45 +6,45 @@
 
 namespace catoptric::render {
 
-std::vector<char> find_changed_captures(const CaptureCache& captures) {
+std::vector<char> find_changed(const CaptureCache& captures) {
     std::vector<char> before;
-    if (captures.before) before = find_changed_captures(*captures.before);
+    if (captures.before) before = find_changed(*captures.before);
     const auto was = [&](std::uint32_t other) { return before.empty() || before[other]; };
     std::vector<char> now;
     for (std::size_t mirror = 0; mirror < captures.changes.size(); ++mirror)
-        now.push_back(captures.changes[mirror] == CaptureChangeKind::some ||
-                      (captures.changes[mirror] == CaptureChangeKind::unknown &&
+        now.push_back(captures.changes[mirror] == CaptureChange::some ||
+                      (captures.changes[mirror] == CaptureChange::unknown &&
                        std::ranges::any_of(captures.saw[mirror], was)));
     return now;
 }
 
-void read_finished_face_comparisons(const std::shared_ptr<CaptureCache>& captures,
-                                    const std::function<bool(std::uint64_t)>& has_ended) {
+void read_comparisons(const std::shared_ptr<CaptureCache>& captures,
+                      const std::function<bool(std::uint64_t)>& has_ended) {
     if (!captures) return;
-    read_finished_face_comparisons(captures->before, has_ended);
+    read_comparisons(captures->before, has_ended);
     if (!captures->differing || !has_ended(captures->frame)) return;
     const std::vector<std::byte> found = captures->differing->read();
     for (std::size_t mirror = 0; mirror < captures->changes.size(); ++mirror) {
         std::uint32_t word = 0;
         std::memcpy(&word, found.data() + sizeof word * mirror, sizeof word);
-        if (captures->changes[mirror] == CaptureChangeKind::unknown)
-            captures->changes[mirror] = word ? CaptureChangeKind::some : CaptureChangeKind::none;
+        if (captures->changes[mirror] == CaptureChange::unknown)
+            captures->changes[mirror] = word ? CaptureChange::some : CaptureChange::none;
     }
     captures->before = nullptr;
     captures->differing = nullptr;
 }
 
-void mark_captures_unchanged(CaptureCache& captures) {
-    std::ranges::fill(captures.changes, CaptureChangeKind::none);
+void mark_unchanged(CaptureCache& captures) {
+    std::ranges::fill(captures.changes, CaptureChange::none);
     captures.before = nullptr;
     captures.differing = nullptr;
 }
 
-std::shared_ptr<gpu::Buffer> CaptureComparisonBufferPool::buffer(std::size_t mirrors) {
+std::shared_ptr<gpu::Buffer> ComparisonBuffers::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     // If a caller discards a frame, its buffer is released while the device may still write to it.
     // Such a buffer must not be used yet.
-    const auto fits = [&](const PooledCaptureComparisonBuffer& entry) {
+    const auto fits = [&](const PooledBuffer& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
                entry.buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
     };
@@ -58,34 +58,31 @@ std::shared_ptr<gpu::Buffer> CaptureComparisonBufferPool::buffer(std::size_t mir
     return found->buffer;
 }
 
-void CaptureComparisonBufferPool::mark_comparison_buffer_used(
-    const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame) {
-    const auto is_it = [&](const PooledCaptureComparisonBuffer& entry) {
-        return entry.buffer == buffer;
-    };
+void ComparisonBuffers::mark_used(const std::shared_ptr<const gpu::Buffer>& buffer,
+                                  std::uint64_t frame) {
+    const auto is_it = [&](const PooledBuffer& entry) { return entry.buffer == buffer; };
     const auto found = std::ranges::find_if(entries_, is_it);
     if (found != entries_.end()) found->frame = frame;
 }
 
-void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
-                                 const FrameCaptureUpdate& feeding) {
+void add_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
+                         const CaptureUpdate& feeding) {
     if (!feeding.kept || !feeding.kept->differing) return;
     const MirrorCaptures &last = *feeding.last, &now = *feeding.captures;
-    struct CaptureComparisonParameters {
+    struct ComparisonParameters {
         std::uint32_t before, after, mirror;
     };
     struct CubeImagePair {
         CubeCaptureArray before, after; ///< the whole arrays of captures
-        CaptureComparisonParameters push;
+        ComparisonParameters push;
         std::uint32_t faces;
     };
     std::vector<CubeImagePair> all;
     for (std::uint32_t mirror = 0; mirror < now.places.size(); ++mirror)
-        for_each_consecutive_face_range(
+        for_each_face_range(
             [&](std::uint32_t face) {
                 return now.places[mirror].has_capture() &&
-                       feeding.work.work_of_capture_face(mirror, face) ==
-                           CaptureFaceUpdateKind::compare;
+                       feeding.work.face_work(mirror, face) == FaceUpdate::compare;
             },
             [&](std::uint32_t first, std::uint32_t end) {
                 const auto &from = last.places[mirror], &to = now.places[mirror];

@@ -10,49 +10,45 @@ namespace catoptric::render {
 
 /// Decides for each mirror whether a frame keeps, clears, draws or compares the faces of the
 /// mirror's capture.
-class CaptureUpdateDecider {
+class CaptureDecider {
 public:
     /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
     /// there are none. All references must outlive this object. `compares`: captures that may have
     /// changed are compared.
-    CaptureUpdateDecider(const GpuScene& scene, const require::WorkModel& model,
-                         const std::vector<CaptureOptions>& layout, const CaptureCache* before,
-                         bool compares);
+    CaptureDecider(const GpuScene& scene, const require::WorkModel& model,
+                   const std::vector<CaptureOptions>& layout, const CaptureCache* before,
+                   bool compares);
 
     /// Returns whether the frame before left a capture of the mirror with the same options.
-    bool had_same_capture_layout_before(std::uint32_t mirror) const;
+    bool had_same_layout(std::uint32_t mirror) const;
     /// Returns for how many frames, up to the frame before, the redraw of the mirror's capture has
     /// waited.
-    std::uint32_t frames_redraw_waited(std::uint32_t mirror) const;
+    std::uint32_t frames_waited(std::uint32_t mirror) const;
 
     /// Decides what the frame does with each of the six faces of a mirror's capture. Fills the
     /// mirror's entries in `work` and `kept`.
-    void decide_capture_face_work(std::uint32_t mirror, CaptureWorkOfFrame& work,
-                                  CaptureCache& kept) const;
+    void decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
     /// Returns whether drawing a mirror's capture again can wait for a later frame. For this, every
     /// face to be drawn must still have valid old contents.
-    bool can_capture_redraw_wait(std::uint32_t mirror, const CaptureWorkOfFrame& work) const;
-    /// Cancels the redraw that `decide_capture_face_work` asked for; the old contents stay.
-    void postpone_capture_redraw(std::uint32_t mirror, CaptureWorkOfFrame& work,
-                                 CaptureCache& kept) const;
+    bool can_wait(std::uint32_t mirror, const CaptureWork& work) const;
+    /// Cancels the redraw that `decide` asked for; the old contents stay.
+    void postpone(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
 
 private:
     /// Returns the other mirrors whose captures the face shows.
-    std::vector<std::uint32_t> mirrors_visible_in_capture_face(std::uint32_t mirror,
-                                                               std::uint32_t face) const;
-    CaptureFaceUpdateKind decide_capture_face_work(std::uint32_t mirror, std::uint32_t face,
-                                                   const std::vector<std::uint32_t>& seen,
-                                                   CachedCaptureFace& now) const;
+    std::vector<std::uint32_t> visible_mirrors(std::uint32_t mirror, std::uint32_t face) const;
+    FaceUpdate decide(std::uint32_t mirror, std::uint32_t face,
+                      const std::vector<std::uint32_t>& seen, CachedFace& now) const;
     /// Returns the part of a drawn face that may differ from its old contents.
-    require::FacePart changed_part_of_capture_face(std::uint32_t mirror, std::uint32_t face,
-                                                   const std::vector<std::uint32_t>& seen,
-                                                   const CachedCaptureFace& now) const;
+    require::FacePart changed_part(std::uint32_t mirror, std::uint32_t face,
+                                   const std::vector<std::uint32_t>& seen,
+                                   const CachedFace& now) const;
     /// Returns the number of a face's picture, from the content hash and the captures that the face
     /// shows.
-    std::uint64_t drawing_number_of_capture_face(std::uint64_t content_hash,
-                                                 const std::vector<std::uint32_t>& seen) const;
+    std::uint64_t drawing_number(std::uint64_t content_hash,
+                                 const std::vector<std::uint32_t>& seen) const;
 
-    const GpuScene& gpu_scene_;
+    const GpuScene& scene_;
     const require::WorkModel& model_;
     const std::vector<CaptureOptions>& layout_;
     const CaptureCache* before_;

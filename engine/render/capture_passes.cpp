@@ -40,38 +40,37 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
         area ? pass.updates(image, ResourceUse::colour, clear)
              : pass.writes(image, ResourceUse::colour, clear);
     };
-    write(cubes.colour, kClearColourBlack);
+    write(cubes.colour, kClearBlack);
     if (cubes.distance) write(*cubes.distance, ClearValue{nothing, 0, 0, 0});
     if (cubes.surfaces) write(*cubes.surfaces, ClearValue{});
     if (area) pass.render_area(*area);
 }
 
 /// Returns whether the part of the face may show the object.
-bool may_capture_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
-                                  const require::FacePart& part, std::size_t object) {
+bool may_face_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
+                   const require::FacePart& part, std::size_t object) {
     return part.is_whole() ||
-           !intersect(part, face_part_showing_box(
-                                scene.list_views()[scene.capture_view_index(mirror) + face],
-                                static_cast<int>(face), scene.list_draw_ranges()[object].bounds))
+           !intersect(part,
+                      part_showing(scene.list_views()[scene.capture_view(mirror) + face],
+                                   static_cast<int>(face), scene.draw_ranges()[object].bounds))
                 .is_empty();
 }
 
 /// Returns the balls inside mirrors that a capture draws completely.
-std::vector<InnerOccluderBall> list_occluding_inner_balls(const GpuScene& scene,
-                                                          const ShaderOfEachMirror& looks) {
-    std::vector<InnerOccluderBall> balls;
+std::vector<InnerBall> occluding_balls(const GpuScene& scene, const MirrorShaders& looks) {
+    std::vector<InnerBall> balls;
     for (std::uint32_t mirror = 0; mirror < scene.mirror_count(); ++mirror)
-        if (looks.of_mirror[mirror] != ShaderOfEachMirror::kShaderChosenByPart)
-            balls.push_back(scene.find_inner_ball_of_mirror(mirror));
+        if (looks.of_mirror[mirror] != MirrorShaders::kByPart)
+            balls.push_back(scene.inner_ball(mirror));
     return balls;
 }
 
 /// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
 /// lies behind these distances.
 void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                      const CaptureFaceRange& faces, const std::string& pass_name,
+                      const FaceRange& faces, const std::string& pass_name,
                       const CubeCaptureArray& cubes,
-                      const std::shared_ptr<const ShaderOfEachMirror>& looks,
+                      const std::shared_ptr<const MirrorShaders>& looks,
                       std::optional<ImageHandle> peeled, const require::FacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
     const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f, options.face,
@@ -79,15 +78,14 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
     graph::PassBuilder pass = graph.add_pass(name, PassPurpose::scene);
     declare_shader_reads(pass, options.lighting, *looks);
     if (peeled) pass.reads(*peeled, ResourceUse::sampled);
-    const require::FacePart part = grow_face_part_to_texels(changing, options.face);
-    declare_cube_writes(pass, options, cubes, face_part_to_pixel_area(part, options.face));
-    SceneDrawSettings drawing{.first_view = inputs.scene.capture_view_index(faces.owner) +
-                                            faces.first,
-                              .layers = faces.count,
-                              .lighting = options.lighting,
-                              .looks = looks,
-                              .store = {{"distance_scale", 1 / options.stored_unit}},
-                              .peeled = peeled};
+    const require::FacePart part = grow_to_texels(changing, options.face);
+    declare_cube_writes(pass, options, cubes, to_pixel_area(part, options.face));
+    DrawSettings drawing{.first_view = inputs.scene.capture_view(faces.owner) + faces.first,
+                         .layers = faces.count,
+                         .lighting = options.lighting,
+                         .looks = looks,
+                         .store = {{"distance_scale", 1 / options.stored_unit}},
+                         .peeled = peeled};
     if (options.colour == TexelFormat::rgba16f && options.saturates)
         drawing.store.emplace_back("largest_colour", kMaxHalf);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
@@ -95,27 +93,26 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
         drawing.store.emplace_back("stored_rounding", kUnorm8Rounding);
     if (peeled && options.distance == TexelFormat::r16f)
         drawing.store.emplace_back("peel_margin", kPeelMarginOfHalves);
-    pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+    pass.writes(depth, ResourceUse::depth, kClearFarthest)
         .layers(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
                  edge = options.face, drawing = std::move(drawing),
                  stores = cubes.distance.has_value(), alpha = options.blended_alpha,
                  leaves_out = options.leaves_out_spheres](PassCommands& commands) {
             const auto is_wanted = [&](std::size_t object) {
-                const ObjectDrawRange& range = scene.list_draw_ranges()[object];
-                return object != scene.object_index_of_mirror(mirror) &&
+                const DrawRange& range = scene.draw_ranges()[object];
+                return object != scene.mirror_object(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
-                       may_capture_face_show_object(scene, mirror, face, part, object);
+                       may_face_show(scene, mirror, face, part, object);
             };
             if (drawing.peeled) { // a second layer shows what the first layer hides
                 draw_scene(commands, scene, drawing, is_wanted);
                 return;
             }
-            const std::vector<std::uint8_t> shown = find_faces_showing_objects(
+            const std::vector<std::uint8_t> shown = find_shown_faces(
                 std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
-                {edge, scene.scene_device().limits().subPixelPrecisionBits},
-                scene.list_draw_ranges(), list_occluding_inner_balls(scene, *drawing.looks),
-                is_wanted);
+                {edge, scene.device().limits().subPixelPrecisionBits}, scene.draw_ranges(),
+                occluding_balls(scene, *drawing.looks), is_wanted);
             const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
             draw_scene(commands, scene, drawing, is_shown, shown);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
@@ -125,10 +122,10 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
 }
 
 /// Declares a pass that clears capture faces into which no ray can look.
-void add_capture_clear_pass(graph::Graph& graph, const FrameInputs& inputs,
-                            const CaptureOptions& options, const CaptureFaceRange& faces,
-                            const std::string& name, const CubeCaptureArray& cubes) {
-    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name_with_face_range(name, faces) +
+void add_clear_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                    const FaceRange& faces, const std::string& name,
+                    const CubeCaptureArray& cubes) {
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + face_range_name(name, faces) +
                                              ".clear");
     declare_cube_writes(pass, options, cubes);
     if (cubes.colour2)
@@ -139,10 +136,9 @@ void add_capture_clear_pass(graph::Graph& graph, const FrameInputs& inputs,
 
 } // namespace
 
-void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
-                        const MirrorCaptures& captures, ShaderOfEachMirror looks,
-                        const CaptureWorkOfFrame& work) {
-    const auto shared = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
+void add_captures(graph::Graph& graph, const FrameInputs& inputs, const MirrorCaptures& captures,
+                  MirrorShaders looks, const CaptureWork& work) {
+    const auto shared = std::make_shared<const MirrorShaders>(std::move(looks));
     for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
         if (!captures.places[mirror].has_capture()) continue;
         const auto& [array, cube] = captures.places[mirror];
@@ -150,39 +146,35 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
         const std::string number = "/" + std::to_string(mirror + 1);
         const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                               std::uint32_t first, std::uint32_t end) {
-            const CaptureFaceRange faces{mirror, first, end - first};
-            const require::FacePart changing = work.drawn_face_part(mirror, first);
-            const CubeCaptureArray part = select_cube_layers(cubes, first_layer + first,
-                                                             faces.count);
+            const FaceRange faces{mirror, first, end - first};
+            const require::FacePart changing = work.drawn_part(mirror, first);
+            const CubeCaptureArray part = select_layers(cubes, first_layer + first, faces.count);
             const CubeCaptureArray front{part.face, part.colour, part.distance,
                                          {},        {},          part.surfaces};
             add_capture_pass(graph, inputs, options, faces,
-                             name_with_face_range(captures.name + number, faces), front, shared, {},
+                             face_range_name(captures.name + number, faces), front, shared, {},
                              changing);
             if (part.colour2)
                 add_capture_pass(graph, inputs, options, faces,
-                                 name_with_face_range(captures.name + "2" + number, faces),
+                                 face_range_name(captures.name + "2" + number, faces),
                                  {part.face, *part.colour2, part.distance2, {}, {}, {}}, shared,
                                  part.distance, changing);
         };
         const auto clear = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                                std::uint32_t first, std::uint32_t end) {
-            add_capture_clear_pass(graph, inputs, options, {mirror, first, end - first},
-                                   captures.name + number,
-                                   select_cube_layers(cubes, first_layer + first, end - first));
+            add_clear_pass(graph, inputs, options, {mirror, first, end - first},
+                           captures.name + number,
+                           select_layers(cubes, first_layer + first, end - first));
         };
-        for_each_consecutive_face_range(
+        for_each_face_range(
             [&](std::uint32_t face) {
-                return work.is_face_drawn(mirror, face) &&
-                       work.drawn_face_part(mirror, face).is_whole();
+                return work.is_drawn(mirror, face) && work.drawn_part(mirror, face).is_whole();
             },
             draw);
         for (std::uint32_t face = 0; face < 6; ++face)
-            if (!work.drawn_face_part(mirror, face).is_whole()) draw(face, face + 1);
-        for_each_consecutive_face_range(
-            [&](std::uint32_t face) {
-                return work.work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::clear;
-            },
+            if (!work.drawn_part(mirror, face).is_whole()) draw(face, face + 1);
+        for_each_face_range(
+            [&](std::uint32_t face) { return work.face_work(mirror, face) == FaceUpdate::clear; },
             clear);
     }
 }

@@ -13,7 +13,7 @@ namespace catoptric::render {
 struct CapturedCubes {
     std::uint32_t face = 0; ///< edge in texels
     std::vector<std::byte> colour_bytes, distance_bytes;
-    SceneUnitTransform space;
+    SceneUnits space;
 
     /// Returns the colour of texel (x, y) of face `cube_face`, 0 to 5. Mirrors count from 0.
     vec3 colour(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const;

@@ -13,26 +13,24 @@ namespace {
 /// The properties that captures of one array share, except the edge.
 using CaptureContents = std::tuple<TexelFormat, std::optional<TexelFormat>, bool, bool, float>;
 
-CaptureContents image_contents_of_capture(const CaptureOptions& options) {
+CaptureContents contents_of(const CaptureOptions& options) {
     return {options.colour, options.distance, options.second_layer, options.surfaces,
             options.stored_unit};
 }
 
 /// Mirrors, grouped by the format and the edge of their captures.
-using CaptureGroupsByFormatAndEdge =
+using CaptureGroups =
     std::map<std::pair<CaptureContents, std::uint32_t>, std::vector<std::uint32_t>>;
 
-CaptureGroupsByFormatAndEdge
-group_mirrors_by_format_and_edge(const std::vector<CaptureOptions>& options) {
-    CaptureGroupsByFormatAndEdge kinds;
+CaptureGroups group_mirrors(const std::vector<CaptureOptions>& options) {
+    CaptureGroups kinds;
     for (std::uint32_t mirror = 0; mirror < options.size(); ++mirror)
         if (options[mirror].face > 0)
-            kinds[{image_contents_of_capture(options[mirror]), options[mirror].face}].push_back(
-                mirror);
+            kinds[{contents_of(options[mirror]), options[mirror].face}].push_back(mirror);
     return kinds;
 }
 
-std::size_t count_cube_arrays(const CaptureGroupsByFormatAndEdge& kinds, std::size_t most_cubes) {
+std::size_t count_arrays(const CaptureGroups& kinds, std::size_t most_cubes) {
     std::size_t arrays = 0;
     for (const auto& [kind, mirrors] : kinds)
         arrays += (mirrors.size() + most_cubes - 1) / most_cubes;
@@ -41,8 +39,7 @@ std::size_t count_cube_arrays(const CaptureGroupsByFormatAndEdge& kinds, std::si
 
 /// Enlarges the captures of one group to the next larger edge of the same format. Chooses the group
 /// for which this adds the fewest texels. Returns false if no format has two edges.
-bool merge_small_capture_groups(CaptureGroupsByFormatAndEdge& kinds,
-                                std::vector<std::string>& notes) {
+bool merge_groups(CaptureGroups& kinds, std::vector<std::string>& notes) {
     auto cheapest = kinds.end();
     double least = 0;
     for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
@@ -91,8 +88,8 @@ CubeCaptureArray declare_cube_array(graph::Graph& graph, const std::string& name
 }
 
 /// Declares a buffer with the place of each mirror's capture, and the pass that fills it.
-graph::BufferHandle add_capture_table_buffer(graph::Graph& graph, const std::string& name,
-                                             const MirrorCaptures& captures) {
+graph::BufferHandle add_capture_table(graph::Graph& graph, const std::string& name,
+                                      const MirrorCaptures& captures) {
     shared::CaptureLookupTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
         const auto& [array, cube] = captures.places[i];
@@ -113,8 +110,8 @@ graph::BufferHandle add_capture_table_buffer(graph::Graph& graph, const std::str
 
 } // namespace
 
-CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t first,
-                                    std::uint32_t count) {
+CubeCaptureArray select_layers(const CubeCaptureArray& cubes, std::uint32_t first,
+                               std::uint32_t count) {
     const auto part = [&](const std::optional<graph::ImageHandle>& image) {
         return image ? std::optional(image->layers(first, count)) : image;
     };
@@ -126,10 +123,9 @@ CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t
             part(cubes.surfaces)};
 }
 
-bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b) {
-    return a.face == b.face && image_contents_of_capture(a) == image_contents_of_capture(b) &&
-           a.saturates == b.saturates && a.blended_alpha == b.blended_alpha &&
-           a.leaves_out_spheres == b.leaves_out_spheres;
+bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b) {
+    return a.face == b.face && contents_of(a) == contents_of(b) && a.saturates == b.saturates &&
+           a.blended_alpha == b.blended_alpha && a.leaves_out_spheres == b.leaves_out_spheres;
 }
 
 MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& inputs,
@@ -137,12 +133,12 @@ MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& in
                                       const std::string& set) {
     MirrorCaptures captures;
     captures.name = std::move(name);
-    CaptureGroupsByFormatAndEdge kinds = group_mirrors_by_format_and_edge(options);
-    const std::size_t most_cubes = inputs.scene.max_cube_count();
+    CaptureGroups kinds = group_mirrors(options);
+    const std::size_t most_cubes = inputs.scene.max_cubes();
     bool merged = true;
-    while (merged && count_cube_arrays(kinds, most_cubes) > shared::kMaxCubeArrays)
-        merged = merge_small_capture_groups(kinds, captures.notes);
-    const std::size_t count = count_cube_arrays(kinds, most_cubes);
+    while (merged && count_arrays(kinds, most_cubes) > shared::kMaxCubeArrays)
+        merged = merge_groups(kinds, captures.notes);
+    const std::size_t count = count_arrays(kinds, most_cubes);
     check(count <= shared::kMaxCubeArrays && options.size() <= shared::kMaxCapturedMirrors,
           Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),
           " sizes and formats want ", count, " arrays of at most ", most_cubes,
@@ -167,12 +163,12 @@ MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& in
         }
     }
     captures.options = std::move(options);
-    std::vector<CubeArraySlotOfMirror> in_order;
+    std::vector<CubeSlot> in_order;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror)
         in_order.push_back({0, mirror});
     if (captures.places != in_order)
-        captures.table = add_capture_table_buffer(graph, inputs.prefix + captures.name + dot_set,
-                                                  captures);
+        captures.table = add_capture_table(graph, inputs.prefix + captures.name + dot_set,
+                                           captures);
     return captures;
 }
 

@@ -27,8 +27,8 @@ struct CubeCaptureArray {
 };
 
 /// Returns a range of layers of every image that exists.
-CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t first,
-                                    std::uint32_t count);
+CubeCaptureArray select_layers(const CubeCaptureArray& cubes, std::uint32_t first,
+                               std::uint32_t count);
 
 /// Contents of one mirror's capture, and settings with which the capture is drawn.
 struct CaptureOptions {
@@ -48,22 +48,22 @@ struct CaptureOptions {
 };
 
 /// Returns whether both options give captures of the same layout and content, apart from lighting.
-bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b);
+bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// The place of a mirror's capture in the arrays.
-struct CubeArraySlotOfMirror {
+struct CubeSlot {
     /// Indices from 0; `array` is kMaxCubeArrays if the mirror has no capture.
     std::uint32_t array = shared::kMaxCubeArrays, cube = 0;
     bool has_capture() const { return array < shared::kMaxCubeArrays; }
-    bool operator==(const CubeArraySlotOfMirror&) const = default;
+    bool operator==(const CubeSlot&) const = default;
 };
 
 /// The captures of all mirrors.
 struct MirrorCaptures {
-    std::string name;                          ///< prefix of the passes' names name/1, name/2, ...
-    std::vector<CaptureOptions> options;       ///< options of each mirror's capture
-    std::vector<CubeArraySlotOfMirror> places; ///< place of each mirror's capture
-    std::vector<CubeCaptureArray> arrays;      ///< 1 to shared::kMaxCubeArrays arrays
+    std::string name;                     ///< prefix of the passes' names name/1, name/2, ...
+    std::vector<CaptureOptions> options;  ///< options of each mirror's capture
+    std::vector<CubeSlot> places;         ///< place of each mirror's capture
+    std::vector<CubeCaptureArray> arrays; ///< 1 to shared::kMaxCubeArrays arrays
     /// Holds a shared::CaptureLookupTable; absent if mirror n is cube n of the only array.
     std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
@@ -72,7 +72,7 @@ struct MirrorCaptures {
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
     /// Returns the array that holds the mirror's capture; null if the mirror has none.
-    const CubeCaptureArray* find_array_of_mirror(std::uint32_t mirror) const {
+    const CubeCaptureArray* find_array(std::uint32_t mirror) const {
         return places[mirror].has_capture() ? &arrays[places[mirror].array] : nullptr;
     }
 };

@@ -7,26 +7,23 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::size_t kComparedPageBytes = 16384; // size of a block that is compared and written as
-                                                  // a whole
+constexpr std::size_t kPageBytes = 16384; // size of a block that is compared and written as
+                                          // a whole
 
-std::size_t count_compared_pages(std::size_t bytes) {
-    return (bytes + kComparedPageBytes - 1) / kComparedPageBytes;
-}
+std::size_t count_pages(std::size_t bytes) { return (bytes + kPageBytes - 1) / kPageBytes; }
 
 } // namespace
 
-bool DeviceList::set_device_list_contents(std::span<const std::byte> data, std::size_t from,
-                                          std::size_t to) {
+bool DeviceList::set(std::span<const std::byte> data, std::size_t from, std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
     data_.resize(data.size());
-    pages_.resize(count_compared_pages(data.size()), next);
+    pages_.resize(count_pages(data.size()), next);
     if (changed) from = 0, to = data.size();
-    for (std::size_t page = from / kComparedPageBytes; page < count_compared_pages(to); ++page) {
-        const std::size_t first = page * kComparedPageBytes,
-                          end = std::min(first + kComparedPageBytes, data.size());
+    for (std::size_t page = from / kPageBytes; page < count_pages(to); ++page) {
+        const std::size_t first = page * kPageBytes,
+                          end = std::min(first + kPageBytes, data.size());
         if (end <= kept && std::memcmp(&data_[first], &data[first], end - first) == 0) continue;
         std::memcpy(&data_[first], &data[first], end - first);
         pages_[page] = next;
@@ -37,7 +34,7 @@ bool DeviceList::set_device_list_contents(std::span<const std::byte> data, std::
 }
 
 /// Returns the index of a copy of the list that no other slot (frame in flight) reads.
-std::size_t DeviceList::find_free_device_copy(std::size_t slot) {
+std::size_t DeviceList::find_free_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)
             if (other != slot && bound_[other] == copy) return false;
@@ -50,17 +47,17 @@ std::size_t DeviceList::find_free_device_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t DeviceList::upload_changed_pages(gpu::Device& device, std::size_t slot) {
-    const auto current = std::ranges::find(copies_, version_, &DeviceListCopy::version);
+std::size_t DeviceList::write(gpu::Device& device, std::size_t slot) {
+    const auto current = std::ranges::find(copies_, version_, &Copy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
         return 0;
     }
-    const std::size_t place = find_free_device_copy(slot);
-    DeviceListCopy& copy = copies_[place];
+    const std::size_t place = find_free_copy(slot);
+    Copy& copy = copies_[place];
     if (!copy.buffer.handle() || copy.buffer.bytes() < data_.size()) {
         copy = {};
-        copy.buffer = gpu::Buffer(device, list_name_, data_.size(), use_);
+        copy.buffer = gpu::Buffer(device, name_, data_.size(), use_);
     }
     std::size_t writes = 0;
     for (std::size_t page = 0; page < pages_.size();) {
@@ -70,10 +67,9 @@ std::size_t DeviceList::upload_changed_pages(gpu::Device& device, std::size_t sl
             ++page;
             continue;
         }
-        const std::size_t end = std::min(page * kComparedPageBytes, data_.size());
-        copy.buffer.write(
-            first * kComparedPageBytes,
-            std::span(data_).subspan(first * kComparedPageBytes, end - first * kComparedPageBytes));
+        const std::size_t end = std::min(page * kPageBytes, data_.size());
+        copy.buffer.write(first * kPageBytes,
+                          std::span(data_).subspan(first * kPageBytes, end - first * kPageBytes));
         ++writes;
     }
     copy.version = version_;

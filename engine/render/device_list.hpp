@@ -16,46 +16,42 @@ namespace catoptric::render {
 class DeviceList {
 public:
     DeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
-        : list_name_(std::move(name)), use_(use), bound_(slots) {}
+        : name_(std::move(name)), use_(use), bound_(slots) {}
 
-    /// Sets the contents for the next `upload_changed_pages`. Returns whether they differ from the
+    /// Sets the contents for the next `write`. Returns whether they differ from the
     /// last contents; equal contents change nothing. Costs a comparison.
     template <typename T>
-    bool set_device_list_contents(const std::vector<T>& data) {
-        return set_device_list_contents(data, 0, data.size());
+    bool set(const std::vector<T>& data) {
+        return set(data, 0, data.size());
     }
     /// Sets the contents, of which only entries from `first` up to, not including, `end` may differ
     /// from the last ones. Compares only these entries.
     template <typename T>
-    bool set_device_list_contents(const std::vector<T>& data, std::size_t first, std::size_t end) {
-        return set_device_list_contents(std::as_bytes(std::span(data)), first * sizeof(T),
-                                        end * sizeof(T));
+    bool set(const std::vector<T>& data, std::size_t first, std::size_t end) {
+        return set(std::as_bytes(std::span(data)), first * sizeof(T), end * sizeof(T));
     }
     /// Writes the current contents for slot `slot` (a frame in flight). No frame may be in flight
     /// in this slot. Returns the number of writes to device memory. Throws as gpu::Buffer does.
-    std::size_t upload_changed_pages(gpu::Device& device, std::size_t slot);
-    /// Returns the buffer that `upload_changed_pages` chose for the slot.
-    const gpu::Buffer& buffer_of_device_copy(std::size_t slot) const {
-        return copies_[*bound_[slot]].buffer;
-    }
-    std::size_t device_copy_count() const { return copies_.size(); }
+    std::size_t write(gpu::Device& device, std::size_t slot);
+    /// Returns the buffer that `write` chose for the slot.
+    const gpu::Buffer& buffer(std::size_t slot) const { return copies_[*bound_[slot]].buffer; }
+    std::size_t copy_count() const { return copies_.size(); }
 
 private:
-    struct DeviceListCopy {
+    struct Copy {
         gpu::Buffer buffer;
         std::uint64_t version = 0;
     };
 
-    bool set_device_list_contents(std::span<const std::byte> data, std::size_t first,
-                                  std::size_t end);
-    std::size_t find_free_device_copy(std::size_t slot);
+    bool set(std::span<const std::byte> data, std::size_t first, std::size_t end);
+    std::size_t find_free_copy(std::size_t slot);
 
-    std::string list_name_;
+    std::string name_;
     gpu::BufferUsage use_;
     std::vector<std::byte> data_;
     std::vector<std::uint64_t> pages_; ///< version of the last change of each page of `data_`
     std::uint64_t version_ = 1;
-    std::vector<DeviceListCopy> copies_;
+    std::vector<Copy> copies_;
     std::vector<std::optional<std::size_t>> bound_; ///< copy, by slot
 };
 

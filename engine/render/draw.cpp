@@ -17,7 +17,7 @@ using graph::TextureFilter;
 constexpr const char* kBlackMirrorShader = "mirror_black.frag";
 
 /// Returns the winding of back faces in a view's picture. Cube faces show the scene mirrored.
-gpu::TriangleWinding find_back_face_winding(const shared::View& view) {
+gpu::TriangleWinding back_face_winding(const shared::View& view) {
     return dot(glm::cross(view.right, view.down), view.forward) > 0
                ? gpu::TriangleWinding::clockwise
                : gpu::TriangleWinding::counterclockwise;
@@ -32,8 +32,8 @@ std::string choose_vertex_shader(bool own, const shared::View& view) {
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, const DrawnObjectParts& parts) {
-    const ObjectDrawRange& range = scene.list_draw_ranges()[object];
+                 std::uint32_t first_view, std::uint32_t layers, const DrawnParts& parts) {
+    const DrawRange& range = scene.draw_ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kInstanceLayerBits;
     scene.bind_vertices(commands, object);
     const auto draw_layers = [&](std::uint32_t first, std::uint32_t count) {
@@ -45,7 +45,7 @@ void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t obje
     };
     const auto is_drawn_in = [&](std::uint32_t layer) {
         if (!parts.layers.empty()) return (parts.layers[object] >> layer & 1) != 0;
-        return may_view_show_box(scene.list_views()[first_view + layer], range);
+        return may_show(scene.list_views()[first_view + layer], range);
     };
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
@@ -57,22 +57,22 @@ void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t obje
 
 /// Returns a list with one image of each array of captures.
 template <typename Part>
-std::vector<ImageHandle> list_cube_images(const MirrorCaptures& captures, Part&& part) {
+std::vector<ImageHandle> cube_images(const MirrorCaptures& captures, Part&& part) {
     std::vector<ImageHandle> images;
     for (const CubeCaptureArray& cubes : captures.arrays) images.push_back(part(cubes));
     return images;
 }
 
-void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures) {
-    commands.bind("colour_cubes", list_cube_images(captures, [](const CubeCaptureArray& cubes) {
+void bind_captures(PassCommands& commands, const MirrorCaptures& captures) {
+    commands.bind("colour_cubes", cube_images(captures, [](const CubeCaptureArray& cubes) {
                       return cubes.colour;
                   }));
     // Every shader has these bindings. If captures lack an image, their colour image is bound as a
     // placeholder that no shader reads.
-    commands.bind("surface_cubes", list_cube_images(captures, [](const CubeCaptureArray& cubes) {
+    commands.bind("surface_cubes", cube_images(captures, [](const CubeCaptureArray& cubes) {
                       return cubes.surfaces.value_or(cubes.colour);
                   }));
-    const std::vector<ImageHandle> distances = list_cube_images(
+    const std::vector<ImageHandle> distances = cube_images(
         captures,
         [](const CubeCaptureArray& cubes) { return cubes.distance.value_or(cubes.colour); });
     commands.bind("distance_cubes", distances);
@@ -83,8 +83,7 @@ void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures)
 }
 
 /// Adds the constants that tell a shader where the captures are stored.
-void add_capture_slot_shader_constants(const MirrorCaptures& captures,
-                                       gpu::ShaderConstants& constants) {
+void add_capture_constants(const MirrorCaptures& captures, gpu::ShaderConstants& constants) {
     const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
     const float unit = unit_of(captures.options.front());
     const bool same = std::ranges::all_of(
@@ -100,8 +99,7 @@ void add_capture_slot_shader_constants(const MirrorCaptures& captures,
 }
 
 /// Returns the constants of the pass for fragment shaders that draw objects with a colour.
-gpu::ShaderConstants make_fragment_shader_constants(const GpuScene& scene,
-                                                    const SceneDrawSettings& drawing) {
+gpu::ShaderConstants fragment_constants(const GpuScene& scene, const DrawSettings& drawing) {
     gpu::ShaderConstants features;
     if (drawing.peeled) features.emplace_back("peels", 1u);
     if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
@@ -113,11 +111,10 @@ gpu::ShaderConstants make_fragment_shader_constants(const GpuScene& scene,
     return features;
 }
 
-void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
-                  const MirrorShader& look, const ObjectFilter& wanted,
-                  const DrawnObjectParts& parts) {
+void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
+                  const MirrorShader& look, const ObjectFilter& wanted, const DrawnParts& parts) {
     gpu::RasterState state{"", kBlackMirrorShader, drawing.store};
-    state.features = make_fragment_shader_constants(scene, drawing);
+    state.features = fragment_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment +
                          (look.ablated && !drawing.peeled ? "#ablate" : look.variant);
@@ -125,13 +122,13 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDraw
         // Known only when passes are recorded, unlike the other constants of ablations.
         if (look.ablated >> shared::kAblateDrawBits && scene.has_sampled_lamps())
             state.constants.emplace_back("samples_lamps", 1u);
-        if (look.captures) bind_capture_images(commands, *look.captures);
-        if (look.captures) add_capture_slot_shader_constants(*look.captures, state.constants);
+        if (look.captures) bind_captures(commands, *look.captures);
+        if (look.captures) add_capture_constants(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
         if (!look.captures) commands.bind("mipmapped_texels", TextureFilter::mipmapped);
     }
-    const auto& draw = drawing.peeled ? draw_objects : draw_objects_with_backface_culling;
+    const auto& draw = drawing.peeled ? draw_objects : draw_without_back_faces;
     draw(commands, scene, state, drawing.first_view, drawing.layers, {look.ablated, look.shown},
          wanted, parts);
 }
@@ -139,9 +136,8 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDraw
 /// Returns whether back faces of the object need not be drawn in a view, because none is visible.
 /// For a sphere, this leaves out half of all triangles. Returns false if the eye is inside the
 /// object's bounds or the view has a clip plane.
-bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& view,
-                                   std::size_t object) {
-    const ObjectDrawRange& range = scene.list_draw_ranges()[object];
+bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::size_t object) {
+    const DrawRange& range = scene.draw_ranges()[object];
     const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
                         all(lessThanEqual(view.eye, range.bounds.hi));
     return range.shell && !range.flipped && !within && view.parallel == 0 && view.clip == vec4(0);
@@ -151,12 +147,12 @@ bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& vi
 /// drawn first, and of each object first the triangles that face away. `state`: pipeline state of
 /// opaque objects.
 void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
-                          const SceneDrawSettings& drawing, const ObjectFilter& wanted,
-                          const DrawnObjectParts& parts) {
+                          const DrawSettings& drawing, const ObjectFilter& wanted,
+                          const DrawnParts& parts) {
     const shared::View& view = scene.list_views()[drawing.first_view];
     std::vector<std::pair<float, std::size_t>> order; // distance, object
-    for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
-        const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+    for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i) {
+        const DrawRange& range = scene.draw_ranges()[i];
         if (!range.blended || !wanted(i)) continue;
         const vec3 to_object = range.bounds.centre() - view.eye;
         order.emplace_back(view.parallel ? dot(view.forward, to_object) : length(to_object), i);
@@ -164,14 +160,14 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::Ra
     std::ranges::stable_sort(order, std::ranges::greater(), &std::pair<float, std::size_t>::first);
     state.blending = gpu::Blending::cover;
     state.constants.emplace_back("drawn_parts", shared::kDrawBlendedParts);
-    std::ranges::copy(scene.shader_feature_constants(drawing.first_view),
+    std::ranges::copy(scene.feature_constants(drawing.first_view),
                       std::back_inserter(state.features));
-    const gpu::TriangleWinding backs = find_back_face_winding(view),
+    const gpu::TriangleWinding backs = back_face_winding(view),
                                fronts = backs == gpu::TriangleWinding::clockwise
                                             ? gpu::TriangleWinding::counterclockwise
                                             : gpu::TriangleWinding::clockwise;
     for (const auto& [distance, object] : order) {
-        const ObjectDrawRange& range = scene.list_draw_ranges()[object];
+        const DrawRange& range = scene.draw_ranges()[object];
         state.vertex = choose_vertex_shader(range.own.has_value(), view);
         for (const gpu::TriangleWinding hidden : {fronts, backs}) {
             if (hidden == fronts && range.one_sided) continue;
@@ -185,7 +181,7 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::Ra
 
 } // namespace
 
-void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting) {
+void bind_lighting(PassCommands& commands, const ShadingLights& lighting) {
     if (lighting.shadow_map)
         commands.bind("shadow_map", *lighting.shadow_map, TextureFilter::compare);
     if (lighting.shadow_map && lighting.has_soft_shadows)
@@ -202,15 +198,14 @@ void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting)
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, const MirrorDrawNumbers& numbers,
-                  const ObjectFilter& wanted, const DrawnObjectParts& parts) {
-    std::ranges::copy(scene.shader_feature_constants(first_view),
-                      std::back_inserter(state.features));
+                  const ObjectFilter& wanted, const DrawnParts& parts) {
+    std::ranges::copy(scene.feature_constants(first_view), std::back_inserter(state.features));
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
         state.vertex = choose_vertex_shader(own, scene.list_views()[first_view]);
         bool in_use = false; // avoids creating a pipeline that draws nothing
-        for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
-            if (scene.list_draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
+        for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i) {
+            if (scene.draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
                 commands.bind_pipeline(state);
                 commands.push_constants(
@@ -221,18 +216,16 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterStat
     }
 }
 
-void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& scene,
-                                        gpu::RasterState state, std::uint32_t first_view,
-                                        std::uint32_t layers, const MirrorDrawNumbers& numbers,
-                                        const ObjectFilter& wanted, const DrawnObjectParts& parts) {
+void draw_without_back_faces(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
+                             std::uint32_t first_view, std::uint32_t layers,
+                             const MirrorDrawNumbers& numbers, const ObjectFilter& wanted,
+                             const DrawnParts& parts) {
     const shared::View& view = scene.list_views()[first_view];
-    const auto is_front = [&](std::size_t i) {
-        return can_cull_back_faces_of_object(scene, view, i);
-    };
+    const auto is_front = [&](std::size_t i) { return can_cull_back_faces(scene, view, i); };
     draw_objects(
         commands, scene, state, first_view, layers, numbers,
         [&](std::size_t i) { return wanted(i) && !is_front(i); }, parts);
-    state.hidden = find_back_face_winding(view);
+    state.hidden = back_face_winding(view);
     draw_objects(
         commands, scene, std::move(state), first_view, layers, numbers,
         [&](std::size_t i) { return wanted(i) && is_front(i); }, parts);
@@ -240,9 +233,9 @@ void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& 
 
 namespace {
 
-gpu::RasterState make_diffuse_state(const GpuScene& scene, const SceneDrawSettings& drawing) {
+gpu::RasterState make_diffuse_state(const GpuScene& scene, const DrawSettings& drawing) {
     gpu::RasterState diffuse{"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
-                             make_fragment_shader_constants(scene, drawing)};
+                             fragment_constants(scene, drawing)};
     const ShadingTracer& tracer = drawing.completing_tracer;
     if (tracer.number == 0) return diffuse;
     diffuse.fragment += "#first";
@@ -254,35 +247,32 @@ gpu::RasterState make_diffuse_state(const GpuScene& scene, const SceneDrawSettin
 }
 
 /// Draws all mirrors for which `wanted` returns true.
-void draw_all_mirrors(PassCommands& commands, const GpuScene& scene,
-                      const SceneDrawSettings& drawing, const ObjectFilter& wanted,
-                      std::span<const std::uint8_t> shown) {
-    const ShaderOfEachMirror& looks = *drawing.looks;
+void draw_all_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
+                      const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
+    const MirrorShaders& looks = *drawing.looks;
     for (std::uint32_t look = 0; look < looks.looks.size(); ++look)
         draw_mirrors(commands, scene, drawing, looks.looks[look],
                      [&](std::size_t i) {
-                         const std::uint32_t mirror = scene.mirror_number_of_object(i);
+                         const std::uint32_t mirror = scene.mirror_of(i);
                          return mirror > 0 && looks.of_mirror[mirror - 1] == look && wanted(i);
                      },
                      {nullptr, shown});
-    for (const MirrorSubsetShader& part : looks.parts)
-        draw_mirrors(commands, scene, drawing, looks.looks[part.look],
-                     [&](std::size_t i) {
-                         return scene.mirror_number_of_object(i) == part.mirror + 1 && wanted(i);
-                     },
-                     {&part.triangles, shown});
+    for (const PartShader& part : looks.parts)
+        draw_mirrors(
+            commands, scene, drawing, looks.looks[part.look],
+            [&](std::size_t i) { return scene.mirror_of(i) == part.mirror + 1 && wanted(i); },
+            {&part.triangles, shown});
 }
 
 } // namespace
 
-void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
+void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
                 const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
-    const DrawnObjectParts whole{nullptr, shown};
+    const DrawnParts whole{nullptr, shown};
     const auto& [first_view, layers, lighting, looks, store, tracer, peeled] = drawing;
     scene.bind(commands);
-    if (std::ranges::any_of(looks->looks, &MirrorShader::ablated))
-        scene.bind_ray_tracing_buffers(commands);
-    bind_lighting_images(commands, lighting);
+    if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
+    bind_lighting(commands, lighting);
     if (peeled) commands.bind("first_layer", *peeled);
     gpu::RasterState diffuse = make_diffuse_state(scene, drawing);
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
@@ -290,63 +280,62 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
         draw_objects(
             commands, scene, diffuse, first_view, layers, {},
             [&](std::size_t i) {
-                const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+                const DrawRange& range = scene.draw_ranges()[i];
                 return !range.mirror && range.one_sided == one_sided && wanted(i);
             },
             whole);
     };
     const auto is_black = [&](std::size_t object) {
-        return first_view == GpuScene::kCameraViewIndex && scene.does_object_enclose_camera(object);
+        return first_view == GpuScene::kCameraViewIndex && scene.encloses_camera(object);
     };
     const auto is_visible = [&](std::size_t i) { return wanted(i) && !is_black(i); };
     // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
     // shading the objects that they hide.
-    const bool mirrors_first = scene.uses_bvh_over_mirrors() &&
-                               first_view != GpuScene::kCameraViewIndex;
+    const bool mirrors_first = scene.uses_mirror_tree() && first_view != GpuScene::kCameraViewIndex;
     if (mirrors_first) draw_all_mirrors(commands, scene, drawing, is_visible, shown);
     draw_diffuse(false, gpu::TriangleWinding::none);
-    if (std::ranges::any_of(scene.list_draw_ranges(), &ObjectDrawRange::one_sided))
-        draw_diffuse(true, find_back_face_winding(scene.list_views()[first_view]));
+    if (std::ranges::any_of(scene.draw_ranges(), &DrawRange::one_sided))
+        draw_diffuse(true, back_face_winding(scene.list_views()[first_view]));
     if (!mirrors_first) draw_all_mirrors(commands, scene, drawing, is_visible, shown);
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
-    for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i)
+    for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i)
         if (is_shut(i))
             return draw_objects(commands, scene,
                                 {"", kBlackMirrorShader, store, gpu::TriangleWinding::none,
-                                 make_fragment_shader_constants(scene, drawing)},
+                                 fragment_constants(scene, drawing)},
                                 first_view, layers, {}, is_shut, whole);
 }
 
 void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
-                           const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                           const DrawSettings& drawing, const ObjectFilter& wanted,
                            std::span<const std::uint8_t> shown) {
     if (!scene.has_blended_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled)
         return;
     // The ambient occlusion of these pixels is that of the opaque surface behind.
-    SceneDrawSettings unoccluded = drawing;
+    DrawSettings unoccluded = drawing;
     unoccluded.lighting.ambient_occlusion.reset();
     scene.bind(commands);
-    bind_lighting_images(commands, unoccluded.lighting);
+    bind_lighting(commands, unoccluded.lighting);
     draw_blended_objects(commands, scene,
                          {"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
-                          make_fragment_shader_constants(scene, unoccluded)},
+                          fragment_constants(scene, unoccluded)},
                          drawing, wanted, {nullptr, shown});
 }
 
 void draw_blended_distances(PassCommands& commands, const GpuScene& scene,
-                            const SceneDrawSettings& drawing, float alpha,
-                            const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
+                            const DrawSettings& drawing, float alpha, const ObjectFilter& wanted,
+                            std::span<const std::uint8_t> shown) {
     if (!scene.has_blended_surfaces()) return;
     gpu::RasterState state{"", "blended_distance.frag", drawing.store};
     state.constants.emplace_back("blended_alpha", alpha);
     state.keeps_colour = true;
     scene.bind(commands);
     for (const bool one_sided : {false, true}) {
-        state.hidden = one_sided ? find_back_face_winding(scene.list_views()[drawing.first_view])
+        state.hidden = one_sided ? back_face_winding(scene.list_views()[drawing.first_view])
                                  : gpu::TriangleWinding::none;
         draw_objects(commands, scene, state, drawing.first_view, drawing.layers, {},
                      [&](std::size_t i) {
-                         const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+                         const DrawRange& range = scene.draw_ranges()[i];
                          return range.blended && range.one_sided == one_sided && wanted(i);
                      },
                      {nullptr, shown});

@@ -9,13 +9,13 @@
 namespace catoptric::render {
 
 /// Binds the images of the lighting.
-void bind_lighting_images(graph::PassCommands& commands, const ShadingLights& lighting);
+void bind_lighting(graph::PassCommands& commands, const ShadingLights& lighting);
 
 /// Returns whether an object, given by its index, is drawn.
 using ObjectFilter = std::function<bool(std::size_t)>;
 
 /// The part of each object to draw.
-struct DrawnObjectParts {
+struct DrawnParts {
     /// Runs of triangles to draw; null: all triangles.
     const std::vector<scene::TriangleRun>* triangles = nullptr;
     /// For each object, the layers to draw it into: bit k stands for layer k (shown_faces.hpp).
@@ -35,45 +35,43 @@ struct MirrorDrawNumbers {
 /// space last.
 void draw_objects(graph::PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, const MirrorDrawNumbers& numbers,
-                  const ObjectFilter& wanted, const DrawnObjectParts& parts = {});
+                  const ObjectFilter& wanted, const DrawnParts& parts = {});
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
-void draw_objects_with_backface_culling(graph::PassCommands& commands, const GpuScene& scene,
-                                        gpu::RasterState state, std::uint32_t first_view,
-                                        std::uint32_t layers, const MirrorDrawNumbers& numbers,
-                                        const ObjectFilter& wanted,
-                                        const DrawnObjectParts& parts = {});
+void draw_without_back_faces(graph::PassCommands& commands, const GpuScene& scene,
+                             gpu::RasterState state, std::uint32_t first_view, std::uint32_t layers,
+                             const MirrorDrawNumbers& numbers, const ObjectFilter& wanted,
+                             const DrawnParts& parts = {});
 
 /// The settings with which a picture of the scene is drawn.
-struct SceneDrawSettings {
+struct DrawSettings {
     std::uint32_t first_view = 0, layers = 1;
     ShadingLights lighting;
-    std::shared_ptr<const ShaderOfEachMirror> looks; ///< shaders of the mirrors
-    gpu::ShaderConstants store; ///< constants for storing distances and surfaces
+    std::shared_ptr<const MirrorShaders> looks; ///< shaders of the mirrors
+    gpu::ShaderConstants store;                 ///< constants for storing distances and surfaces
     ShadingTracer completing_tracer;
     /// Distances of a first layer; only surfaces behind them are drawn.
     std::optional<graph::ImageHandle> peeled;
 };
 
 /// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
-/// draw the mirrors first. `layers`: see DrawnObjectParts.
-void draw_scene(graph::PassCommands& commands, const GpuScene& scene,
-                const SceneDrawSettings& drawing, const ObjectFilter& wanted,
-                std::span<const std::uint8_t> layers = {});
+/// draw the mirrors first. `layers`: see DrawnParts.
+void draw_scene(graph::PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
+                const ObjectFilter& wanted, std::span<const std::uint8_t> layers = {});
 
 /// Draws the parts of blended objects that are not opaque over the finished picture. Call it after
 /// draw_scene and draw_sky, with the same arguments. Draws nothing in a second layer of a capture,
 /// or if the ray tracer completes the picture.
 void draw_blended_surfaces(graph::PassCommands& commands, const GpuScene& scene,
-                           const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                           const DrawSettings& drawing, const ObjectFilter& wanted,
                            std::span<const std::uint8_t> layers = {});
 
 /// Stores the distances of blended surfaces in a capture, where their alpha exceeds `alpha`, and
 /// the mark kBlendedSurface for the number of the surface. Call it after draw_blended_surfaces,
 /// with the same arguments.
 void draw_blended_distances(graph::PassCommands& commands, const GpuScene& scene,
-                            const SceneDrawSettings& drawing, float alpha,
-                            const ObjectFilter& wanted, std::span<const std::uint8_t> layers = {});
+                            const DrawSettings& drawing, float alpha, const ObjectFilter& wanted,
+                            std::span<const std::uint8_t> layers = {});
 
 } // namespace catoptric::render

@@ -25,7 +25,7 @@ struct CellBrightness {
     double mean = 0;
 };
 
-CellBrightness measure_cell_brightness(const scene::Environment& map) {
+CellBrightness cell_brightness(const scene::Environment& map) {
     const std::uint32_t width = map.size.x, height = map.size.y;
     CellBrightness cells;
     double sum = 0, weights = 0;
@@ -52,8 +52,8 @@ CellBrightness measure_cell_brightness(const scene::Environment& map) {
 
 } // namespace
 
-EnvironmentCells find_bright_environment_cells(const scene::Environment& environment) {
-    const CellBrightness cells = measure_cell_brightness(environment);
+EnvironmentCells find_bright_cells(const scene::Environment& environment) {
+    const CellBrightness cells = cell_brightness(environment);
     const std::uint32_t width = environment.size.x, height = environment.size.y;
     EnvironmentCells found{.threshold = static_cast<float>(cells.mean * kBrightnessAboveMean)};
     std::vector<std::size_t> bright;
@@ -73,7 +73,7 @@ EnvironmentCells find_bright_environment_cells(const scene::Environment& environ
     // map covers 2 pi^2 sin(angle) steradians for each unit of its area.
     found.density = static_cast<float>(double(width) * height /
                                        (2 * std::numbers::pi * std::numbers::pi * sum));
-    const std::vector<AliasTableCell> table = make_alias_table(std::move(weights));
+    const std::vector<AliasCell> table = make_alias_table(std::move(weights));
     for (std::size_t i = 0; i < bright.size(); ++i)
         found.texels.emplace_back(static_cast<float>(table[i].share),
                                   bvh::pack_number(table[i].rest), bvh::pack_number(bright[i]), 0);

@@ -21,6 +21,6 @@ struct EnvironmentCells {
 };
 
 /// Costs O(n) in the texels. The environment has texels.
-EnvironmentCells find_bright_environment_cells(const scene::Environment& environment);
+EnvironmentCells find_bright_cells(const scene::Environment& environment);
 
 } // namespace catoptric::render

@@ -2,7 +2,7 @@
 
 namespace catoptric::render {
 
-require::FacePart grow_face_part_to_texels(const require::FacePart& part, std::uint32_t edge) {
+require::FacePart grow_to_texels(const require::FacePart& part, std::uint32_t edge) {
     if (part.is_whole()) return part;
     const double size = edge;
     const auto texel = [&](const dvec2& place) { return (place * .5 + .5) * size; };
@@ -11,8 +11,8 @@ require::FacePart grow_face_part_to_texels(const require::FacePart& part, std::u
     return {first / size * 2. - 1., end / size * 2. - 1.};
 }
 
-std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::FacePart& part,
-                                                             std::uint32_t edge) {
+std::optional<graph::PixelRectangle> to_pixel_area(const require::FacePart& part,
+                                                   std::uint32_t edge) {
     if (part.is_whole()) return {};
     const auto texel = [&](const dvec2& place) {
         return uvec2(round((place * .5 + .5) * static_cast<double>(edge)));
@@ -21,8 +21,7 @@ std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::Face
     return graph::PixelRectangle{first.x, first.y, size.x, size.y};
 }
 
-require::FacePart face_part_showing_box(const shared::View& view, int face,
-                                        const Bounds<float>& box) {
+require::FacePart part_showing(const shared::View& view, int face, const Bounds<float>& box) {
     const dvec3 centre(view.eye);
     return require::face_part_containing(face, {dvec3(box.lo) - centre, dvec3(box.hi) - centre});
 }

@@ -10,8 +10,8 @@ namespace catoptric::render {
 namespace {
 
 /// Returns the vertices of an object with an object space, relative to its middle, in scene units.
-std::vector<shared::Vertex> make_vertices_relative_to_centre(const FrameGeometry& geometry,
-                                                             const ObjectDrawRange& range) {
+std::vector<shared::Vertex> centred_vertices(const FrameGeometry& geometry,
+                                             const DrawRange& range) {
     std::vector<shared::Vertex> arms;
     const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
     for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
@@ -23,8 +23,7 @@ std::vector<shared::Vertex> make_vertices_relative_to_centre(const FrameGeometry
 }
 
 /// Returns the object's indices, counted from its first vertex.
-std::vector<std::uint32_t> make_indices_relative_to_first_vertex(const FrameGeometry& geometry,
-                                                                 const ObjectDrawRange& range) {
+std::vector<std::uint32_t> relative_indices(const FrameGeometry& geometry, const DrawRange& range) {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
         indices.push_back(geometry.indices[k] - range.first_vertex);
@@ -33,7 +32,7 @@ std::vector<std::uint32_t> make_indices_relative_to_first_vertex(const FrameGeom
 
 /// Replaces an orthographic view by a perspective one whose eye is one unit, the size of the scene,
 /// in front of the shown point.
-shared::View approximate_by_perspective_view(shared::View view, const vec3& shown) {
+shared::View as_perspective(shared::View view, const vec3& shown) {
     if (view.parallel == 0) return view;
     view.eye += view.forward * (dot(view.forward, shown - view.eye) - 1);
     view.parallel = 0;
@@ -42,34 +41,32 @@ shared::View approximate_by_perspective_view(shared::View view, const vec3& show
 
 } // namespace
 
-std::vector<double> find_needed_capture_face_edges(const FrameGeometry& geometry,
-                                                   std::span<const std::size_t> mirrors,
-                                                   std::span<const shared::Probe> probes,
-                                                   const shared::View& camera, const dvec3& eye,
-                                                   std::uint32_t height) {
+std::vector<double> find_needed_edges(const FrameGeometry& geometry,
+                                      std::span<const std::size_t> mirrors,
+                                      std::span<const shared::Probe> probes,
+                                      const shared::View& camera, const dvec3& eye,
+                                      std::uint32_t height) {
     std::vector<double> needs;
     for (std::size_t mirror = 0; mirror < mirrors.size(); ++mirror) {
-        const ObjectDrawRange& range = geometry.ranges[mirrors[mirror]];
+        const DrawRange& range = geometry.ranges[mirrors[mirror]];
         const double radius{probes[mirror].radius};
-        PicturePixelGrid pixels{approximate_by_perspective_view(camera, range.bounds.centre()),
-                                height};
+        PixelGrid pixels{as_perspective(camera, range.bounds.centre()), height};
         if (range.own)
             pixels.view.eye = vec3(eye + dvec3(pixels.view.eye - camera.eye) - range.own->centre);
-        if (!range.seen_by_camera || !may_view_show_box(camera, range.bounds))
+        if (!range.seen_by_camera || !may_show(camera, range.bounds))
             needs.push_back(0);
         else if (radius > 0)
-            needs.push_back(cube_edge_needed_by_sphere(
-                pixels, range.own ? vec3(0) : probes[mirror].sphere, radius));
-        else if (range.own)
             needs.push_back(
-                cube_edge_needed_by_mesh(pixels, make_vertices_relative_to_centre(geometry, range),
-                                         make_indices_relative_to_first_vertex(geometry, range)));
+                edge_for_sphere(pixels, range.own ? vec3(0) : probes[mirror].sphere, radius));
+        else if (range.own)
+            needs.push_back(edge_for_mesh(pixels, centred_vertices(geometry, range),
+                                          relative_indices(geometry, range)));
         else
-            needs.push_back(cube_edge_needed_by_mesh(
+            needs.push_back(edge_for_mesh(
                 pixels, geometry.vertices,
                 std::span(geometry.indices).subspan(range.first_index, range.index_count)));
         if (range.lobe_alpha > 0)
-            needs.back() = std::min(needs.back(), cube_edge_needed_by_lobe(range.lobe_alpha));
+            needs.back() = std::min(needs.back(), edge_for_lobe(range.lobe_alpha));
     }
     return needs;
 }

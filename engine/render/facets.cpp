@@ -8,7 +8,7 @@
 
 namespace catoptric::render {
 
-bool do_vertex_normals_differ_from_facets(const scene::Mesh& mesh) {
+bool normals_differ_from_facets(const scene::Mesh& mesh) {
     const double least = std::sqrt(1 - f64::kFacetFadeSine * f64::kFacetFadeSine);
     return std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
         const dvec3& a = mesh.positions[t.x];

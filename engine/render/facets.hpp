@@ -9,6 +9,6 @@ namespace catoptric::render {
 /// (`facet_light_share` in lib/math/light.glsl). Other meshes are lit by their normals alone,
 /// and so receive light from up to 6 degrees below the plane. Angles are measured in the mesh's own
 /// coordinates. Costs O(n).
-bool do_vertex_normals_differ_from_facets(const scene::Mesh& mesh);
+bool normals_differ_from_facets(const scene::Mesh& mesh);
 
 } // namespace catoptric::render

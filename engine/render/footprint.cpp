@@ -11,23 +11,21 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr double kRightAngleRadians = std::numbers::pi / 2;
-constexpr std::uint32_t kCaptureEdgeMultiple = 16;
+constexpr double kRightAngle = std::numbers::pi / 2;
+constexpr std::uint32_t kEdgeMultiple = 16;
 
 /// One triangle of a mirror.
-struct MirrorMeshTriangle {
+struct MirrorFacet {
     std::array<dvec3, 3> position, normal;
 
-    dvec3 facet_centre() const { return (position[0] + position[1] + position[2]) / 3.0; }
-    dvec3 mean_normal_of_vertices() const {
-        return glm::normalize(normal[0] + normal[1] + normal[2]);
-    }
+    dvec3 centre() const { return (position[0] + position[1] + position[2]) / 3.0; }
+    dvec3 mean_normal() const { return glm::normalize(normal[0] + normal[1] + normal[2]); }
 };
 
 /// Returns the least and the largest normal curvature of the surface with the facet's interpolated
 /// normals. They are the eigenvalues of the symmetric part of the matrix that maps two edges to the
 /// change of normal along them.
-std::array<double, 2> compute_principal_curvatures(const MirrorMeshTriangle& facet) {
+std::array<double, 2> principal_curvatures(const MirrorFacet& facet) {
     const dvec3 edge1 = facet.position[1] - facet.position[0],
                 edge2 = facet.position[2] - facet.position[0];
     const dvec3 turn1 = facet.normal[1] - facet.normal[0],
@@ -44,13 +42,13 @@ std::array<double, 2> compute_principal_curvatures(const MirrorMeshTriangle& fac
 }
 
 /// Returns the inward normals of the planes through the eye that bound the picture.
-std::array<dvec3, 5> list_picture_side_planes(const shared::View& view) {
+std::array<dvec3, 5> picture_planes(const shared::View& view) {
     const dvec3 forward(view.forward), right(view.right), down(view.down);
     return {forward, forward + right, forward - right, forward + down, forward - down};
 }
 
-bool is_facet_in_picture(const PicturePixelGrid& pixels, const MirrorMeshTriangle& facet) {
-    return std::ranges::none_of(list_picture_side_planes(pixels.view), [&](const dvec3& inward) {
+bool is_in_picture(const PixelGrid& pixels, const MirrorFacet& facet) {
+    return std::ranges::none_of(picture_planes(pixels.view), [&](const dvec3& inward) {
         return std::ranges::all_of(facet.position, [&](const dvec3& corner) {
             return dot(inward, corner - dvec3(pixels.view.eye)) <= 0;
         });
@@ -58,63 +56,59 @@ bool is_facet_in_picture(const PicturePixelGrid& pixels, const MirrorMeshTriangl
 }
 
 /// Returns the cosine of the angle between the axis and a point; 0 at the eye.
-double cosine_to_view_axis(const shared::View& view, const dvec3& place) {
+double cosine_to_view(const shared::View& view, const dvec3& place) {
     const dvec3 seen = place - dvec3(view.eye);
     const double distance = glm::length(seen);
     return distance > 0 ? dot(seen, dvec3(view.forward)) / distance : 0;
 }
 
-double cube_edge_needed_by_facet(const PicturePixelGrid& pixels, const MirrorMeshTriangle& facet) {
+double edge_for_facet(const PixelGrid& pixels, const MirrorFacet& facet) {
     double to_axis = 1;
     for (const dvec3& corner : facet.position)
-        to_axis = std::min(to_axis, cosine_to_view_axis(pixels.view, corner));
-    const double pixel_angle = pixels.camera_angle_per_pixel(to_axis);
-    const dvec3 to_eye = dvec3(pixels.view.eye) - facet.facet_centre();
+        to_axis = std::min(to_axis, cosine_to_view(pixels.view, corner));
+    const double pixel_angle = pixels.pixel_angle(to_axis);
+    const dvec3 to_eye = dvec3(pixels.view.eye) - facet.centre();
     const double distance = glm::length(to_eye);
-    const double cosine = distance > 0 ? dot(to_eye, facet.mean_normal_of_vertices()) / distance
-                                       : 1;
+    const double cosine = distance > 0 ? dot(to_eye, facet.mean_normal()) / distance : 1;
     double need = 0;
-    for (const double curvature : compute_principal_curvatures(facet)) {
+    for (const double curvature : principal_curvatures(facet)) {
         // The back of a concave mirror is convex.
         const double seen = cosine < 0 ? -curvature : curvature;
-        need = std::max(need, cube_edge_texels_for_footprint(angle_between_reflected_pixels(
-                                  pixel_angle, distance, seen, std::abs(cosine))));
+        need = std::max(need, edge_for_footprint(
+                                  pixel_footprint(pixel_angle, distance, seen, std::abs(cosine))));
     }
     return need;
 }
 
 } // namespace
 
-double PicturePixelGrid::cosine_to_view_at_corner() const {
+double PixelGrid::corner_cosine() const {
     const double across = 1 / glm::length(dvec3(view.right)),
                  up = 1 / glm::length(dvec3(view.down));
     return 1 / std::sqrt(1 + across * across + up * up);
 }
 
-double PicturePixelGrid::camera_angle_per_pixel(double cosine) const {
-    const double at_most = std::max(cosine, cosine_to_view_at_corner());
+double PixelGrid::pixel_angle(double cosine) const {
+    const double at_most = std::max(cosine, corner_cosine());
     return 2 / (glm::length(dvec3(view.down)) * height) * at_most * at_most;
 }
 
-double angle_between_reflected_pixels(double pixel_angle, double distance, double curvature,
-                                      double cosine) {
+double pixel_footprint(double pixel_angle, double distance, double curvature, double cosine) {
     if (curvature == 0) return pixel_angle; // holds for any cosine
     return pixel_angle * std::max(1.0, std::abs(1 + 2 * distance * curvature / cosine));
 }
 
-double cube_edge_texels_for_footprint(double footprint) { return kRightAngleRadians / footprint; }
+double edge_for_footprint(double footprint) { return kRightAngle / footprint; }
 
-double cube_edge_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre,
-                                  double radius) {
+double edge_for_sphere(const PixelGrid& pixels, const vec3& centre, double radius) {
     const dvec3 seen = dvec3(centre) - dvec3(pixels.view.eye);
-    for (const dvec3& inward : list_picture_side_planes(pixels.view))
+    for (const dvec3& inward : picture_planes(pixels.view))
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
     const double distance = glm::length(seen);
-    if (distance <= radius) return cube_edge_texels_for_footprint(pixels.camera_angle_per_pixel(0));
+    if (distance <= radius) return edge_for_footprint(pixels.pixel_angle(0));
     // Samples the sphere in the plane of the axis and its centre, outwards from the centre, because
     // pixels shrink in that direction.
-    const double axis = std::acos(
-        glm::clamp(cosine_to_view_axis(pixels.view, dvec3(centre)), -1., 1.));
+    const double axis = std::acos(glm::clamp(cosine_to_view(pixels.view, dvec3(centre)), -1., 1.));
     constexpr int kCurvatureRadiusSamples = 64;
     double need = 0;
     for (int k = 0; k < kCurvatureRadiusSamples; ++k) {
@@ -122,41 +116,37 @@ double cube_edge_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& ce
                               kCurvatureRadiusSamples; // distance of the ray from the centre
         const double cosine = std::sqrt(1 - across * across / (radius * radius));
         const double along = std::sqrt(distance * distance - across * across) - radius * cosine;
-        const double pixel = pixels.camera_angle_per_pixel(
-            std::cos(axis + std::asin(across / distance)));
-        need = std::max(need, cube_edge_texels_for_footprint(angle_between_reflected_pixels(
-                                  pixel, along, 1 / radius, cosine)));
+        const double pixel = pixels.pixel_angle(std::cos(axis + std::asin(across / distance)));
+        need = std::max(need,
+                        edge_for_footprint(pixel_footprint(pixel, along, 1 / radius, cosine)));
     }
     return need;
 }
 
-double cube_edge_needed_by_mesh(const PicturePixelGrid& pixels,
-                                std::span<const shared::Vertex> vertices,
-                                std::span<const std::uint32_t> indices) {
+double edge_for_mesh(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
+                     std::span<const std::uint32_t> indices) {
     double need = 0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
-        MirrorMeshTriangle facet;
+        MirrorFacet facet;
         for (std::size_t j = 0; j < 3; ++j) {
             const shared::Vertex& vertex = vertices[indices[k + j]];
             facet.position[j] = dvec3(vertex.position), facet.normal[j] = dvec3(vertex.normal);
         }
         const dvec3 area = glm::cross(facet.position[1] - facet.position[0],
                                       facet.position[2] - facet.position[0]);
-        if (glm::length(area) > 0 && is_facet_in_picture(pixels, facet))
-            need = std::max(need, cube_edge_needed_by_facet(pixels, facet));
+        if (glm::length(area) > 0 && is_in_picture(pixels, facet))
+            need = std::max(need, edge_for_facet(pixels, facet));
     }
     return need;
 }
 
-double cube_edge_needed_by_lobe(double alpha) {
-    return f64::alpha_of_capture_level(1., 1.) / alpha;
-}
+double edge_for_lobe(double alpha) { return f64::alpha_of_capture_level(1., 1.) / alpha; }
 
-std::uint32_t choose_common_capture_face_edge(std::span<const double> needs, std::uint32_t most) {
+std::uint32_t choose_common_edge(std::span<const double> needs, std::uint32_t most) {
     const double need = needs.empty() ? 0 : *std::ranges::max_element(needs);
     if (!(need < most)) return most;
-    const auto multiples = static_cast<std::uint32_t>(std::ceil(need / kCaptureEdgeMultiple));
-    return std::min(std::max(multiples, 1u) * kCaptureEdgeMultiple, most);
+    const auto multiples = static_cast<std::uint32_t>(std::ceil(need / kEdgeMultiple));
+    return std::min(std::max(multiples, 1u) * kEdgeMultiple, most);
 }
 
 } // namespace catoptric::render

@@ -14,15 +14,15 @@ namespace catoptric::render {
 
 /// The pixels of a picture as the eye sees them: squares on a plane. Towards the edge of the
 /// picture they turn away from the eye and lie farther off.
-struct PicturePixelGrid {
+struct PixelGrid {
     shared::View view;
     std::uint32_t height = 1; ///< height of the picture in pixels
 
     /// Returns the smallest angle between neighbouring pixels. `cosine`: of the direction's angle
     /// to the axis, above 0. Directions beyond the picture's corner count as the corner.
-    double camera_angle_per_pixel(double cosine) const;
+    double pixel_angle(double cosine) const;
     /// Returns the cosine of the angle between the axis and the corner of the picture.
-    double cosine_to_view_at_corner() const;
+    double corner_cosine() const;
 };
 
 /// Returns the angle between the reflected directions of two neighbouring pixels on a mirror at
@@ -32,34 +32,31 @@ struct PicturePixelGrid {
 /// the footprint of a concave mirror shrinks to nothing. The result is therefore never smaller than
 /// the footprint of a flat mirror.
 /// `cosine`: of the angle of incidence, above 0.
-double angle_between_reflected_pixels(double pixel_angle, double distance, double curvature,
-                                      double cosine);
+double pixel_footprint(double pixel_angle, double distance, double curvature, double cosine);
 
 /// Returns the texels along the edge of a cube face, (pi/2) / footprint, not rounded. With that
 /// many texels across its right angle, a face has the footprint as mean texel angle.
-double cube_edge_texels_for_footprint(double footprint);
+double edge_for_footprint(double footprint);
 
-/// Returns the largest cube_edge_texels_for_footprint on a sphere. The maximum lies near the
+/// Returns the largest edge_for_footprint on a sphere. The maximum lies near the
 /// sphere's point that is closest to the eye. Returns 0 for a sphere outside the picture.
-double cube_edge_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre,
-                                  double radius);
+double edge_for_sphere(const PixelGrid& pixels, const vec3& centre, double radius);
 
-/// Returns the largest cube_edge_texels_for_footprint of a mesh's triangles. Each triangle uses the
+/// Returns the largest edge_for_footprint of a mesh's triangles. Each triangle uses the
 /// two principal curvatures that its corner normals give (Rusinkiewicz 2004), and the pixel angle
 /// at the corner farthest from the axis. Facets without smooth normals are flat. Both sides of a
 /// triangle count as reflecting. Objects that hide the mirror are ignored. Returns 0 if no triangle
 /// with an area is in the picture.
-double cube_edge_needed_by_mesh(const PicturePixelGrid& pixels,
-                                std::span<const shared::Vertex> vertices,
-                                std::span<const std::uint32_t> indices);
+double edge_for_mesh(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
+                     std::span<const std::uint32_t> indices);
 
 /// Returns the texels along the edge of a cube face that a rough surface needs: with them, the
 /// lobe's width alpha is that of the first filtered level (shaders/lib/math/rough.glsl). A finer
 /// capture would be filtered to the same picture. `alpha`: above 0.
-double cube_edge_needed_by_lobe(double alpha);
+double edge_for_lobe(double alpha);
 
 /// Returns the common edge of captures in one cube array: the largest need, rounded up to a
 /// multiple of 16, at least 16 and at most `most`. The small multiple keeps the excess small.
-std::uint32_t choose_common_capture_face_edge(std::span<const double> needs, std::uint32_t most);
+std::uint32_t choose_common_edge(std::span<const double> needs, std::uint32_t most);
 
 } // namespace catoptric::render

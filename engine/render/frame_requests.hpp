@@ -26,7 +26,7 @@ public:
     }
     /// A pass traces rays. `first_hits`: they start at triangles that the rasteriser has drawn
     /// (shaders/lib/first_hit.glsl).
-    void trace_rays(SphereIntersectionMode spheres, bool first_hits) {
+    void trace_rays(SphereMode spheres, bool first_hits) {
         traces_[static_cast<std::size_t>(spheres)] = true;
         first_hits_ = first_hits_ || first_hits;
     }
@@ -36,7 +36,7 @@ public:
     void draw_soft_shadows() { lamp_extents_ = true; }
 
     const std::vector<shared::View>& views() const { return views_; }
-    bool traces_rays(SphereIntersectionMode spheres) const {
+    bool traces_rays(SphereMode spheres) const {
         return traces_[static_cast<std::size_t>(spheres)];
     }
     bool starts_at_first_hits() const { return first_hits_; }
@@ -46,7 +46,7 @@ public:
 private:
     std::uint32_t first_view_ = 0;
     std::vector<shared::View> views_;
-    std::array<bool, 2> traces_{}; ///< by SphereIntersectionMode
+    std::array<bool, 2> traces_{}; ///< by SphereMode
     bool first_hits_ = false, lamp_points_ = false, lamp_extents_ = false;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Returns whether the triangle is clockwise as seen from the side of its normals. Mirrored objects
 /// and badly written files have such triangles.
-bool is_triangle_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& triangle) {
+bool is_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& triangle) {
     const shared::Vertex &a = vertices[triangle.x], &b = vertices[triangle.y],
                          &c = vertices[triangle.z];
     return dot(glm::cross(b.position - a.position, c.position - a.position),
@@ -23,22 +23,20 @@ bool is_triangle_clockwise(const std::vector<shared::Vertex>& vertices, const uv
 
 /// Writes the indices of one object into the geometry.
 void write_object_indices(FrameGeometry& geometry, const scene::Mesh& mesh,
-                          const ObjectDrawRange& range) {
+                          const DrawRange& range) {
     std::size_t index = range.first_index;
     for (uvec3 triangle : mesh.triangles) {
         triangle += range.first_vertex;
-        if (range.one_sided && !range.casts_shadow &&
-            is_triangle_clockwise(geometry.vertices, triangle))
+        if (range.one_sided && !range.casts_shadow && is_clockwise(geometry.vertices, triangle))
             std::swap(triangle.y, triangle.z);
         for (int i = 0; i < 3; ++i) geometry.indices[index++] = triangle[i];
     }
 }
 
 /// Writes the vertices that all copies of a mesh share. Returns the object space of the mesh.
-SharedMeshCoordinateSpace write_shared_mesh_vertices(FrameGeometry& geometry,
-                                                     const scene::Mesh& mesh,
-                                                     const ObjectDrawRange& range) {
-    SharedMeshCoordinateSpace space = make_mesh_space(mesh);
+MeshSpace write_mesh_vertices(FrameGeometry& geometry, const scene::Mesh& mesh,
+                              const DrawRange& range) {
+    MeshSpace space = make_mesh_space(mesh);
     const dmat3 to_own(space.unit), normal_to_own(1);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const vec3 position(to_own * (mesh.positions[i] - space.middle));
@@ -51,18 +49,18 @@ SharedMeshCoordinateSpace write_shared_mesh_vertices(FrameGeometry& geometry,
 }
 
 /// Writes the vertices of a single object into its object space. Returns whether they changed.
-bool write_object_space_vertices(FrameGeometry& geometry, const scene::Scene& now,
-                                 const SceneUnitTransform& space, std::size_t index) {
+bool write_own_vertices(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                        std::size_t index) {
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
-    ObjectDrawRange& range = geometry.ranges[index];
+    DrawRange& range = geometry.ranges[index];
     range.own = make_object_space(now, object, space);
     // Transforms the mesh relative to the middle of the space.
     const dvec3 middle = make_mesh_space(mesh).middle;
     const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
                 turn = own_from_scene * space.scale * dmat3(object.world_from_object),
                 normal_to_own = scene::normal_matrix(object.world_from_object);
-    const dvec3 at_middle = own_from_scene * (space.world_to_scene_units(scene::transform_point(
+    const dvec3 at_middle = own_from_scene * (space.to_scene(scene::transform_point(
                                                   object.world_from_object, middle)) -
                                               range.own->centre);
     Bounds<double> box;
@@ -76,21 +74,20 @@ bool write_object_space_vertices(FrameGeometry& geometry, const scene::Scene& no
         changed = changed || kept.position != vertex.position || kept.normal != vertex.normal;
         kept = vertex;
     }
-    range.bounds = mesh.positions.empty() ? Bounds<float>()
-                                          : object_bounds_in_scene_units(*range.own, box);
+    range.bounds = mesh.positions.empty() ? Bounds<float>() : scene_bounds(*range.own, box);
     return changed;
 }
 
 /// Writes the object's vertices in scene units.
-void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now,
-                                const SceneUnitTransform& space, std::size_t index) {
+void write_scene_vertices(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                          std::size_t index) {
     const dmat4& world_from_object = now.objects[index].world_from_object;
     const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
     const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
-    ObjectDrawRange& range = geometry.ranges[index];
+    DrawRange& range = geometry.ranges[index];
     range.bounds = {};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const vec3 position = space.world_to_scene_point(
+        const vec3 position = space.to_scene_point(
             dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
         range.bounds.add(position);
         geometry.vertices[range.first_vertex + i] = {
@@ -100,7 +97,7 @@ void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now
 
 /// Returns whether the material has a factor, other than those of glTF itself, that is not at its
 /// default.
-bool has_extra_material_factors(const scene::Material& material) {
+bool has_extra_factors(const scene::Material& material) {
     const scene::Material usual;
     return std::ranges::any_of(scene::kMaterialFactors, [&](const scene::MaterialFactor& factor) {
         return factor.extension != scene::kCoreFactors &&
@@ -113,13 +110,13 @@ bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
            material.normal_texture || material.unlit || scene::has_alpha_mask(material) ||
-           has_extra_material_factors(material) ||
+           has_extra_factors(material) ||
            (material.mirror ? throws_back || scene::is_visibly_emissive(material)
                             : scene::has_specular(material));
 }
 
 /// Returns whether a mirror shows nothing except reflections.
-bool mirror_shows_only_reflections(const scene::Mesh& mesh, const scene::Material& material) {
+bool only_reflects(const scene::Mesh& mesh, const scene::Material& material) {
     if (scene::is_visibly_emissive(material)) return false;
     if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
     return material.metallic == 1 && mesh.colours.empty() && !material.albedo_texture &&
@@ -127,10 +124,10 @@ bool mirror_shows_only_reflections(const scene::Mesh& mesh, const scene::Materia
 }
 
 /// Returns the properties of an object that do not depend on its place.
-ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) {
+DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) {
     const scene::Mesh& mesh = now.meshes[object.mesh];
     const scene::Material& material = now.materials[object.material];
-    ObjectDrawRange range;
+    DrawRange range;
     range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     range.mirror = scene::is_mirror(now, object);
@@ -157,9 +154,8 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     // Captures do not show lights without a surface, so a rough mirror shows their highlights
     // itself. The surface below a clear coat may be too rough for captures, and is then lit by
     // lights.
-    range.lit = range.mirror &&
-                (range.clear_coat || !mirror_shows_only_reflections(mesh, material) ||
-                 (range.has_lobe && !now.punctual.empty()));
+    range.lit = range.mirror && (range.clear_coat || !only_reflects(mesh, material) ||
+                                 (range.has_lobe && !now.punctual.empty()));
     return range;
 }
 
@@ -167,16 +163,16 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
 /// first. Copies that share a mesh have one common range.
 void assign_geometry_ranges(FrameGeometry& geometry, const scene::Scene& now) {
     std::uint32_t vertices = 0, indices = 0;
-    const auto store = [&](ObjectDrawRange& range) {
+    const auto store = [&](DrawRange& range) {
         range.first_index = indices, range.first_vertex = vertices;
         vertices += range.vertex_count, indices += range.index_count;
     };
-    for (ObjectDrawRange& range : geometry.ranges)
+    for (DrawRange& range : geometry.ranges)
         if (!range.own) store(range);
     geometry.flat_indices = indices;
     std::vector<std::optional<std::uint32_t>> first_with(now.meshes.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        ObjectDrawRange& range = geometry.ranges[i];
+        DrawRange& range = geometry.ranges[i];
         if (!range.own) continue;
         std::optional<std::uint32_t>& first = first_with[now.objects[i].mesh];
         if (range.shares && first) {
@@ -214,37 +210,35 @@ void assign_attribute_ranges(FrameGeometry& geometry, const scene::Scene& now) {
 
 } // namespace
 
-FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnitTransform& space,
-                                  VertexCoordinateSpaceChoice spaces) {
+FrameGeometry make_geometry(const scene::Scene& now, const SceneUnits& space, VertexSpaces spaces) {
     FrameGeometry geometry{.core = space.core, .spaces = spaces};
-    const std::vector<bool> shared = spaces == VertexCoordinateSpaceChoice::object_space
-                                         ? find_objects_sharing_meshes(now)
+    const std::vector<bool> shared = spaces == VertexSpaces::object_space
+                                         ? find_sharing_objects(now)
                                          : std::vector<bool>(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        ObjectDrawRange range = make_draw_range(now, now.objects[i]);
+        DrawRange range = make_draw_range(now, now.objects[i]);
         range.storage = static_cast<std::uint32_t>(i);
         range.shares = shared[i];
-        if (range.shares || (spaces == VertexCoordinateSpaceChoice::object_space &&
-                             is_object_small_for_its_distance(now, now.objects[i], space)))
+        if (range.shares || (spaces == VertexSpaces::object_space &&
+                             is_small_for_distance(now, now.objects[i], space)))
             range.own.emplace();
         geometry.ranges.push_back(range);
     }
     assign_geometry_ranges(geometry, now);
     assign_attribute_ranges(geometry, now);
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        const ObjectDrawRange& range = geometry.ranges[i];
+        const DrawRange& range = geometry.ranges[i];
         const std::size_t mesh = now.objects[i].mesh;
         if (range.shares && range.storage == i)
-            geometry.mesh_spaces[mesh] = write_shared_mesh_vertices(geometry, now.meshes[mesh],
-                                                                    range);
-        move_object_geometry(geometry, now, space, i);
+            geometry.mesh_spaces[mesh] = write_mesh_vertices(geometry, now.meshes[mesh], range);
+        move_object(geometry, now, space, i);
     }
     return geometry;
 }
 
 /// Returns the radius of a sphere around the middle of the object's bounds that contains the
 /// object.
-float compute_bounding_radius(const FrameGeometry& geometry, const ObjectDrawRange& range) {
+float bounding_radius(const FrameGeometry& geometry, const DrawRange& range) {
     constexpr float kBoundingRadiusMargin = 1 + 0x1p-20f;
     if (range.bounds.empty()) return 0;
     if (range.own) return kBoundingRadiusMargin * length(range.bounds.extent()) / 2;
@@ -257,37 +251,36 @@ float compute_bounding_radius(const FrameGeometry& geometry, const ObjectDrawRan
     return kBoundingRadiusMargin * std::sqrt(squared);
 }
 
-bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
-                              const SceneUnitTransform& space, std::size_t object) {
-    if (geometry.spaces == VertexCoordinateSpaceChoice::scene_space) return false;
-    const ObjectDrawRange& range = geometry.ranges[object];
-    if (range.shares) return !may_object_share_mesh(now, now.objects[object]);
-    return range.own.has_value() !=
-           is_object_small_for_its_distance(now, now.objects[object], space);
+bool needs_other_space(const FrameGeometry& geometry, const scene::Scene& now,
+                       const SceneUnits& space, std::size_t object) {
+    if (geometry.spaces == VertexSpaces::scene_space) return false;
+    const DrawRange& range = geometry.ranges[object];
+    if (range.shares) return !may_share_mesh(now, now.objects[object]);
+    return range.own.has_value() != is_small_for_distance(now, now.objects[object], space);
 }
 
-bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now,
-                          const SceneUnitTransform& space, std::size_t index) {
+bool move_object(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                 std::size_t index) {
     const scene::Object& object = now.objects[index];
-    ObjectDrawRange& range = geometry.ranges[index];
+    DrawRange& range = geometry.ranges[index];
     bool changed = !range.shares;
     if (range.shares) {
-        const SharedMeshCoordinateSpace& mesh = geometry.mesh_spaces.at(object.mesh);
+        const MeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
         range.own = make_object_space(mesh, object.world_from_object, space);
-        range.bounds = object_bounds_in_scene_units(*range.own, mesh.box);
+        range.bounds = scene_bounds(*range.own, mesh.box);
     } else if (range.own) {
-        changed = write_object_space_vertices(geometry, now, space, index);
+        changed = write_own_vertices(geometry, now, space, index);
     } else {
-        write_scene_space_vertices(geometry, now, space, index);
+        write_scene_vertices(geometry, now, space, index);
     }
-    range.radius = compute_bounding_radius(geometry, range);
+    range.radius = bounding_radius(geometry, range);
     range.flipped = !(glm::determinant(dmat3(object.world_from_object)) > 0);
     check_object_distance(range.bounds, object.name);
     if (!range.shares) write_object_indices(geometry, now.meshes[object.mesh], range);
     return changed;
 }
 
-float squared_distance_from_point_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c) {
     const vec3 ab = b - a, ac = c - a, ap = p - a;
     const float d1 = dot(ab, ap), d2 = dot(ac, ap);
     const auto to = [&](vec3 closest) { return dot(p - closest, p - closest); };

@@ -11,13 +11,13 @@
 namespace catoptric::render {
 
 /// The choice of objects that are stored in object space.
-enum class VertexCoordinateSpaceChoice {
+enum class VertexSpaces {
     scene_space, ///< none: all vertices are in scene units
-    object_space ///< some: see make_frame_geometry
+    object_space ///< some: see make_geometry
 };
 
 /// The triangles of one object in the shared buffers, and its properties.
-struct ObjectDrawRange {
+struct DrawRange {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
     std::uint32_t first_vertex = 0;
@@ -61,36 +61,35 @@ struct ObjectDrawRange {
 struct FrameGeometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<ObjectDrawRange> ranges;
+    std::vector<DrawRange> ranges;
     /// Vertex attributes, stored once for each mesh that has them.
     std::vector<shared::VertexAttribute> attributes;
     /// Object spaces of meshes that copies share, by mesh index.
-    std::map<std::size_t, SharedMeshCoordinateSpace> mesh_spaces;
-    Bounds<float> core; ///< bounds of most of the scene (SceneUnitTransform::core)
-    VertexCoordinateSpaceChoice spaces = VertexCoordinateSpaceChoice::scene_space;
+    std::map<std::size_t, MeshSpace> mesh_spaces;
+    Bounds<float> core; ///< bounds of most of the scene (SceneUnits::core)
+    VertexSpaces spaces = VertexSpaces::scene_space;
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };
-/// Builds the geometry of a scene. With VertexCoordinateSpaceChoice::object_space, an object keeps
-/// an object space if it is small (is_object_small_for_its_distance) or one of many copies
-/// (find_objects_sharing_meshes). Costs O(n) in stored vertices and triangles; a copy that shares
+/// Builds the geometry of a scene. With VertexSpaces::object_space, an object keeps
+/// an object space if it is small (is_small_for_distance) or one of many copies
+/// (find_sharing_objects). Costs O(n) in stored vertices and triangles; a copy that shares
 /// its mesh costs O(1).
-FrameGeometry
-make_frame_geometry(const scene::Scene& now, const SceneUnitTransform& space,
-                    VertexCoordinateSpaceChoice spaces = VertexCoordinateSpaceChoice::scene_space);
+FrameGeometry make_geometry(const scene::Scene& now, const SceneUnits& space,
+                            VertexSpaces spaces = VertexSpaces::scene_space);
 
-/// Returns whether `make_frame_geometry` would now choose another kind of space for the object.
-bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
-                              const SceneUnitTransform& space, std::size_t object);
+/// Returns whether `make_geometry` would now choose another kind of space for the object.
+bool needs_other_space(const FrameGeometry& geometry, const scene::Scene& now,
+                       const SceneUnits& space, std::size_t object);
 
 /// Moves the triangles of an object to where the object is in `now`. Only the place of the object
-/// may have changed since `make_frame_geometry`. Returns whether vertices changed: no vertex
+/// may have changed since `make_geometry`. Returns whether vertices changed: no vertex
 /// changes if the object has a coordinate space of its own, which then moves. Throws as
 /// check_object_distance does.
-bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now,
-                          const SceneUnitTransform& space, std::size_t index);
+bool move_object(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                 std::size_t index);
 
 /// Returns the squared distance from p to the triangle (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
-float squared_distance_from_point_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c);
+float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c);
 
 } // namespace catoptric::render

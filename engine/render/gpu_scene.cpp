@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint32_t kNoMirrorNumber = 0;
 
-shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
-                                   std::uint32_t mirror, const SceneUnitTransform& space) {
+shared::Surface surface_entry(const scene::Object& object, const scene::Material& material,
+                              std::uint32_t mirror, const SceneUnits& space) {
     shared::Surface surface{};
     // The diffuse light of a mirror matters only if the mirror reflects less than all light.
     const bool is_pure = material.mirror && material.reflectance == vec3(1);
@@ -31,19 +31,19 @@ shared::Surface make_surface_entry(const scene::Object& object, const scene::Mat
     surface.reflectance = material.reflectance;
     surface.mirror = mirror;
     if (object.sphere) {
-        surface.centre = space.world_to_scene_point(object.sphere->centre);
-        surface.radius = space.world_to_scene_length(object.sphere->radius);
+        surface.centre = space.to_scene_point(object.sphere->centre);
+        surface.radius = space.to_scene_length(object.sphere->radius);
     }
     return surface;
 }
 
 /// Returns the flat faces of a mirror, in scene units.
-scene::FlatFaces flat_mirror_faces_in_scene_units(const SceneUnitTransform& space,
-                                                  const scene::Scene& now, std::size_t object) {
+scene::FlatFaces scene_flat_faces(const SceneUnits& space, const scene::Scene& now,
+                                  std::size_t object) {
     scene::FlatFaces flats = scene::find_flat_faces(now, now.objects[object]);
     for (scene::FlatFace& face : flats.faces) {
-        face.point = space.world_to_scene_units(face.point);
-        for (dvec3& corner : face.corners) corner = space.world_to_scene_units(corner);
+        face.point = space.to_scene(face.point);
+        for (dvec3& corner : face.corners) corner = space.to_scene(corner);
     }
     return flats;
 }
@@ -63,17 +63,15 @@ std::vector<bool> find_moving_objects(const scene::Scene& scene) {
 }
 
 /// Returns the scene after checking that it fits on the device.
-const scene::Scene& check_scene_fits_device_limits(const gpu::Device& device,
-                                                   const scene::Scene& scene) {
-    check_geometry_limits(scene.name, count_scene_amounts(scene),
-                          {device.max_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
-                           device.max_allocation(), device.memory_budget()});
+const scene::Scene& check_fits(const gpu::Device& device, const scene::Scene& scene) {
+    check_limits(scene.name, count_amounts(scene),
+                 {device.max_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
+                  device.max_allocation(), device.memory_budget()});
     return scene;
 }
 
 /// Returns the objects that are in all lists. `lists`: by object, 1 for an object in the list.
-std::vector<std::uint8_t>
-intersect_object_flag_lists(const std::vector<std::vector<std::uint8_t>>& lists) {
+std::vector<std::uint8_t> intersect_flags(const std::vector<std::vector<std::uint8_t>>& lists) {
     if (lists.empty()) return {};
     std::vector<std::uint8_t> result = lists.front();
     for (const std::vector<std::uint8_t>& list : lists)
@@ -84,8 +82,7 @@ intersect_object_flag_lists(const std::vector<std::vector<std::uint8_t>>& lists)
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
-    : scene_device_(device),
-      space_(make_scene_units(check_scene_fits_device_limits(device, scene))),
+    : device_(device), space_(make_scene_units(check_fits(device, scene))),
       vertices_(find_moving_objects(scene), slots),
       view_buffer_("views", gpu::BufferUsage::plain, slots),
       frame_("frame", gpu::BufferUsage::uniform, slots),
@@ -103,23 +100,23 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     update_ms_ = 0, hierarchy_ms_before_ = tracing_.bvh_update_ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot;
-    const SceneChanges changes = seen_.update_and_find_scene_changes(now, !complete_);
+    const SceneChanges changes = seen_.update(now, !complete_);
     complete_ = false; // stays false if the update throws; then the next update writes all data
     if (changes.layout)
-        rebuild_geometry_layout(now);
+        rebuild_layout(now);
     else
         move_objects(now, changes.moved);
-    const bool moves_vertices = vertices_.geometry_set_count() != known_layouts_;
+    const bool moves_vertices = vertices_.layout_count() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
         material_details_.fill(now, space_, geometry_, vertices_,
-                               scene_device_.max_texels(sizeof(std::uint32_t)));
+                               device_.max_texels(sizeof(std::uint32_t)));
     if (changes.has_shape_changes() || changes.materials || moves_vertices) {
-        fill_surface_table(now);
+        fill_surfaces(now);
         has_lamp_table_ = false;
     }
-    if (changes.has_shape_changes()) fill_instance_placement_table();
-    known_layouts_ = vertices_.geometry_set_count();
-    if (changes.has_shape_changes() || changes.lights) fill_light_table(now, changes.lights);
+    if (changes.has_shape_changes()) fill_placements();
+    known_layouts_ = vertices_.layout_count();
+    if (changes.has_shape_changes() || changes.lights) fill_lights(now, changes.lights);
     const auto environment_rays = now.environment
                                       ? static_cast<std::uint32_t>(now.environment_shadows)
                                       : 0;
@@ -127,30 +124,28 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         (environment_rays > 0) != (environment_shadow_rays_ > 0)) {
         backdrops_.clear();
         for (const shared::Light& light : lights_)
-            backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
+            backdrops_.push_back(find_backdrops(geometry_, light));
         // Objects behind which no light lies still hide the environment.
-        tracing_.set_backdrop_objects(environment_rays > 0
-                                          ? std::vector<std::uint8_t>()
-                                          : intersect_object_flag_lists(backdrops_));
+        tracing_.set_backdrops(environment_rays > 0 ? std::vector<std::uint8_t>()
+                                                    : intersect_flags(backdrops_));
     }
-    environment_.set_environment(now.environment, material_details_.has_lobe_surfaces(),
-                                 now.environment_shadows > 0);
+    environment_.set(now.environment, material_details_.has_lobes(), now.environment_shadows > 0);
     environment_shadow_rays_ = environment_rays;
     if (changes.has_shape_changes() || changes.lights || changes.materials)
-        fill_mirror_probe_table(now, changes);
+        fill_probes(now, changes);
     if (changes.has_shape_changes() || changes.lights || !are_cameras_equal(camera_, camera) ||
         size_ != size)
-        fill_view_table(camera, size);
-    fill_frame_uniforms(ambient);
-    write_scene_buffers_to_device(slot);
+        fill_views(camera, size);
+    fill_uniforms(ambient);
+    write_buffers(slot);
     complete_ = true;
     if (first_update_ms_ == 0) first_update_ms_ = watch.elapsed_ms();
 }
 
-void GpuScene::rebuild_geometry_layout(const scene::Scene& now) {
-    geometry_ = make_frame_geometry(now, space_, VertexCoordinateSpaceChoice::object_space);
+void GpuScene::rebuild_layout(const scene::Scene& now) {
+    geometry_ = make_geometry(now, space_, VertexSpaces::object_space);
     has_object_spaces_ = std::ranges::any_of(
-        geometry_.ranges, [](const ObjectDrawRange& range) { return range.own.has_value(); });
+        geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
     closed_volumes_.clear();
     find_closed_shells(now);
@@ -163,7 +158,7 @@ void GpuScene::rebuild_geometry_layout(const scene::Scene& now) {
 void GpuScene::find_closed_shells(const scene::Scene& now) {
     std::map<std::size_t, bool> known; // by mesh
     for (const std::size_t object : mirror_objects_) {
-        ObjectDrawRange& range = geometry_.ranges[object];
+        DrawRange& range = geometry_.ranges[object];
         if (!range.exact_sphere || range.masked) continue;
         const std::size_t mesh = now.objects[object].mesh;
         if (!known.contains(mesh)) known[mesh] = is_closed_shell(now.meshes[mesh]);
@@ -173,52 +168,51 @@ void GpuScene::find_closed_shells(const scene::Scene& now) {
 
 void GpuScene::move_objects(const scene::Scene& now, const std::vector<std::size_t>& objects) {
     if (std::ranges::any_of(objects, [&](std::size_t object) {
-            return needs_other_vertex_space(geometry_, now, space_, object);
+            return needs_other_space(geometry_, now, space_, object);
         }))
-        return rebuild_geometry_layout(now);
+        return rebuild_layout(now);
     bool rebuild = false;
     for (const std::size_t object : objects) {
-        const bool changed = move_object_geometry(geometry_, now, space_, object);
-        nearest_.record_moved_object(object);
-        tracing_.record_moved_object(object, changed);
-        const bool unexpected = changed && vertices_.record_moved_object(object);
+        const bool changed = move_object(geometry_, now, space_, object);
+        nearest_.record_move(object);
+        tracing_.record_move(object, changed);
+        const bool unexpected = changed && vertices_.record_move(object);
         rebuild = rebuild || unexpected || geometry_.ranges[object].one_sided; // indices may change
     }
     if (rebuild)
         vertices_.set_geometry(geometry_);
     else if (!objects.empty())
-        vertices_.copy_moved_vertices(geometry_);
+        vertices_.copy_moved(geometry_);
 }
 
-void GpuScene::fill_surface_table(const scene::Scene& now) {
+void GpuScene::fill_surfaces(const scene::Scene& now) {
     surfaces_.clear();
     std::uint32_t mirrors = 0;
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
-        surfaces_.push_back(make_surface_entry(
+        surfaces_.push_back(surface_entry(
             object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirrorNumber, space_));
-        surfaces_.back().detail =
-            material_details_.material_parameter_indices()[surfaces_.size() - 1];
+        surfaces_.back().detail = material_details_.indices()[surfaces_.size() - 1];
     }
     // The ray traversal intersects exact spheres that are stored in object space, so the shaders'
     // list of spheres leaves them out.
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
-    surface_buffer_.set_device_list_contents(pack_structs_into_texels(listed));
+    surface_buffer_.set(to_texels(listed));
 }
 
 /// Lists the triangles of lamps, for rays that aim at points on lamps.
-void GpuScene::fill_lamp_table() {
+void GpuScene::fill_lamps() {
     const std::vector<vec4> table = make_lamp_table(geometry_, surfaces_);
     has_sampled_lamps_ = !table.empty();
-    if (has_sampled_lamps_) lamp_buffer_.set_device_list_contents(table);
+    if (has_sampled_lamps_) lamp_buffer_.set(table);
     has_lamp_table_ = true;
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object
 /// has an object space.
-void GpuScene::fill_instance_placement_table() {
+void GpuScene::fill_placements() {
     std::vector<shared::Placement> placements(has_object_spaces_ ? geometry_.ranges.size() : 1);
     for (std::size_t i = 0; has_object_spaces_ && i < placements.size(); ++i) {
         const std::optional<ObjectSpace>& own = geometry_.ranges[i].own;
@@ -227,22 +221,22 @@ void GpuScene::fill_instance_placement_table() {
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
                          bvh::float_rounding_error(own->centre)};
     }
-    placement_buffer_.set_device_list_contents(placements);
+    placement_buffer_.set(placements);
 }
 
-bool GpuScene::has_nonspherical_or_lit_mirrors() const {
-    return std::ranges::any_of(geometry_.ranges, [](const ObjectDrawRange& range) {
+bool GpuScene::has_complex_mirrors() const {
+    return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) {
         return range.mirror && (!range.exact_sphere || range.lit);
     });
 }
 
 /// Returns the largest ball around `centre`, scene units, that lies inside the object. Its radius
 /// is 0 if the object does not hide its own back.
-InnerOccluderBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
-    InnerOccluderBall ball{vec3(centre), 0, object};
+InnerBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
+    InnerBall ball{vec3(centre), 0, object};
     if (geometry_.ranges[object].shell)
-        ball.radius = nearest_.distance_to_nearest_triangle(
-            geometry_, centre, [&](std::size_t i, const ObjectDrawRange&) { return i != object; });
+        ball.radius = nearest_.distance(
+            geometry_, centre, [&](std::size_t i, const DrawRange&) { return i != object; });
     return ball;
 }
 
@@ -261,8 +255,8 @@ void GpuScene::place_probe(const scene::Scene& now, std::size_t mirror) {
     const std::size_t object = mirror_objects_[mirror];
     const auto within = middle_covered_[mirror] ? std::span<const std::size_t>(within_[mirror])
                                                 : std::span<const std::size_t>();
-    probe_places_[mirror] = space_.world_to_scene_units(scene::capture_centre(now, object, within));
-    flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
+    probe_places_[mirror] = space_.to_scene(scene::capture_centre(now, object, within));
+    flats_[mirror] = scene_flat_faces(space_, now, object);
     inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
 }
 
@@ -275,7 +269,7 @@ std::optional<scene::GlassBody> GpuScene::find_glass_body(const scene::Scene& no
 }
 
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
-void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChanges& changes) {
+void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     flats_.resize(mirror_objects_.size()), inner_balls_.resize(mirror_objects_.size());
@@ -283,7 +277,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
     middle_covered_.resize(mirror_objects_.size());
     scene_views_.clear();
     std::vector<Bounds<double>> of_objects;
-    for (const ObjectDrawRange& range : geometry_.ranges)
+    for (const DrawRange& range : geometry_.ranges)
         of_objects.push_back({dvec3(range.bounds.lo), dvec3(range.bounds.hi)});
     const auto has_moved = [&](std::size_t object) {
         return std::ranges::binary_search(changes.moved, object);
@@ -318,9 +312,9 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
         probe.holds = within_[mirror].empty() ? 0 : 1;
-        const float gap = nearest_.distance_to_nearest_triangle(
+        const float gap = nearest_.distance(
             geometry_, probe_places_[mirror],
-            [&](std::size_t i, const ObjectDrawRange&) { return i == object; });
+            [&](std::size_t i, const DrawRange&) { return i == object; });
         for (shared::View& view : make_cube_views(probe.centre, gap)) {
             view.eye_low = bvh::float_rounding_error(probe_places_[mirror]);
             scene_views_.push_back(view);
@@ -331,74 +325,72 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
             view.eye_low = bvh::float_rounding_error(light_places_[light]);
             scene_views_.push_back(view);
         }
-    probe_buffer_.set_device_list_contents(pack_structs_into_texels(probes_));
-    if (uses_bvh_over_mirrors()) mirror_tree_.set_device_list_contents(build_mirror_tree(probes_));
+    probe_buffer_.set(to_texels(probes_));
+    if (uses_mirror_tree()) mirror_tree_.set(build_mirror_tree(probes_));
 }
 
-void GpuScene::fill_frame_uniforms(double ambient) {
+void GpuScene::fill_uniforms(double ambient) {
     ambient_ = ambient;
-    frame_.set_device_list_contents(
+    frame_.set(
         std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
 }
 
-std::vector<double> GpuScene::find_needed_face_edges() const {
-    return find_needed_capture_face_edges(geometry_, mirror_objects_, probes_,
-                                          views_[kCameraViewIndex], eye_, size_.y);
+std::vector<double> GpuScene::needed_face_edges() const {
+    return find_needed_edges(geometry_, mirror_objects_, probes_, views_[kCameraViewIndex], eye_,
+                             size_.y);
 }
 
-std::uint32_t GpuScene::common_capture_face_edge() const {
-    return choose_common_capture_face_edge(face_needs_,
-                                           scene_device_.limits().maxImageDimensionCube);
+std::uint32_t GpuScene::common_face_edge() const {
+    return choose_common_edge(face_needs_, device_.limits().maxImageDimensionCube);
 }
 
-void GpuScene::write_scene_buffers_to_device(std::size_t slot) {
-    uploads_ += vertices_.write(scene_device_, slot) + environment_.write(scene_device_, slot);
+void GpuScene::write_buffers(std::size_t slot) {
+    uploads_ += vertices_.write(device_, slot) + environment_.write(device_, slot);
     for (DeviceList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
                                &light_buffer_, &probe_buffer_, &mirror_tree_, &lamp_buffer_})
-        uploads_ += buffer->upload_changed_pages(scene_device_, slot);
-    uploads_ += material_details_.write(scene_device_, slot);
+        uploads_ += buffer->write(device_, slot);
+    uploads_ += material_details_.write(device_, slot);
 }
 
 void GpuScene::bind(graph::PassCommands& commands) const {
-    commands.bind("frame", frame_.buffer_of_device_copy(slot_));
-    commands.bind("Views", view_buffer_.buffer_of_device_copy(slot_));
-    commands.bind("surface_texels", surface_buffer_.buffer_of_device_copy(slot_));
-    commands.bind("Placements", placement_buffer_.buffer_of_device_copy(slot_));
-    commands.bind("Lights", light_buffer_.buffer_of_device_copy(slot_));
-    commands.bind("probe_texels", probe_buffer_.buffer_of_device_copy(slot_));
-    commands.bind("mirror_nodes", mirror_tree_.buffer_of_device_copy(slot_));
-    commands.bind("lamp_texels", lamp_buffer_.buffer_of_device_copy(slot_));
-    if (binds_lamp_extents_)
-        commands.bind("LampExtents", lamp_extent_buffer_.buffer_of_device_copy(slot_));
+    commands.bind("frame", frame_.buffer(slot_));
+    commands.bind("Views", view_buffer_.buffer(slot_));
+    commands.bind("surface_texels", surface_buffer_.buffer(slot_));
+    commands.bind("Placements", placement_buffer_.buffer(slot_));
+    commands.bind("Lights", light_buffer_.buffer(slot_));
+    commands.bind("probe_texels", probe_buffer_.buffer(slot_));
+    commands.bind("mirror_nodes", mirror_tree_.buffer(slot_));
+    commands.bind("lamp_texels", lamp_buffer_.buffer(slot_));
+    if (binds_lamp_extents_) commands.bind("LampExtents", lamp_extent_buffer_.buffer(slot_));
     material_details_.bind(commands, slot_);
     environment_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
 }
 
-gpu::ShaderConstants GpuScene::shader_feature_constants(std::uint32_t view) const {
+gpu::ShaderConstants GpuScene::feature_constants(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", material_details_.has_varying_colours() ? 1u : 0u},
-            {"masks", material_details_.has_cut_out_surfaces() ? 1u : 0u},
-            {"has_lobes", material_details_.has_lobe_surfaces() ? 1u : 0u},
-            {"has_clear_coats", material_details_.any_clear_coat() ? 1u : 0u},
-            {"has_glass", material_details_.has_any_glass_material() ? 1u : 0u},
+            {"masks", material_details_.has_masks() ? 1u : 0u},
+            {"has_lobes", material_details_.has_lobes() ? 1u : 0u},
+            {"has_clear_coats", material_details_.has_clear_coats() ? 1u : 0u},
+            {"has_glass", material_details_.has_glass() ? 1u : 0u},
             {"has_nested_glass", material_details_.has_ranked_glass() ? 1u : 0u},
             {"has_blending", has_blended_surfaces() ? 1u : 0u},
             {"tints_shadows", has_tinted_shadows() ? 1u : 0u},
             {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},
-            {"environment_kind", environment_.shader_environment_kind()},
+            {"environment_kind", environment_.kind()},
             {"orthographic", views_[view].parallel},
-            {"mirror_tree", uses_bvh_over_mirrors() ? 1u : 0u}};
+            {"mirror_tree", uses_mirror_tree() ? 1u : 0u}};
 }
 
-gpu::ShaderConstants GpuScene::ray_tracing_feature_constants(SphereIntersectionMode spheres) const {
-    gpu::ShaderConstants constants = shader_feature_constants();
-    for (const auto& constant : make_tracer_constants(
-             scene_device_.variant_choices(), tracing_.largest_tree_buffer_bytes(spheres, slot_),
-             scene_device_.limits().maxStorageBufferRange))
+gpu::ShaderConstants GpuScene::tracing_constants(SphereMode spheres) const {
+    gpu::ShaderConstants constants = feature_constants();
+    for (const auto& constant : make_tracer_constants(device_.variant_choices(),
+                                                      tracing_.largest_buffer_bytes(spheres, slot_),
+                                                      device_.limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
 }
@@ -415,23 +407,22 @@ void GpuScene::fulfil(const FrameRequests& requests, const std::function<void()>
     views_.resize(next_view());
     views_.insert(views_.end(), requests.views().begin(), requests.views().end());
     if (!requests.views().empty()) {
-        if (view_buffer_.set_device_list_contents(views_)) wait_for_slot();
-        uploads_ += view_buffer_.upload_changed_pages(scene_device_, slot_);
+        if (view_buffer_.set(views_)) wait_for_slot();
+        uploads_ += view_buffer_.write(device_, slot_);
     }
     if (requests.samples_lamps()) {
-        if (!has_lamp_table_) fill_lamp_table();
-        uploads_ += lamp_buffer_.upload_changed_pages(scene_device_, slot_);
+        if (!has_lamp_table_) fill_lamps();
+        uploads_ += lamp_buffer_.write(device_, slot_);
     }
     binds_lamp_extents_ = requests.draws_soft_shadows();
     if (binds_lamp_extents_) {
-        fill_lamp_extent_table();
-        uploads_ += lamp_extent_buffer_.upload_changed_pages(scene_device_, slot_);
+        fill_lamp_extents();
+        uploads_ += lamp_extent_buffer_.write(device_, slot_);
     }
-    for (const SphereIntersectionMode spheres :
-         {SphereIntersectionMode::mesh, SphereIntersectionMode::exact})
+    for (const SphereMode spheres : {SphereMode::mesh, SphereMode::exact})
         if (requests.traces_rays(spheres))
-            tracing_.prepare_ray_tracing_trees(scene_device_, geometry_, surfaces_, spheres,
-                                               requests.starts_at_first_hits(), slot_);
+            tracing_.prepare(device_, geometry_, surfaces_, spheres,
+                             requests.starts_at_first_hits(), slot_);
 }
 
 } // namespace catoptric::render

@@ -19,7 +19,7 @@ struct LampTriangle {
 /// Appends the object's triangles that have an area.
 void add_lamp_triangles(const FrameGeometry& geometry, std::size_t object, double strength,
                         std::vector<LampTriangle>& triangles) {
-    const ObjectDrawRange& range = geometry.ranges[object];
+    const DrawRange& range = geometry.ranges[object];
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto corner = [&](std::uint32_t j) {
             const dvec3 own(geometry.vertices[geometry.indices[k + j]].position);
@@ -42,7 +42,7 @@ std::vector<vec4> make_lamp_table(const FrameGeometry& geometry,
                                 double(surfaces[i].emission.z);
         if (!(strength > 0)) continue;
         count += geometry.ranges[i].index_count / 3;
-        if (count > kMaxSampledLampTriangles) return {};
+        if (count > kMaxLampTriangles) return {};
         add_lamp_triangles(geometry, i, strength, triangles);
     }
     if (triangles.empty()) return {};
@@ -52,7 +52,7 @@ std::vector<vec4> make_lamp_table(const FrameGeometry& geometry,
     std::vector<double> weights;
     for (const LampTriangle& triangle : triangles)
         weights.push_back(triangle.power / power * static_cast<double>(triangles.size()));
-    const std::vector<AliasTableCell> cells = make_alias_table(std::move(weights));
+    const std::vector<AliasCell> cells = make_alias_table(std::move(weights));
     std::vector<vec4> texels{{static_cast<float>(1 / power),
                               bvh::pack_number(static_cast<std::uint32_t>(triangles.size())), 0,
                               0}};

@@ -29,32 +29,32 @@ std::size_t count_probes(const uvec3& counts) {
 
 /// Returns whether captures of light probes show the object. They leave out glass, which would hide
 /// surfaces that light reaches through the glass.
-bool is_shown_by_probes(const ObjectDrawRange& range) { return !range.glass; }
+bool is_shown_by_probes(const DrawRange& range) { return !range.glass; }
 
 /// Returns whether the object is a lamp, whose emission is left out, because lamps already light
 /// surfaces as points. Other surfaces with a texture of emission light surfaces only through light
 /// probes.
-bool is_lamp(const ObjectDrawRange& range) { return !range.casts_shadow && !range.glass; }
+bool is_lamp(const DrawRange& range) { return !range.casts_shadow && !range.glass; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
 /// Records the draws of a light probe's capture.
-void record_light_probe_capture(graph::PassCommands& commands, const GpuScene& scene,
-                                const SceneDrawSettings& drawing, bool shows_surfaces) {
+void record_probe_capture(graph::PassCommands& commands, const GpuScene& scene,
+                          const DrawSettings& drawing, bool shows_surfaces) {
     const auto is_wanted = [&](std::size_t object) {
-        return is_shown_by_probes(scene.list_draw_ranges()[object]);
+        return is_shown_by_probes(scene.draw_ranges()[object]);
     };
-    const std::vector<std::uint8_t> shown = find_faces_showing_objects(
+    const std::vector<std::uint8_t> shown = find_shown_faces(
         std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
-        {shared::kLightProbeFace, scene.scene_device().limits().subPixelPrecisionBits},
-        scene.list_draw_ranges(), {}, is_wanted);
+        {shared::kLightProbeFace, scene.device().limits().subPixelPrecisionBits},
+        scene.draw_ranges(), {}, is_wanted);
     const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
     const auto is_shown_lamp = [&](std::size_t object) {
-        return is_shown(object) && is_lamp(scene.list_draw_ranges()[object]);
+        return is_shown(object) && is_lamp(scene.draw_ranges()[object]);
     };
     const auto is_other = [&](std::size_t object) {
-        return is_shown(object) && !is_lamp(scene.list_draw_ranges()[object]);
+        return is_shown(object) && !is_lamp(scene.draw_ranges()[object]);
     };
-    SceneDrawSettings of_lamps = drawing;
+    DrawSettings of_lamps = drawing;
     of_lamps.store.emplace_back("leaves_out_emission", 1u);
     draw_scene(commands, scene, drawing, is_other, shown);
     draw_scene(commands, scene, of_lamps, is_shown_lamp, shown);
@@ -67,10 +67,9 @@ void record_light_probe_capture(graph::PassCommands& commands, const GpuScene& s
     draw_blended_surfaces(commands, scene, of_lamps, is_shown_lamp, shown);
 }
 
-void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
-                             const LightProbes& probes, std::uint32_t probe,
-                             const ShadingLights& lighting,
-                             const std::shared_ptr<const ShaderOfEachMirror>& looks) {
+void add_probe_capture(graph::Graph& graph, const FrameInputs& inputs, const LightProbes& probes,
+                       std::uint32_t probe, const ShadingLights& lighting,
+                       const std::shared_ptr<const MirrorShaders>& looks) {
     const uvec3 counts = probes.grid.counts,
                 place(probe % counts.x, probe / counts.x % counts.y, probe / (counts.x * counts.y));
     std::uint32_t first_view = 0;
@@ -89,28 +88,28 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
     graph::PassBuilder pass = graph.add_pass(name);
     declare_shader_reads(pass, lighting, *looks);
     const float nothing = std::numeric_limits<float>::infinity();
-    pass.writes(probes.colours.layers(6 * probe, 6), ResourceUse::colour, kClearColourBlack)
+    pass.writes(probes.colours.layers(6 * probe, 6), ResourceUse::colour, kClearBlack)
         .writes(probes.depths.layers(6 * probe, 6), ResourceUse::colour,
                 graph::ClearValue{nothing, 0, 0, 0})
-        .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+        .writes(depth, ResourceUse::depth, kClearFarthest)
         .layers(6)
         .record([&scene = inputs.scene,
                  shows_surfaces = probes.images.content == shared::kLightProbesOfSurfaces,
-                 drawing = SceneDrawSettings{
+                 drawing = DrawSettings{
                      .first_view = first_view,
                      .layers = 6,
                      .lighting = lighting,
                      .looks = looks,
                      .store = {{"distance_scale", 1.0f}, {"largest_colour", kMaxHalf}},
                      .peeled = {}}](graph::PassCommands& commands) {
-            record_light_probe_capture(commands, scene, drawing, shows_surfaces);
+            record_probe_capture(commands, scene, drawing, shows_surfaces);
         });
 }
 
 } // namespace
 
-shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::size_t most,
-                                             bool is_open) {
+shared::LightProbeGrid make_probe_grid(const Bounds<float>& bounds, std::size_t most,
+                                       bool is_open) {
     constexpr std::uint32_t kMostAlongAnAxis = 64;
     const vec3 extent = bounds.empty() ? vec3(1) : bounds.extent(),
                centre = bounds.empty() ? vec3(0) : bounds.centre();
@@ -134,12 +133,12 @@ shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::s
 LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t most,
                                  std::uint32_t content) {
     Bounds<float> bounds;
-    for (const ObjectDrawRange& range : inputs.scene.list_draw_ranges()) bounds.add(range.bounds);
+    for (const DrawRange& range : inputs.scene.draw_ranges()) bounds.add(range.bounds);
     LightProbes probes;
     probes.images.content = content;
-    const std::size_t limit = inputs.scene.max_cube_count();
-    probes.grid = make_light_probe_grid(bounds, std::min<std::size_t>(most, limit),
-                                        inputs.scene.has_sky());
+    const std::size_t limit = inputs.scene.max_cubes();
+    probes.grid = make_probe_grid(bounds, std::min<std::size_t>(most, limit),
+                                  inputs.scene.has_sky());
     const auto image = [&](const char* what, TexelFormat format, std::uint32_t edge) {
         return graph.add_image(
             {inputs.prefix + "probes." + what, format, edge, edge, 6 * probes.count(), true});
@@ -156,29 +155,27 @@ LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
     return probes;
 }
 
-void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
-                            const LightProbes& probes, ShadingLights lighting,
-                            ShaderOfEachMirror looks) {
+void add_light_probes(graph::Graph& graph, const FrameInputs& inputs, const LightProbes& probes,
+                      ShadingLights lighting, MirrorShaders looks) {
     const LightProbeImages& now = probes.images;
     if (now.content == shared::kLightProbesOfEnvironment) {
         lighting = {};
-        looks = use_same_shader_for_mirrors(inputs.scene, {});
+        looks = use_same_shader(inputs.scene, {});
     } else {
         lighting.probes = LightProbeImages{graph.previous(now.grid), graph.previous(now.light),
                                            graph.previous(now.distances)};
     }
-    const auto shared_looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
+    const auto shared_looks = std::make_shared<const MirrorShaders>(std::move(looks));
     for (std::uint32_t probe = 0; probe < probes.count(); ++probe)
-        add_light_probe_capture(graph, inputs, probes, probe, lighting, shared_looks);
+        add_probe_capture(graph, inputs, probes, probe, lighting, shared_looks);
     graph.add_pass(inputs.prefix + "probes/light")
         .reads(probes.colours, ResourceUse::sampled)
         .reads(probes.depths, ResourceUse::sampled)
         .writes(probes.images.grid, ResourceUse::storage_write)
         .writes(probes.images.light, ResourceUse::storage_write)
         .writes(probes.images.distances, ResourceUse::storage_write)
-        .record([probes,
-                 radius = inputs.scene.scene_units().world_to_scene_length(
-                     find_ambient_occlusion_radius(inputs.scene))](graph::PassCommands& commands) {
+        .record([probes, radius = inputs.scene.scene_units().to_scene_length(
+                             occlusion_radius(inputs.scene))](graph::PassCommands& commands) {
             commands.bind("captured", probes.colours);
             commands.bind("captured_distances", probes.depths);
             commands.bind("grid_texels", probes.images.grid);

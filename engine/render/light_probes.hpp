@@ -11,8 +11,7 @@ namespace catoptric::render {
 /// two probes. Each probe lies in the middle of a cell, so that none lies in an outer wall. An open
 /// scene (`is_open`) has a layer of probes more around its bounds, since light also meets the outer
 /// surfaces.
-shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::size_t most,
-                                             bool is_open);
+shared::LightProbeGrid make_probe_grid(const Bounds<float>& bounds, std::size_t most, bool is_open);
 
 /// The light probes of a frame.
 struct LightProbes {
@@ -36,8 +35,7 @@ LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
 /// diffuse surfaces. Light probes of the environment hold no light of surfaces: their captures are
 /// unlit, and blended surfaces hide nothing. `looks`: shaders of mirrors. The captures have
 /// kLightProbeFace texels an edge. Takes O(probes * objects) on the host.
-void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
-                            const LightProbes& probes, ShadingLights lighting,
-                            ShaderOfEachMirror looks);
+void add_light_probes(graph::Graph& graph, const FrameInputs& inputs, const LightProbes& probes,
+                      ShadingLights lighting, MirrorShaders looks);
 
 } // namespace catoptric::render

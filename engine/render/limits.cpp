@@ -15,9 +15,9 @@ constexpr std::uint64_t kBytesPerStorageTexel = 16, kTexelsPerTriangle = 3, kTex
 
 } // namespace
 
-SceneDataAmounts count_scene_amounts(const scene::Scene& scene) {
-    SceneDataAmounts amounts;
-    const std::vector<bool> shared = find_objects_sharing_meshes(scene);
+SceneAmounts count_amounts(const scene::Scene& scene) {
+    SceneAmounts amounts;
+    const std::vector<bool> shared = find_sharing_objects(scene);
     // For each mesh, whether its vertices were counted. Copies of a mesh share vertices, which
     // count once.
     std::vector<bool> stored(scene.meshes.size());
@@ -35,8 +35,8 @@ SceneDataAmounts count_scene_amounts(const scene::Scene& scene) {
     return amounts;
 }
 
-void check_geometry_limits(const std::string& scene, const SceneDataAmounts& amounts,
-                           const GeometryLimits& limits) {
+void check_limits(const std::string& scene, const SceneAmounts& amounts,
+                  const GeometryLimits& limits) {
     const auto within = [&](std::uint64_t wanted, std::uint64_t allowed, const char* what) {
         check(wanted <= allowed, Failure::exhausted, "scene '", scene, "' wants ", wanted, " ",
               what, ", the device allows ", allowed);

@@ -8,12 +8,12 @@ namespace catoptric::render {
 
 /// The amounts of data that a scene needs. Vertices and triangles count as stored: a mesh shared by
 /// several copies counts once (object_space.hpp).
-struct SceneDataAmounts {
+struct SceneAmounts {
     std::uint64_t vertices = 0, triangles = 0, objects = 0, mirrors = 0;
     std::uint64_t environment_texels = 0;
 };
-/// Returns the amounts of a scene. Costs as much as find_objects_sharing_meshes.
-SceneDataAmounts count_scene_amounts(const scene::Scene& scene);
+/// Returns the amounts of a scene. Costs as much as find_sharing_objects.
+SceneAmounts count_amounts(const scene::Scene& scene);
 
 /// The limits of a device.
 struct GeometryLimits {
@@ -25,7 +25,7 @@ struct GeometryLimits {
 
 /// Throws `exhausted` with the amount that the scene needs and the device's limit, before anything
 /// is created. Counts the least that a scene needs, so it never refuses a scene that would fit.
-void check_geometry_limits(const std::string& scene, const SceneDataAmounts& amounts,
-                           const GeometryLimits& limits);
+void check_limits(const std::string& scene, const SceneAmounts& amounts,
+                  const GeometryLimits& limits);
 
 } // namespace catoptric::render

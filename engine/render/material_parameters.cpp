@@ -51,15 +51,15 @@ std::vector<std::uint32_t> compute_lobe_albedos() {
 }
 
 /// Returns compute_lobe_albedos, which the first call computes.
-const std::vector<std::uint32_t>& get_lobe_albedo_table() {
+const std::vector<std::uint32_t>& lobe_albedo_table() {
     static const std::vector<std::uint32_t> kTable = compute_lobe_albedos();
     return kTable;
 }
 
 std::uint32_t flag_if_set(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
-shared::MaterialParameters make_material_parameters(const scene::Material& material,
-                                                    const ObjectDrawRange& range) {
+shared::MaterialParameters make_parameters(const scene::Material& material,
+                                           const DrawRange& range) {
     shared::MaterialParameters detail{};
     detail.flags = flag_if_set(range.varies, shared::kMaterialVariesFlag) |
                    flag_if_set(range.first_attribute.has_value(),
@@ -79,13 +79,12 @@ shared::MaterialParameters make_material_parameters(const scene::Material& mater
 
 } // namespace
 
-MaterialParameterLists::MaterialParameterLists(std::size_t slots)
+MaterialLists::MaterialLists(std::size_t slots)
     : detail_words_("details", gpu::BufferUsage::quads, slots),
       attributes_("attributes", gpu::BufferUsage::texels, slots),
       texels_("texels", gpu::BufferUsage::words, slots) {}
 
-shared::TextureUse MaterialParameterLists::texture_use_of_material(
-    const std::optional<scene::Texture>& texture) const {
+shared::TextureUse MaterialLists::texture_use(const std::optional<scene::Texture>& texture) const {
     shared::TextureUse use{};
     if (!texture) return use;
     const auto at = std::ranges::find(images_, texture->image) - images_.begin();
@@ -100,7 +99,7 @@ shared::TextureUse MaterialParameterLists::texture_use_of_material(
     return use;
 }
 
-void MaterialParameterLists::fill_texture_texels(const scene::Scene& now, std::uint64_t most) {
+void MaterialLists::fill_texels(const scene::Scene& now, std::uint64_t most) {
     std::vector<std::shared_ptr<const scene::Image>> images;
     std::uint64_t count = kMaterialTableTexels;
     for (const scene::Object& object : now.objects) {
@@ -114,14 +113,14 @@ void MaterialParameterLists::fill_texture_texels(const scene::Scene& now, std::u
                   quote(images.back()->name), " take ", count, " texels, the device allows ", most);
         }
     }
-    if (images == images_ && any_lobes_ == has_lobe_table_ && texels_filled_) return;
-    has_lobe_table_ = any_lobes_, texels_filled_ = true;
+    if (images == images_ && has_lobes_ == has_lobe_table_ && texels_filled_) return;
+    has_lobe_table_ = has_lobes_, texels_filled_ = true;
     std::vector<std::uint32_t> texels;
     texels.reserve(count);
     for (std::uint32_t byte = 0; byte < shared::kSrgbTableWords; ++byte)
         texels.push_back(std::bit_cast<std::uint32_t>(scene::linear_from_srgb(byte)));
-    if (any_lobes_)
-        texels.insert(texels.end(), get_lobe_albedo_table().begin(), get_lobe_albedo_table().end());
+    if (has_lobes_)
+        texels.insert(texels.end(), lobe_albedo_table().begin(), lobe_albedo_table().end());
     else
         texels.resize(kMaterialTableTexels);
     first_texels_ = {};
@@ -130,15 +129,15 @@ void MaterialParameterLists::fill_texture_texels(const scene::Scene& now, std::u
         texels.insert(texels.end(), image->texels.begin(), image->texels.end());
     }
     images_ = std::move(images);
-    texels_.set_device_list_contents(texels);
+    texels_.set(texels);
 }
 
 namespace {
 
 /// Returns the flag of an open sheet or of a solid body of glass; 0: the glass is a thin shell.
 /// `closed`: whether meshes are closed, as far as known.
-std::uint32_t find_glass_body_flag(const scene::Scene& now, const scene::Object& object,
-                                   std::map<std::size_t, bool>& closed) {
+std::uint32_t glass_body_flag(const scene::Scene& now, const scene::Object& object,
+                              std::map<std::size_t, bool>& closed) {
     const auto [entry, is_new] = closed.try_emplace(object.mesh, false);
     const scene::Mesh& mesh = now.meshes[object.mesh];
     if (is_new) entry->second = scene::is_closed_surface(mesh.positions, mesh.triangles);
@@ -148,66 +147,67 @@ std::uint32_t find_glass_body_flag(const scene::Scene& now, const scene::Object&
 
 } // namespace
 
-shared::MaterialParameters MaterialParameterLists::make_parameters_of_object(
-    const scene::Scene& now, const SceneUnitTransform& space, const scene::Material& material,
-    const ObjectDrawRange& range, const DeviceVertices& vertices) const {
-    shared::MaterialParameters detail = make_material_parameters(material, range);
+shared::MaterialParameters MaterialLists::object_parameters(const scene::Scene& now,
+                                                            const SceneUnits& space,
+                                                            const scene::Material& material,
+                                                            const DrawRange& range,
+                                                            const DeviceVertices& vertices) const {
+    shared::MaterialParameters detail = make_parameters(material, range);
     detail.ior = material.ior;
-    detail.absorption = material.absorption / space.world_to_scene_length(1);
+    detail.absorption = material.absorption / space.to_scene_length(1);
     detail.max_specular_roughness = now.mirror_max_roughness;
     detail.flags |= flag_if_set(now.has_multiple_scattering && range.has_lobe,
                                 shared::kMaterialMultipleScatteringFlag);
     // The difference may be negative as an unsigned number, because draws count vertices from the
     // start of their own buffer. Adding it wraps around to the right value.
     if (range.first_attribute)
-        detail.first_attribute = *range.first_attribute -
-                                 vertices.first_vertex_of_object(range.storage);
-    detail.albedo = texture_use_of_material(material.albedo_texture);
-    detail.emission = texture_use_of_material(material.emission_texture);
-    detail.rough = texture_use_of_material(material.roughness_texture);
-    detail.normal = texture_use_of_material(material.normal_texture);
+        detail.first_attribute = *range.first_attribute - vertices.first_vertex(range.storage);
+    detail.albedo = texture_use(material.albedo_texture);
+    detail.emission = texture_use(material.emission_texture);
+    detail.rough = texture_use(material.roughness_texture);
+    detail.normal = texture_use(material.normal_texture);
     detail.normal_scale = material.normal_scale;
     return detail;
 }
 
-void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransform& space,
-                                  const FrameGeometry& geometry, const DeviceVertices& vertices,
-                                  std::uint64_t most) {
-    any_lobes_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::has_lobe);
-    any_glass_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::glass);
-    any_tinted_shadow_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::tints);
-    any_clear_coat_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::clear_coat);
-    any_blended_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::blended);
-    fill_texture_texels(now, most);
+void MaterialLists::fill(const scene::Scene& now, const SceneUnits& space,
+                         const FrameGeometry& geometry, const DeviceVertices& vertices,
+                         std::uint64_t most) {
+    has_lobes_ = std::ranges::any_of(geometry.ranges, &DrawRange::has_lobe);
+    has_glass_ = std::ranges::any_of(geometry.ranges, &DrawRange::glass);
+    has_tinted_shadows_ = std::ranges::any_of(geometry.ranges, &DrawRange::tints);
+    has_clear_coats_ = std::ranges::any_of(geometry.ranges, &DrawRange::clear_coat);
+    has_blended_ = std::ranges::any_of(geometry.ranges, &DrawRange::blended);
+    fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.assign(geometry.ranges.size(), 0);
-    any_ = masks_ = any_normal_textures_ = any_ranked_glass_ = false;
+    any_ = masks_ = has_normal_textures_ = has_ranked_glass_ = false;
     std::vector<std::uint32_t> ranks(geometry.ranges.size());
-    if (any_glass_) ranks = scene::rank_nested_glass(now);
+    if (has_glass_) ranks = scene::rank_nested_glass(now);
     std::vector<std::size_t> order(geometry.ranges.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::ranges::greater(),
                              [&](std::size_t i) { return ranks[i]; });
     std::map<std::size_t, bool> leaves, closed; // by mesh
     for (const std::size_t i : order) {
-        const ObjectDrawRange& range = geometry.ranges[i];
+        const DrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
-        shared::MaterialParameters detail = make_parameters_of_object(now, space, material, range,
-                                                                      vertices);
+        shared::MaterialParameters detail = object_parameters(now, space, material, range,
+                                                              vertices);
         if (range.glass) {
-            detail.flags |= find_glass_body_flag(now, now.objects[i], closed);
+            detail.flags |= glass_body_flag(now, now.objects[i], closed);
             if (ranks[i] > 0 && details.size() < shared::kMaxRankedGlass) {
                 detail.flags |= shared::kMaterialRankedFlag;
-                any_ranked_glass_ = true;
+                has_ranked_glass_ = true;
             }
         }
-        any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
+        has_normal_textures_ = has_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
         if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
             const std::size_t mesh = now.objects[i].mesh;
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
-            if (is_new) entry->second = do_vertex_normals_differ_from_facets(now.meshes[mesh]);
+            if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
             const bool differs = entry->second || range.has_normal_texture;
             detail.flags |= flag_if_set(differs, shared::kMaterialTestsFacetSideFlag);
             any_ = any_ || differs;
@@ -222,22 +222,20 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
         indices_[i] = entry->second;
     }
     if (details.empty()) details.emplace_back(); // buffers must not be empty
-    detail_words_.set_device_list_contents(details);
-    attributes_.set_device_list_contents(geometry.attributes.empty()
-                                             ? std::vector<shared::VertexAttribute>(1)
-                                             : geometry.attributes);
+    detail_words_.set(details);
+    attributes_.set(geometry.attributes.empty() ? std::vector<shared::VertexAttribute>(1)
+                                                : geometry.attributes);
 }
 
-std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot) {
-    return detail_words_.upload_changed_pages(device, slot) +
-           attributes_.upload_changed_pages(device, slot) +
-           texels_.upload_changed_pages(device, slot);
+std::size_t MaterialLists::write(gpu::Device& device, std::size_t slot) {
+    return detail_words_.write(device, slot) + attributes_.write(device, slot) +
+           texels_.write(device, slot);
 }
 
-void MaterialParameterLists::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind("detail_quads", detail_words_.buffer_of_device_copy(slot));
-    commands.bind("attribute_texels", attributes_.buffer_of_device_copy(slot));
-    commands.bind("texture_words", texels_.buffer_of_device_copy(slot));
+void MaterialLists::bind(graph::PassCommands& commands, std::size_t slot) const {
+    commands.bind("detail_quads", detail_words_.buffer(slot));
+    commands.bind("attribute_texels", attributes_.buffer(slot));
+    commands.bind("texture_words", texels_.buffer(slot));
 }
 
 } // namespace catoptric::render

@@ -7,7 +7,7 @@ namespace catoptric::render {
 namespace {
 
 /// The resources that a pass has declared so far.
-struct PassReadDeclarations {
+struct PassReads {
     graph::PassBuilder& pass;
     std::vector<graph::ImageHandle> images = {};
     std::vector<graph::BufferHandle> buffers = {};
@@ -34,13 +34,13 @@ struct PassReadDeclarations {
 
 } // namespace
 
-ShaderOfEachMirror use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look) {
+MirrorShaders use_same_shader(const GpuScene& scene, MirrorShader look) {
     return {{std::move(look)}, std::vector<std::uint32_t>(scene.mirror_count(), 0)};
 }
 
 void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lighting,
-                          const ShaderOfEachMirror& looks) {
-    PassReadDeclarations reads{pass};
+                          const MirrorShaders& looks) {
+    PassReads reads{pass};
     if (lighting.shadow_map) reads.add_image(*lighting.shadow_map);
     if (lighting.shadow_map && lighting.glass_depths) reads.add_image(*lighting.glass_depths);
     if (lighting.ambient_occlusion) reads.add_image(*lighting.ambient_occlusion);

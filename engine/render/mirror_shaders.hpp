@@ -27,26 +27,26 @@ struct MirrorShader {
 };
 
 /// A part of a mirror with its own shader.
-struct MirrorSubsetShader {
+struct PartShader {
     std::uint32_t mirror = 0; ///< number of the mirror, from 0
-    std::uint32_t look = 0;   ///< index into ShaderOfEachMirror::looks
+    std::uint32_t look = 0;   ///< index into MirrorShaders::looks
     std::vector<scene::TriangleRun> triangles;
 };
 
 /// The shader of each mirror, chosen from a list.
-struct ShaderOfEachMirror {
-    static constexpr std::uint32_t kShaderChosenByPart = ~0u;
+struct MirrorShaders {
+    static constexpr std::uint32_t kByPart = ~0u;
     std::vector<MirrorShader> looks;
-    std::vector<std::uint32_t> of_mirror;  ///< index into `looks`; kShaderChosenByPart: see `parts`
-    std::vector<MirrorSubsetShader> parts; ///< triangles in no part are not drawn
+    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kByPart: see `parts`
+    std::vector<PartShader> parts;        ///< triangles in no part are not drawn
 };
 
 /// Returns shaders that draw all mirrors alike.
-ShaderOfEachMirror use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look);
+MirrorShaders use_same_shader(const GpuScene& scene, MirrorShader look);
 
 /// Declares that a pass reads the resources of these shaders and of the lighting, each once.
 void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lighting,
-                          const ShaderOfEachMirror& looks);
+                          const MirrorShaders& looks);
 
 /// The tracer that completes surfaces that are no mirrors, where the shadow map leaves their light
 /// open or they reflect.

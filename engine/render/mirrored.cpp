@@ -13,7 +13,7 @@ namespace catoptric::render {
 namespace {
 
 /// Planes; a point p is inside a plane if dot(xyz, p - eye) + w >= 0.
-using ViewClipPlanes = std::vector<dvec4>;
+using ClipPlanes = std::vector<dvec4>;
 using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
 /// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
@@ -39,17 +39,17 @@ dvec2 project_to_picture(const shared::View& view, const dvec3& v) {
 }
 
 /// A rectangle of the picture, -1 to 1.
-struct PictureSubrectangle {
+struct PictureRectangle {
     dvec2 low{-1}, high{1};
 };
 
-PictureSubrectangle area_to_picture_rectangle(const graph::PixelRectangle& area, uvec2 size) {
+PictureRectangle to_rectangle(const graph::PixelRectangle& area, uvec2 size) {
     const dvec2 low(area.x, area.y), extent(area.width, area.height);
     return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
 }
 
 /// Returns the side planes and the near plane of a part of the view.
-ViewClipPlanes list_view_side_planes(const shared::View& view, const PictureSubrectangle& part) {
+ClipPlanes side_planes(const shared::View& view, const PictureRectangle& part) {
     const dvec3 right(view.right), down(view.down), forward(view.forward);
     if (view.parallel != 0)
         return {{right, -part.low.x},
@@ -67,7 +67,7 @@ ViewClipPlanes list_view_side_planes(const shared::View& view, const PictureSubr
 /// Returns a coordinate of the picture, -1 to 1 at its edges, moved by an angle. `scale`: the
 /// coordinate of the direction at 45 degrees. Returns an infinity if the direction does not point
 /// forward.
-double turn_picture_coordinate(double at, double scale, double angle) {
+double turn_coordinate(double at, double scale, double angle) {
     const double turned = std::atan(at / scale) + angle;
     if (std::abs(turned) < std::numbers::pi / 2) return scale * std::tan(turned);
     return std::copysign(std::numeric_limits<double>::infinity(), angle);
@@ -76,10 +76,8 @@ double turn_picture_coordinate(double at, double scale, double angle) {
 /// Returns the pixels that a visible polygon may cover, those up to the angle beside them, and one
 /// more on each side. An angle has no meaning in a parallel view, which gets all pixels of
 /// `within`.
-graph::PixelRectangle find_pixels_covered_by_polygon(const Polygon& polygon,
-                                                     const shared::View& view, uvec2 size,
-                                                     const graph::PixelRectangle& within,
-                                                     double blur_angle) {
+graph::PixelRectangle covered_pixels(const Polygon& polygon, const shared::View& view, uvec2 size,
+                                     const graph::PixelRectangle& within, double blur_angle) {
     if (blur_angle > 0 && view.parallel != 0) return within;
     dvec2 low(1), high(-1);
     for (const dvec3& v : polygon) {
@@ -89,8 +87,8 @@ graph::PixelRectangle find_pixels_covered_by_polygon(const Polygon& polygon,
     if (blur_angle > 0) {
         const dvec2 scale(length(dvec3(view.right)), length(dvec3(view.down)));
         for (int i = 0; i < 2; ++i) {
-            low[i] = turn_picture_coordinate(low[i], scale[i], -blur_angle);
-            high[i] = turn_picture_coordinate(high[i], scale[i], blur_angle);
+            low[i] = turn_coordinate(low[i], scale[i], -blur_angle);
+            high[i] = turn_coordinate(high[i], scale[i], blur_angle);
         }
     }
     const auto pixel = [&](const dvec2& at, double more) {
@@ -104,18 +102,18 @@ graph::PixelRectangle find_pixels_covered_by_polygon(const Polygon& polygon,
     return {corner.x, corner.y, extent.x, extent.y};
 }
 
-dvec3 mirror_vector_at_plane(const dvec3& direction, const dvec3& normal) {
+dvec3 mirror_vector(const dvec3& direction, const dvec3& normal) {
     return direction - 2 * dot(direction, normal) * normal;
 }
 
 /// Returns the view of the eye mirrored in the plane. `height`: of the original eye above the
 /// plane, along the normal.
-MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatFace& plane,
-                                    double height, const Bounds<float>& everything) {
+MirroredView make_view_behind(const MirroredView& from, const scene::FlatFace& plane, double height,
+                              const Bounds<float>& everything) {
     MirroredView made;
     made.eye = from.eye - 2 * height * plane.normal;
     const auto turned = [&](const vec3& axis) {
-        return vec3(mirror_vector_at_plane(dvec3(axis), plane.normal));
+        return vec3(mirror_vector(dvec3(axis), plane.normal));
     };
     shared::View& view = made.view = from.view;
     view.eye = vec3(made.eye);
@@ -136,9 +134,9 @@ MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatF
 }
 
 /// Returns the view in the mirror as `from` shows it; nothing if `from` does not show the mirror.
-std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
-                                                const MirrorPlane& mirror_plane, uvec2 size,
-                                                const Bounds<float>& everything) {
+std::optional<MirroredView> make_mirrored_view(const MirroredView& from,
+                                               const MirrorPlane& mirror_plane, uvec2 size,
+                                               const Bounds<float>& everything) {
     const scene::FlatFace& mirror = mirror_plane.flat;
     const double height = dot(from.eye - mirror.point, mirror.normal);
     if (std::abs(height) < kEdgeOnMirrorHeight || (mirror.is_one_sided && height < 0)) return {};
@@ -151,15 +149,14 @@ std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
             return dot(dvec3(clip), corner) + clip.w <= kEdgeOnMirrorHeight;
         }))
         return {};
-    ViewClipPlanes planes = list_view_side_planes(from.view,
-                                                  area_to_picture_rectangle(from.area, size));
+    ClipPlanes planes = side_planes(from.view, to_rectangle(from.area, size));
     if (clip != dvec4(0)) planes.push_back(clip);
     for (const dvec4& plane : planes) polygon = clip_polygon(polygon, plane);
     if (polygon.empty()) return {};
-    const graph::PixelRectangle area = find_pixels_covered_by_polygon(
-        polygon, from.view, size, from.area, mirror_plane.blur_angle);
+    const graph::PixelRectangle area = covered_pixels(polygon, from.view, size, from.area,
+                                                      mirror_plane.blur_angle);
     if (area.width == 0) return {};
-    MirroredView made = make_view_behind_plane(from, mirror, height, everything);
+    MirroredView made = make_view_behind(from, mirror, height, everything);
     made.area = area;
     return made;
 }
@@ -181,8 +178,8 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
         const MirrorPlane& plane = *mirrors.planes[mirror];
         const int deep = within ? left : std::min(left, plane.bounces);
         if (deep == 0) continue;
-        std::optional<MirroredView> made = make_view_in_mirror(from, plane, mirrors.size,
-                                                               mirrors.everything);
+        std::optional<MirroredView> made = make_mirrored_view(from, plane, mirrors.size,
+                                                              mirrors.everything);
         if (!made) continue;
         if (views.size() == kMaxMirroredViews) return false;
         made->plane_index = mirror, made->within = within;
@@ -207,9 +204,8 @@ find_mirrored_views(const MirroredViewEye& camera,
     return views;
 }
 
-bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
-    ViewClipPlanes planes = list_view_side_planes(view.view,
-                                                  area_to_picture_rectangle(view.area, size));
+bool may_show(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
+    ClipPlanes planes = side_planes(view.view, to_rectangle(view.area, size));
     planes.emplace_back(view.view.clip);
     const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
     return std::ranges::all_of(planes, [&](const dvec4& plane) {

@@ -54,6 +54,6 @@ find_mirrored_views(const MirroredViewEye& camera,
                     const std::vector<std::optional<MirrorPlane>>& mirrors, uvec2 size, int& most);
 
 /// Returns false only if the box certainly lies outside the view's area or behind its plane.
-bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>& box);
+bool may_show(const MirroredView& view, uvec2 size, const Bounds<float>& box);
 
 } // namespace catoptric::render

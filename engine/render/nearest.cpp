@@ -18,23 +18,22 @@ Bounds<float> triangle_bounds(const FrameGeometry& geometry, std::uint32_t first
     return box;
 }
 
-std::vector<Bounds<float>> list_triangle_boxes(const FrameGeometry& geometry,
-                                               const ObjectDrawRange& range) {
+std::vector<Bounds<float>> triangle_boxes(const FrameGeometry& geometry, const DrawRange& range) {
     std::vector<Bounds<float>> boxes;
     for (std::uint32_t k = 0; k < range.index_count; k += 3)
         boxes.push_back(triangle_bounds(geometry, range.first_index + k));
     return boxes;
 }
 
-std::vector<Bounds<float>> list_object_boxes(const FrameGeometry& geometry) {
+std::vector<Bounds<float>> object_boxes(const FrameGeometry& geometry) {
     std::vector<Bounds<float>> boxes;
-    for (const ObjectDrawRange& range : geometry.ranges) boxes.push_back(range.bounds);
+    for (const DrawRange& range : geometry.ranges) boxes.push_back(range.bounds);
     return boxes;
 }
 
 } // namespace
 
-float min_distance_to_box(const vec3& point, const Bounds<float>& box) {
+float min_distance(const vec3& point, const Bounds<float>& box) {
     if (box.empty()) return std::numeric_limits<float>::infinity();
     const vec3 apart = max(max(box.lo - point, point - box.hi), vec3(0));
     const vec3 size = max(abs(point), max(abs(box.lo), abs(box.hi)));
@@ -42,15 +41,15 @@ float min_distance_to_box(const vec3& point, const Bounds<float>& box) {
                                               f32::largest_vector_component(size));
 }
 
-BoundingBoxTree::BoundingBoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
+BoxTree::BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
     : max_boxes_per_leaf_(leaf), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!boxes.empty()) add_boxes_to_tree(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    if (!boxes.empty()) add_boxes(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
 }
 
 /// Adds the node over these boxes. Splits it by count into halves along the longest axis.
-void BoundingBoxTree::add_boxes_to_tree(std::span<const Bounds<float>> boxes, std::uint32_t first,
-                                        std::uint32_t count) {
+void BoxTree::add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t first,
+                        std::uint32_t count) {
     const std::size_t place = nodes_.size();
     nodes_.emplace_back();
     Bounds<float> box, centres;
@@ -74,24 +73,24 @@ void BoundingBoxTree::add_boxes_to_tree(std::span<const Bounds<float>> boxes, st
                          const float at_a = along(a), at_b = along(b);
                          return at_a != at_b ? at_a < at_b : a < b;
                      });
-    add_boxes_to_tree(boxes, first, count / 2);
+    add_boxes(boxes, first, count / 2);
     nodes_[place].second = static_cast<std::uint32_t>(nodes_.size());
-    add_boxes_to_tree(boxes, first + count / 2, count - count / 2);
+    add_boxes(boxes, first + count / 2, count - count / 2);
 }
 
-void BoundingBoxTree::refit(std::span<const Bounds<float>> boxes) {
+void BoxTree::refit(std::span<const Bounds<float>> boxes) {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        BoundingBoxTreeNode& node = nodes_[i];
+        Node& node = nodes_[i];
         node.box = {};
         for (std::uint32_t k = 0; k < node.count; ++k) node.box.add(boxes[order_[node.first + k]]);
         if (node.count == 0) node.box.add(nodes_[i + 1].box), node.box.add(nodes_[node.second].box);
     }
 }
 
-std::vector<BoundingBoxTree::BoxTreeTraversalStep> BoundingBoxTree::list_box_tree_nodes() const {
-    std::vector<BoxTreeTraversalStep> steps(nodes_.size());
+std::vector<BoxTree::Step> BoxTree::traversal() const {
+    std::vector<Step> steps(nodes_.size());
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        const BoundingBoxTreeNode& node = nodes_[i];
+        const Node& node = nodes_[i];
         steps[i].box = node.box;
         steps[i].past = node.count > 0 ? static_cast<std::uint32_t>(i + 1)
                                        : steps[node.second].past;
@@ -100,44 +99,39 @@ std::vector<BoundingBoxTree::BoxTreeTraversalStep> BoundingBoxTree::list_box_tre
     return steps;
 }
 
-void NearestTriangleQuery::set_geometry(const FrameGeometry& geometry) {
-    objects_ = BoundingBoxTree(list_object_boxes(geometry));
+void NearestTriangle::set_geometry(const FrameGeometry& geometry) {
+    objects_ = BoxTree(object_boxes(geometry));
     moved_ = false;
     parts_.assign(geometry.ranges.size(), {});
 }
 
-void NearestTriangleQuery::record_moved_object(std::size_t object) {
-    moved_ = parts_[object].moved = true;
-}
+void NearestTriangle::record_move(std::size_t object) { moved_ = parts_[object].moved = true; }
 
-void NearestTriangleQuery::visit_object_triangles(const FrameGeometry& geometry, std::size_t object,
-                                                  const vec3& point, float& squared) {
-    const ObjectDrawRange& range = geometry.ranges[object];
+void NearestTriangle::visit_triangles(const FrameGeometry& geometry, std::size_t object,
+                                      const vec3& point, float& squared) {
+    const DrawRange& range = geometry.ranges[object];
     const auto look = [&](std::uint32_t triangle) {
         const auto corner = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[range.first_index + 3 * triangle + j]]
                 .position;
         };
-        squared = std::min(squared, squared_distance_from_point_to_triangle(point, corner(0),
-                                                                            corner(1), corner(2)));
+        squared = std::min(squared, squared_distance(point, corner(0), corner(1), corner(2)));
     };
     if (range.index_count <= 3 * kMaxLinearSearchTriangles) {
         for (std::uint32_t i = 0; i < range.index_count / 3; ++i) look(i);
         return;
     }
-    ObjectTriangleTree& part = parts_[range.storage];
+    ObjectTree& part = parts_[range.storage];
     if (!part.tree)
-        part.tree = BoundingBoxTree(list_triangle_boxes(geometry, range));
+        part.tree = BoxTree(triangle_boxes(geometry, range));
     else if (part.moved)
-        part.tree->refit(list_triangle_boxes(geometry, range));
+        part.tree->refit(triangle_boxes(geometry, range));
     part.moved = false;
     part.tree->find_nearest(point, squared, look);
 }
 
-void NearestTriangleQuery::visit_object_triangles_in_object_space(const FrameGeometry& geometry,
-                                                                  std::size_t object,
-                                                                  const dvec3& point,
-                                                                  float& squared) {
+void NearestTriangle::visit_in_object_space(const FrameGeometry& geometry, std::size_t object,
+                                            const dvec3& point, float& squared) {
     constexpr double kTransformRoundingError =
         1e-5; // larger than the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
@@ -145,25 +139,24 @@ void NearestTriangleQuery::visit_object_triangles_in_object_space(const FrameGeo
     // skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kTransformRoundingError);
     float own_squared = static_cast<float>(known * known);
-    visit_object_triangles(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);
+    visit_triangles(geometry, object, vec3(own.to_object(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
 
-float NearestTriangleQuery::distance_to_nearest_triangle(
-    const FrameGeometry& geometry, const dvec3& at,
-    const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip) {
-    if (moved_) objects_.refit(list_object_boxes(geometry));
+float NearestTriangle::distance(const FrameGeometry& geometry, const dvec3& at,
+                                const std::function<bool(std::size_t, const DrawRange&)>& skip) {
+    if (moved_) objects_.refit(object_boxes(geometry));
     moved_ = false;
     const vec3 point(at);
     float squared = std::numeric_limits<float>::infinity();
     objects_.find_nearest(point, squared, [&](std::uint32_t object) {
         if (skip(object, geometry.ranges[object])) return;
         if (geometry.ranges[object].own)
-            visit_object_triangles_in_object_space(geometry, object, at, squared);
-        else if (const float gap = min_distance_to_box(point, geometry.ranges[object].bounds);
+            visit_in_object_space(geometry, object, at, squared);
+        else if (const float gap = min_distance(point, geometry.ranges[object].bounds);
                  !(gap * gap >= squared))
-            visit_object_triangles(geometry, object, point, squared);
+            visit_triangles(geometry, object, point, squared);
     });
     return std::sqrt(squared);
 }

@@ -9,11 +9,11 @@
 namespace catoptric::render {
 
 /// A tree over boxes, built once and refitted when the boxes move.
-class BoundingBoxTree {
+class BoxTree {
 public:
-    BoundingBoxTree() = default;
+    BoxTree() = default;
     /// Builds a tree with at most `leaf` boxes, at least 1, in each leaf.
-    explicit BoundingBoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
+    explicit BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
     /// Updates the tree for moved boxes. Costs O(n).
     void refit(std::span<const Bounds<float>> boxes);
     /// Calls visit(box) for every box that may hold a point nearer to `point` than
@@ -23,69 +23,67 @@ public:
 
     /// A node of a tree that is traversed without a stack. If the ray misses the node's box,
     /// traversal continues at node `past`.
-    struct BoxTreeTraversalStep {
+    struct Step {
         Bounds<float> box;
         std::uint32_t past = 0;            ///< the node after the whole subtree
         std::optional<std::uint32_t> only; ///< index of the box, if the node holds a single one
     };
     /// Returns all nodes, parents before their children.
-    std::vector<BoxTreeTraversalStep> list_box_tree_nodes() const;
+    std::vector<Step> traversal() const;
 
 private:
-    struct BoundingBoxTreeNode {
+    struct Node {
         Bounds<float> box;
         std::uint32_t first = 0, count = 0; ///< range of a leaf in `order_`
         std::uint32_t second = 0;           ///< the second child; the first child is the next node
     };
-    void add_boxes_to_tree(std::span<const Bounds<float>> boxes, std::uint32_t first,
-                           std::uint32_t count);
+    void add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count);
 
     std::uint32_t max_boxes_per_leaf_ = 0;
     std::vector<std::uint32_t> order_;
-    std::vector<BoundingBoxTreeNode> nodes_; ///< children after their parents
+    std::vector<Node> nodes_; ///< children after their parents
 };
 
 /// Distance queries to the nearest triangle of a scene. Keeps a tree over objects. Builds a tree
 /// over an object's triangles at the first query that comes near the object. A query costs O(log
 /// n).
-class NearestTriangleQuery {
+class NearestTriangle {
 public:
     /// Prepares for a new geometry layout.
     void set_geometry(const FrameGeometry& geometry);
     /// Records that the object's triangles have moved.
-    void record_moved_object(std::size_t object);
+    void record_move(std::size_t object);
 
     /// Returns the distance from a point to the nearest triangle, scene units. The result equals
     /// that of testing all triangles. Leaves out objects for which `skip(index, range)` holds.
     /// Returns infinity if none is left. For an object with an object space, the distance is a
     /// lower bound.
-    float distance_to_nearest_triangle(
-        const FrameGeometry& geometry, const dvec3& point,
-        const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip);
+    float distance(const FrameGeometry& geometry, const dvec3& point,
+                   const std::function<bool(std::size_t, const DrawRange&)>& skip);
 
 private:
-    struct ObjectTriangleTree {
-        std::optional<BoundingBoxTree> tree;
+    struct ObjectTree {
+        std::optional<BoxTree> tree;
         bool moved = false;
     };
-    void visit_object_triangles(const FrameGeometry& geometry, std::size_t object,
-                                const vec3& point, float& squared);
-    void visit_object_triangles_in_object_space(const FrameGeometry& geometry, std::size_t object,
-                                                const dvec3& point, float& squared);
+    void visit_triangles(const FrameGeometry& geometry, std::size_t object, const vec3& point,
+                         float& squared);
+    void visit_in_object_space(const FrameGeometry& geometry, std::size_t object,
+                               const dvec3& point, float& squared);
 
-    BoundingBoxTree objects_;
+    BoxTree objects_;
     bool moved_ = false;
-    std::vector<ObjectTriangleTree> parts_; ///< tree of each object
+    std::vector<ObjectTree> parts_; ///< tree of each object
 };
 
 /// Returns a lower bound of the distance from the point to the box. The bound also holds for the
-/// rounded result of squared_distance_from_point_to_triangle.
-float min_distance_to_box(const vec3& point, const Bounds<float>& box);
+/// rounded result of squared_distance.
+float min_distance(const vec3& point, const Bounds<float>& box);
 
 template <typename Visit>
-void BoundingBoxTree::find_nearest(const vec3& point, const float& squared, Visit&& visit) const {
+void BoxTree::find_nearest(const vec3& point, const float& squared, Visit&& visit) const {
     const auto may_be_nearer = [&](std::uint32_t node) {
-        const float gap = min_distance_to_box(point, nodes_[node].box);
+        const float gap = min_distance(point, nodes_[node].box);
         return !(gap * gap >= squared);
     };
     std::vector<std::uint32_t> waiting;
@@ -94,11 +92,11 @@ void BoundingBoxTree::find_nearest(const vec3& point, const float& squared, Visi
         const std::uint32_t place = waiting.back();
         waiting.pop_back();
         if (!may_be_nearer(place)) continue;
-        const BoundingBoxTreeNode& node = nodes_[place];
+        const Node& node = nodes_[place];
         for (std::uint32_t i = 0; i < node.count; ++i) visit(order_[node.first + i]);
         if (node.count > 0) continue;
-        const bool swap = min_distance_to_box(point, nodes_[node.second].box) <
-                          min_distance_to_box(point, nodes_[place + 1].box);
+        const bool swap = min_distance(point, nodes_[node.second].box) <
+                          min_distance(point, nodes_[place + 1].box);
         waiting.push_back(swap ? place + 1 : node.second);
         waiting.push_back(swap ? node.second : place + 1);
     }

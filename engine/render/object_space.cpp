@@ -15,9 +15,9 @@ namespace {
 constexpr double kMaxMatrixStretch = 64;
 
 /// Returns the power of two that scales `size` to about 1.
-double power_of_two_normalising_size(double size) { return std::exp2(-std::ceil(std::log2(size))); }
+double normalising_scale(double size) { return std::exp2(-std::ceil(std::log2(size))); }
 
-Bounds<double> compute_mesh_bounds(const scene::Mesh& mesh) {
+Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
     Bounds<double> box;
     for (const dvec3& position : mesh.positions) box.add(position);
     return box;
@@ -37,14 +37,14 @@ std::vector<bool> find_shared_meshes(const scene::Scene& scene) {
         if (wanted <= kMaxCopiedTriangles)
             copied = wanted;
         else
-            shared[i] = largest_component(compute_mesh_bounds(mesh).extent()) > 0;
+            shared[i] = largest_component(mesh_bounds(mesh).extent()) > 0;
     }
     return shared;
 }
 
 } // namespace
 
-bool may_object_share_mesh(const scene::Scene& now, const scene::Object& object) {
+bool may_share_mesh(const scene::Scene& now, const scene::Object& object) {
     const scene::Material& material = now.materials[object.material];
     const bool is_lamp = scene::is_one_sided(material) &&
                          scene::emitted_radiance(material) != vec3(0);
@@ -52,29 +52,29 @@ bool may_object_share_mesh(const scene::Scene& now, const scene::Object& object)
            bvh::rounding_amplification(dmat3(object.world_from_object)) <= kMaxMatrixStretch;
 }
 
-std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene) {
+std::vector<bool> find_sharing_objects(const scene::Scene& scene) {
     const std::vector<bool> meshes = find_shared_meshes(scene);
     std::vector<bool> objects;
     for (const scene::Object& object : scene.objects)
-        objects.push_back(meshes[object.mesh] && may_object_share_mesh(scene, object));
+        objects.push_back(meshes[object.mesh] && may_share_mesh(scene, object));
     return objects;
 }
 
-bool is_object_small_for_its_distance(const scene::Scene& now, const scene::Object& object,
-                                      const SceneUnitTransform& space) {
-    return is_object_small_for_its_distance(scene::bounds(now, object), space.origin_world);
+bool is_small_for_distance(const scene::Scene& now, const scene::Object& object,
+                           const SceneUnits& space) {
+    return is_small_for_distance(scene::bounds(now, object), space.origin);
 }
 
-SharedMeshCoordinateSpace make_mesh_space(const scene::Mesh& mesh) {
-    const Bounds<double> box = compute_mesh_bounds(mesh);
-    return {box.centre(), power_of_two_normalising_size(largest_component(box.extent())), {}};
+MeshSpace make_mesh_space(const scene::Mesh& mesh) {
+    const Bounds<double> box = mesh_bounds(mesh);
+    return {box.centre(), normalising_scale(largest_component(box.extent())), {}};
 }
 
-ObjectSpace make_object_space(const SharedMeshCoordinateSpace& mesh, const dmat4& world_from_object,
-                              const SceneUnitTransform& space) {
+ObjectSpace make_object_space(const MeshSpace& mesh, const dmat4& world_from_object,
+                              const SceneUnits& space) {
     ObjectSpace own;
     own.scene_from_own = dmat3(world_from_object) * (space.scale / mesh.unit);
-    own.centre = space.world_to_scene_units(scene::transform_point(world_from_object, mesh.middle));
+    own.centre = space.to_scene(scene::transform_point(world_from_object, mesh.middle));
     const dmat3 inverse = glm::inverse(own.scene_from_own);
     own.least = 1 / std::sqrt(dot(inverse[0], inverse[0]) + dot(inverse[1], inverse[1]) +
                               dot(inverse[2], inverse[2]));
@@ -82,19 +82,19 @@ ObjectSpace make_object_space(const SharedMeshCoordinateSpace& mesh, const dmat4
 }
 
 ObjectSpace make_object_space(const scene::Scene& now, const scene::Object& object,
-                              const SceneUnitTransform& space) {
+                              const SceneUnits& space) {
     const Bounds<double> box = scene::bounds(now, object);
     // Object space units in one world unit.
-    const double unit = power_of_two_normalising_size(largest_component(box.extent()));
+    const double unit = normalising_scale(largest_component(box.extent()));
     ObjectSpace own;
     own.scene_from_own = dmat3(space.scale / unit);
-    own.centre = space.world_to_scene_units(object.sphere ? object.sphere->centre : box.centre());
+    own.centre = space.to_scene(object.sphere ? object.sphere->centre : box.centre());
     own.least = space.scale / unit;
     if (object.sphere) own.radius = static_cast<float>(object.sphere->radius * unit);
     return own;
 }
 
-Bounds<float> object_bounds_in_scene_units(const ObjectSpace& own, const Bounds<double>& box) {
+Bounds<float> scene_bounds(const ObjectSpace& own, const Bounds<double>& box) {
     constexpr double kFloatRoundingError = 0x1p-22;
     Bounds<double> result;
     for (int corner = 0; corner < 8; ++corner)

@@ -20,17 +20,17 @@ inline constexpr std::uint32_t kReferenceBounces = 16;
 /// ...) of a 2D array. Returns nothing if the scene has no light. `suffix` tells several maps of a
 /// frame apart. With a required model, maps persist while the shadow casters stay, and a light that
 /// needs no map gets none.
-std::optional<graph::ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
-                                                    std::uint32_t edge,
-                                                    const require::WorkModel& model = {},
-                                                    const std::string& suffix = "");
+std::optional<graph::ImageHandle> add_shadows(graph::Graph& graph, const FrameInputs& inputs,
+                                              std::uint32_t edge,
+                                              const require::WorkModel& model = {},
+                                              const std::string& suffix = "");
 
 /// Declares one pass for each light, which draws the optical depth of the glass between the light
 /// and the surfaces in its shadow map (shaders/lib/glass_shadow.glsl): rgba32f, in the layers of
 /// the shadow map. These passes draw in every frame, and count as no scene pass.
-graph::ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
-                                           graph::ImageHandle shadow_map, std::uint32_t edge,
-                                           const std::string& suffix = "");
+graph::ImageHandle add_glass_shadows(graph::Graph& graph, const FrameInputs& inputs,
+                                     graph::ImageHandle shadow_map, std::uint32_t edge,
+                                     const std::string& suffix = "");
 
 /// Number of the knob value refract=backface, as in shaders/lib/refraction.glsl. Only camera views
 /// have the image that it reads.
@@ -57,12 +57,11 @@ OpaquePicture declare_opaque_picture(graph::Graph& graph, const FrameInputs& inp
 /// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
 /// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a
 /// mirror is left out of its own capture.
-void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
-                        const MirrorCaptures& captures, ShaderOfEachMirror looks,
-                        const CaptureWorkOfFrame& work = {});
+void add_captures(graph::Graph& graph, const FrameInputs& inputs, const MirrorCaptures& captures,
+                  MirrorShaders looks, const CaptureWork& work = {});
 
 /// The outputs of the camera's view.
-struct CameraPassOutputs {
+struct CameraOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
     /// Image with the direction in which each mirror pixel looked into a capture, rgba32f: see
     /// shaders/lib/mirror.glsl; 0 for other pixels.
@@ -72,19 +71,19 @@ struct CameraPassOutputs {
     std::optional<graph::ImageHandle> tracers;
 };
 /// Glass that is drawn after everything opaque, because it looks up the opaque picture.
-struct GlassOverOpaquePicture {
+struct GlassOverPicture {
     OpaquePicture picture;
-    ShaderOfEachMirror opaque_looks; ///< of the mirrors in the picture; they do not read it
+    MirrorShaders opaque_looks; ///< of the mirrors in the picture; they do not read it
 };
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
-/// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see SceneDrawSettings.
+/// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see DrawSettings.
 /// With such a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl). With
 /// `glass`, further passes copy the picture, compute its levels, and draw glass and blended
 /// surfaces. They count as no scene passes.
-CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
-                                  const ShadingLights& lighting, ShaderOfEachMirror looks,
-                                  bool is_traced = false, ShadingTracer completing_tracer = {},
-                                  std::optional<GlassOverOpaquePicture> glass = {});
+CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
+                              const ShadingLights& lighting, MirrorShaders looks,
+                              bool is_traced = false, ShadingTracer completing_tracer = {},
+                              std::optional<GlassOverPicture> glass = {});
 
 /// The images of a mirrored view. They are defined only in the view's area.
 struct MirroredViewImages {
@@ -94,7 +93,7 @@ struct MirroredViewImages {
     std::optional<graph::ImageHandle> levels; ///< box-filtered levels of `colour`, from level 1 on
 };
 /// The images that a mirrored view has besides its colour.
-struct MirroredViewImageWishes {
+struct MirroredViewWishes {
     bool has_distances = false, has_levels = false;
 };
 
@@ -104,9 +103,8 @@ struct MirroredViewImageWishes {
 MirroredViewImages add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                      const std::string& name, const MirroredView& view,
                                      std::uint32_t number, const ShadingLights& lighting,
-                                     ShaderOfEachMirror looks,
-                                     std::optional<std::uint32_t> left_out,
-                                     const MirroredViewImageWishes& wanted);
+                                     MirrorShaders looks, std::optional<std::uint32_t> left_out,
+                                     const MirroredViewWishes& wanted);
 
 /// Declares the pass that makes the final picture: exposure in stops, clamp and sRGB curve,
 /// rgba8_unorm.

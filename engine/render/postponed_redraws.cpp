@@ -4,9 +4,8 @@
 
 namespace catoptric::render {
 
-std::vector<std::uint32_t>
-choose_postponed_capture_redraws(std::vector<CaptureRedrawRequest> asking, std::uint32_t most) {
-    std::ranges::sort(asking, [](const CaptureRedrawRequest& a, const CaptureRedrawRequest& b) {
+std::vector<std::uint32_t> choose_postponed(std::vector<RedrawRequest> asking, std::uint32_t most) {
+    std::ranges::sort(asking, [](const RedrawRequest& a, const RedrawRequest& b) {
         return a.waited != b.waited ? a.waited > b.waited : a.mirror < b.mirror;
     });
     std::vector<std::uint32_t> later;

@@ -9,8 +9,8 @@ namespace catoptric::render {
 
 namespace {
 
-bool are_equal_exact_spheres(const std::optional<scene::Sphere>& a,
-                             const std::optional<scene::Sphere>& b) {
+bool are_equal_spheres(const std::optional<scene::Sphere>& a,
+                       const std::optional<scene::Sphere>& b) {
     return a.has_value() == b.has_value() &&
            (!a || (a->centre == b->centre && a->radius == b->radius));
 }
@@ -33,8 +33,7 @@ bool differ_only_in_values(const scene::Material& a, scene::Material b) {
 
 } // namespace
 
-SceneChanges SceneChangeTracker::update_and_find_scene_changes(const scene::Scene& now,
-                                                               bool report_all) {
+SceneChanges SceneChangeTracker::update(const scene::Scene& now, bool report_all) {
     SceneChanges changes;
     changes.layout = report_all || objects_.size() != now.objects.size();
     const std::size_t known = objects_.size();
@@ -42,7 +41,7 @@ SceneChanges SceneChangeTracker::update_and_find_scene_changes(const scene::Scen
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Object& object = now.objects[i];
         const scene::Material& material = now.materials[object.material];
-        TrackedObjectState& seen = objects_[i];
+        ObjectState& seen = objects_[i];
         const bool moved = seen.world_from_object != object.world_from_object;
         const bool is_new = i >= known;
         const bool repainted = is_new || materials_[seen.material] != material;
@@ -56,7 +55,7 @@ SceneChanges SceneChangeTracker::update_and_find_scene_changes(const scene::Scen
                           (is_light_emitting(material) ||
                            (!is_new && is_light_emitting(materials_[seen.material]))));
         changes.materials = changes.materials || repainted ||
-                            !are_equal_exact_spheres(seen.sphere, object.sphere);
+                            !are_equal_spheres(seen.sphere, object.sphere);
         if (moved) changes.moved.push_back(i);
         seen = {object.mesh,   object.material,       object.world_from_object,
                 object.sphere, object.seen_by_camera, object.mirror};

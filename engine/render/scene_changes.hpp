@@ -21,16 +21,16 @@ class SceneChangeTracker {
 public:
     /// Returns the differences from the scene of the last call, then stores `now` in its place.
     /// `report_all`: reports all data of the scene as changed.
-    SceneChanges update_and_find_scene_changes(const scene::Scene& now, bool report_all);
+    SceneChanges update(const scene::Scene& now, bool report_all);
 
 private:
-    struct TrackedObjectState {
+    struct ObjectState {
         std::size_t mesh = 0, material = 0;
         dmat4 world_from_object{1};
         std::optional<scene::Sphere> sphere;
         bool seen_by_camera = true, mirror = false;
     };
-    std::vector<TrackedObjectState> objects_;
+    std::vector<ObjectState> objects_;
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
 };

@@ -19,17 +19,17 @@ using graph::ResourceUse;
 
 /// Returns the content hash of everything that a face of a light's shadow map may show, and of the
 /// face's view.
-std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::WorkModel& model,
-                                   std::uint32_t light, std::uint32_t face) {
+std::uint64_t hash_shadow_face(const GpuScene& scene, const require::WorkModel& model,
+                               std::uint32_t light, std::uint32_t face) {
     const require::LightRequirements& needs = model.lights[light];
     ContentHash content_hash;
     content_hash.add(needs.has_map);
     if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return content_hash.sum();
-    const shared::View& view = scene.list_views()[scene.shadow_view_index(light) + face];
+    const shared::View& view = scene.list_views()[scene.shadow_view(light) + face];
     content_hash.add(needs.content_hash).add(view);
-    content_hash.add_values(std::span(scene.shadowless_backdrops_of_light(light)));
+    content_hash.add_values(std::span(scene.backdrops(light)));
     for (const require::ShadowCaster& caster : model.casters)
-        if (may_view_show_box(view, scene.list_draw_ranges()[caster.object]))
+        if (may_show(view, scene.draw_ranges()[caster.object]))
             content_hash.add(caster.object).add(caster.content_hash);
     return content_hash.sum();
 }
@@ -37,32 +37,32 @@ std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::WorkMod
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
 /// them to the farthest depth, so that nothing is in shadow.
 void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
-                     const CaptureFaceRange& faces, bool has_map, const std::string& name,
+                     const FaceRange& faces, bool has_map, const std::string& name,
                      ImageHandle part) {
     graph.add_pass(name, PassPurpose::scene)
-        .writes(part, ResourceUse::depth, kClearToFarthestDepth)
+        .writes(part, ResourceUse::depth, kClearFarthest)
         .layers(faces.count)
         .record([&scene, light, faces, has_map](PassCommands& commands) {
             const std::uint32_t drawn = scene.drawn_shadow_faces(light);
             if (!has_map || faces.first >= drawn) return;
             scene.bind(commands);
             for (const bool masked : {false, true})
-                draw_objects_with_backface_culling(
-                    commands, scene, {"", masked ? "masked.frag" : "", {}},
-                    scene.shadow_view_index(light) + faces.first,
-                    std::min(faces.count, drawn - faces.first), {}, [&](std::size_t i) {
-                        const ObjectDrawRange& range = scene.list_draw_ranges()[i];
-                        return range.casts_shadow && range.masked == masked &&
-                               !scene.shadowless_backdrops_of_light(light)[i];
-                    });
+                draw_without_back_faces(commands, scene, {"", masked ? "masked.frag" : "", {}},
+                                        scene.shadow_view(light) + faces.first,
+                                        std::min(faces.count, drawn - faces.first), {},
+                                        [&](std::size_t i) {
+                                            const DrawRange& range = scene.draw_ranges()[i];
+                                            return range.casts_shadow && range.masked == masked &&
+                                                   !scene.backdrops(light)[i];
+                                        });
         });
 }
 
 } // namespace
 
-std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
-                                             std::uint32_t edge, const require::WorkModel& model,
-                                             const std::string& suffix) {
+std::optional<ImageHandle> add_shadows(graph::Graph& graph, const FrameInputs& inputs,
+                                       std::uint32_t edge, const require::WorkModel& model,
+                                       const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;
     const std::uint32_t faces = scene.shadow_face_count();
@@ -79,16 +79,16 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
         };
         std::array<std::uint64_t, 6> content_hashes{};
         for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
-            content_hashes[face] = hash_shadow_map_face(scene, model, light, face);
+            content_hashes[face] = hash_shadow_face(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
             return face < faces && (model.is_everything ||
                                     !graph.has_content_hash(part(face, 1), content_hashes[face]));
         };
-        for_each_consecutive_face_range(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
-            const CaptureFaceRange run{light, first, end - first};
+        for_each_face_range(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
+            const FaceRange run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
                 graph.set_content_hash(part(face, 1), content_hashes[face]);
-            const std::string text = run.count == faces ? name : name_with_face_range(name, run);
+            const std::string text = run.count == faces ? name : face_range_name(name, run);
             add_shadow_pass(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
                             part(first, run.count));
         });
@@ -96,11 +96,11 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
     return map;
 }
 
-ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
-                                    ImageHandle shadow_map, std::uint32_t edge,
-                                    const std::string& suffix) {
+ImageHandle add_glass_shadows(graph::Graph& graph, const FrameInputs& inputs,
+                              ImageHandle shadow_map, std::uint32_t edge,
+                              const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
-    check(scene.scene_device().blends_floats(), Failure::no_device,
+    check(scene.device().blends_floats(), Failure::no_device,
           "--glass-shadow tint: wanted a device that adds rgba32f colours and blends one "
           "attachment alone, found none of both; render with --glass-shadow none");
     const std::uint32_t faces = scene.shadow_face_count();
@@ -120,9 +120,9 @@ ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inpu
                 commands.bind("shadow_depths", shadow_map, graph::TextureFilter::nearest);
                 gpu::RasterState state{"", "glass_shadow.frag", {}};
                 state.blending = gpu::Blending::sum;
-                draw_objects(commands, scene, state, scene.shadow_view_index(light),
+                draw_objects(commands, scene, state, scene.shadow_view(light),
                              scene.drawn_shadow_faces(light), {},
-                             [&](std::size_t i) { return scene.list_draw_ranges()[i].tints; });
+                             [&](std::size_t i) { return scene.draw_ranges()[i].tints; });
             });
     }
     return depths;

@@ -15,24 +15,23 @@ namespace {
 /// errors of interpolated depths, which are largest in triangles seen almost from the side.
 constexpr float kMinHiddenDepthFactor = 1 + 0x1p-6f;
 /// Slack of cosines and slopes against roundings.
-constexpr float kViewSlopeRoundingError = 0x1p-18f;
+constexpr float kSlopeError = 0x1p-18f;
 
 /// Returns a bound of the rounding errors of a place relative to the eye.
-float relative_place_rounding_error(const shared::View& view, const vec3& place) {
+float relative_error(const shared::View& view, const vec3& place) {
     return 0x1p-20f * (length(place) + length(view.eye));
 }
 
 /// A sphere as a face sees it: x to the right, y down, z forward.
-struct SphereInCubeFaceView {
+struct FaceSphere {
     vec3 centre;
     float distance; ///< distance of the sphere's centre; above `radius`
     float radius;
     float sine, cosine; ///< sine and cosine of half the angle that the sphere covers
 };
 
-SphereInCubeFaceView make_sphere_in_face_view(const shared::View& view, const vec3& from_eye,
-                                              float radius) {
-    SphereInCubeFaceView seen{
+FaceSphere make_face_sphere(const shared::View& view, const vec3& from_eye, float radius) {
+    FaceSphere seen{
         {dot(view.right, from_eye), dot(view.down, from_eye), dot(view.forward, from_eye)},
         length(from_eye),
         radius,
@@ -44,33 +43,31 @@ SphereInCubeFaceView make_sphere_in_face_view(const shared::View& view, const ve
 }
 
 /// A range of slopes: right or down divided by forward.
-struct ViewSlopeRange {
+struct SlopeRange {
     float low = -1, high = 1;
 };
 
 /// Returns the slopes between the tangents to the sphere, in the plane of `across` and forward.
 /// A side without a tangent in front of the eye is not limited.
-ViewSlopeRange find_sphere_slopes(const SphereInCubeFaceView& sphere, float across) {
+SlopeRange sphere_slopes(const FaceSphere& sphere, float across) {
     const float ahead = sphere.centre.z;
     const float squared = across * across + ahead * ahead - sphere.radius * sphere.radius;
     if (!(squared > 0)) return {};
     const float tangent = std::sqrt(squared);
     const float below_low = ahead * tangent + across * sphere.radius,
                 below_high = ahead * tangent - across * sphere.radius;
-    ViewSlopeRange range;
+    SlopeRange range;
     if (below_low > 0)
-        range.low = (across * tangent - ahead * sphere.radius) / below_low -
-                    kViewSlopeRoundingError;
+        range.low = (across * tangent - ahead * sphere.radius) / below_low - kSlopeError;
     if (below_high > 0)
-        range.high = (across * tangent + ahead * sphere.radius) / below_high +
-                     kViewSlopeRoundingError;
+        range.high = (across * tangent + ahead * sphere.radius) / below_high + kSlopeError;
     return range;
 }
 
 /// The cells of a face. A cell holds one texel, or a square of neighbouring texels.
-class HiddenCubeFaceCells {
+class HiddenCells {
 public:
-    explicit HiddenCubeFaceCells(const FaceRasterSettings& raster)
+    explicit HiddenCells(const FaceRaster& raster)
         : face_edge_(raster.edge),
           texels_((face_edge_ + kFaceCellsPerEdge - 1) / kFaceCellsPerEdge),
           cells_((face_edge_ + texels_ - 1) / texels_),
@@ -87,36 +84,32 @@ public:
         }
     }
 
-    void clear_hidden_cells() {
-        std::ranges::fill(hidden_beyond_, std::numeric_limits<float>::infinity());
-    }
+    void clear() { std::ranges::fill(hidden_beyond_, std::numeric_limits<float>::infinity()); }
 
     /// Records that a ball hides what lies behind it.
-    void mark_cells_hidden_by_ball(const SphereInCubeFaceView& ball) {
-        for_each_cell_near_sphere(
-            ball, 0, [&](std::size_t cell, const ViewSlopeRange& x, const ViewSlopeRange& y) {
-                // The cone around the ball is convex. If it contains the outermost texel centres of
-                // the cell, it contains all of them. The farthest point of the ball within the cell
-                // then lies at one of these centres.
-                float farthest = 0;
-                for (const vec2& corner : {vec2(x.low, y.low), vec2(x.high, y.low),
-                                           vec2(x.low, y.high), vec2(x.high, y.high)}) {
-                    const float cosine = cosine_to_sphere_axis(ball, corner);
-                    if (cosine < ball.cosine + kViewSlopeRoundingError) return false;
-                    const float along = ball.distance * cosine;
-                    const float inside = ball.radius * ball.radius -
-                                         ball.distance * ball.distance * (1 - cosine * cosine);
-                    farthest = std::max(farthest, along - std::sqrt(std::max(0.f, inside)));
-                    if (texels_ == 1) break; // a cell of one texel has only one centre
-                }
-                hidden_beyond_[cell] = std::min(hidden_beyond_[cell],
-                                                farthest * kMinHiddenDepthFactor);
-                return false;
-            });
+    void mark_hidden(const FaceSphere& ball) {
+        for_each_cell(ball, 0, [&](std::size_t cell, const SlopeRange& x, const SlopeRange& y) {
+            // The cone around the ball is convex. If it contains the outermost texel centres of
+            // the cell, it contains all of them. The farthest point of the ball within the cell
+            // then lies at one of these centres.
+            float farthest = 0;
+            for (const vec2& corner : {vec2(x.low, y.low), vec2(x.high, y.low), vec2(x.low, y.high),
+                                       vec2(x.high, y.high)}) {
+                const float cosine = cosine_to_axis(ball, corner);
+                if (cosine < ball.cosine + kSlopeError) return false;
+                const float along = ball.distance * cosine;
+                const float inside = ball.radius * ball.radius -
+                                     ball.distance * ball.distance * (1 - cosine * cosine);
+                farthest = std::max(farthest, along - std::sqrt(std::max(0.f, inside)));
+                if (texels_ == 1) break; // a cell of one texel has only one centre
+            }
+            hidden_beyond_[cell] = std::min(hidden_beyond_[cell], farthest * kMinHiddenDepthFactor);
+            return false;
+        });
     }
 
     /// Returns whether the face may show something in the sphere.
-    bool may_face_show_sphere(const SphereInCubeFaceView& sphere) const {
+    bool may_show_sphere(const FaceSphere& sphere) const {
         const float nearest = sphere.distance - sphere.radius;
         // The angle between two directions is smaller than the distance between their points on the
         // face.
@@ -125,45 +118,41 @@ public:
                               snap_);
         const float least = sphere.cosine * std::cos(around) - sphere.sine * std::sin(around);
         bool shows = false;
-        for_each_cell_near_sphere(
-            sphere, snap_, [&](std::size_t cell, const ViewSlopeRange& x, const ViewSlopeRange& y) {
-                if (nearest > hidden_beyond_[cell]) return false;
-                const vec2 middle((x.low + x.high) / 2, (y.low + y.high) / 2);
-                return shows = cosine_to_sphere_axis(sphere, middle) >
-                               least - kViewSlopeRoundingError;
-            });
+        for_each_cell(sphere, snap_,
+                      [&](std::size_t cell, const SlopeRange& x, const SlopeRange& y) {
+                          if (nearest > hidden_beyond_[cell]) return false;
+                          const vec2 middle((x.low + x.high) / 2, (y.low + y.high) / 2);
+                          return shows = cosine_to_axis(sphere, middle) > least - kSlopeError;
+                      });
         return shows;
     }
 
 private:
-    static float cosine_to_sphere_axis(const SphereInCubeFaceView& sphere, const vec2& slopes) {
+    static float cosine_to_axis(const FaceSphere& sphere, const vec2& slopes) {
         const vec3 direction(slopes, 1);
         return dot(direction, sphere.centre) / (length(direction) * sphere.distance);
     }
 
     /// Returns the first cell with a texel centre at or beyond a slope, and the number of cells
     /// that begin at or before the slope.
-    std::uint32_t first_cell_of_view_slope(float slope) const {
+    std::uint32_t first_cell(float slope) const {
         return static_cast<std::uint32_t>(
-            std::ranges::lower_bound(centres_, slope, {}, &ViewSlopeRange::high) -
-            centres_.begin());
+            std::ranges::lower_bound(centres_, slope, {}, &SlopeRange::high) - centres_.begin());
     }
-    std::uint32_t end_cell_of_view_slope(float slope) const {
+    std::uint32_t end_cell(float slope) const {
         return static_cast<std::uint32_t>(
-            std::ranges::upper_bound(centres_, slope, {}, &ViewSlopeRange::low) - centres_.begin());
+            std::ranges::upper_bound(centres_, slope, {}, &SlopeRange::low) - centres_.begin());
     }
 
     /// Calls visit(cell, slopes to the right, slopes down) for each cell with texel centres less
     /// than `beside` away from the square around the sphere, until `visit` returns true.
     template <typename Visit>
-    void for_each_cell_near_sphere(const SphereInCubeFaceView& sphere, float beside,
-                                   Visit&& visit) const {
-        const ViewSlopeRange across = find_sphere_slopes(sphere, sphere.centre.x),
-                             down = find_sphere_slopes(sphere, sphere.centre.y);
-        const std::uint32_t left = first_cell_of_view_slope(across.low - beside),
-                            right = end_cell_of_view_slope(across.high + beside),
-                            top = first_cell_of_view_slope(down.low - beside),
-                            end = end_cell_of_view_slope(down.high + beside);
+    void for_each_cell(const FaceSphere& sphere, float beside, Visit&& visit) const {
+        const SlopeRange across = sphere_slopes(sphere, sphere.centre.x),
+                         down = sphere_slopes(sphere, sphere.centre.y);
+        const std::uint32_t left = first_cell(across.low - beside),
+                            right = end_cell(across.high + beside),
+                            top = first_cell(down.low - beside), end = end_cell(down.high + beside);
         for (std::uint32_t y = top; y < end; ++y)
             for (std::uint32_t x = left; x < right; ++x)
                 if (visit(std::size_t{y} * cells_ + x, centres_[x], centres_[y])) return;
@@ -172,50 +161,48 @@ private:
     std::uint32_t face_edge_, texels_, cells_;
     float snap_; ///< slope by which a rasteriser may move a corner of a triangle
     /// Slopes of the first and of the last texel centre of each column or row of cells.
-    std::vector<ViewSlopeRange> centres_;
+    std::vector<SlopeRange> centres_;
     /// For each cell, the distance from the eye beyond which nothing is visible.
     std::vector<float> hidden_beyond_;
 };
 
 /// Returns whether the ball hides all objects behind it. For this, the eye must be outside the
 /// ball's object, and the near plane must not cut off a part of the ball.
-bool can_ball_hide_objects(const shared::View& view, const InnerOccluderBall& ball,
-                           const ObjectDrawRange& range) {
+bool can_hide(const shared::View& view, const InnerBall& ball, const DrawRange& range) {
     const float gap = length(range.bounds.centre() - view.eye) - range.radius;
-    return ball.radius > relative_place_rounding_error(view, ball.centre) && gap > 2 * view.near;
+    return ball.radius > relative_error(view, ball.centre) && gap > 2 * view.near;
 }
 
 } // namespace
 
-std::vector<std::uint8_t>
-find_faces_showing_objects(std::span<const shared::View> faces, const FaceRasterSettings& raster,
-                           std::span<const ObjectDrawRange> ranges,
-                           std::span<const InnerOccluderBall> balls,
-                           const std::function<bool(std::size_t)>& wanted) {
+std::vector<std::uint8_t> find_shown_faces(std::span<const shared::View> faces,
+                                           const FaceRaster& raster,
+                                           std::span<const DrawRange> ranges,
+                                           std::span<const InnerBall> balls,
+                                           const std::function<bool(std::size_t)>& wanted) {
     std::vector<std::uint8_t> shown(ranges.size());
     std::vector<std::size_t> objects;
     for (std::size_t i = 0; i < ranges.size(); ++i)
         if (wanted(i)) objects.push_back(i);
-    std::vector<const InnerOccluderBall*> hiding;
-    for (const InnerOccluderBall& ball : balls)
-        if (wanted(ball.object) && can_ball_hide_objects(faces.front(), ball, ranges[ball.object]))
+    std::vector<const InnerBall*> hiding;
+    for (const InnerBall& ball : balls)
+        if (wanted(ball.object) && can_hide(faces.front(), ball, ranges[ball.object]))
             hiding.push_back(&ball);
-    HiddenCubeFaceCells cells(raster);
+    HiddenCells cells(raster);
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const shared::View& view = faces[face];
-        cells.clear_hidden_cells();
-        for (const InnerOccluderBall* const ball : hiding)
-            if (may_view_show_box(view, ranges[ball->object]))
-                cells.mark_cells_hidden_by_ball(make_sphere_in_face_view(
-                    view, ball->centre - view.eye,
-                    ball->radius - relative_place_rounding_error(view, ball->centre)));
+        cells.clear();
+        for (const InnerBall* const ball : hiding)
+            if (may_show(view, ranges[ball->object]))
+                cells.mark_hidden(
+                    make_face_sphere(view, ball->centre - view.eye,
+                                     ball->radius - relative_error(view, ball->centre)));
         for (const std::size_t i : objects) {
-            if (!may_view_show_box(view, ranges[i])) continue;
+            if (!may_show(view, ranges[i])) continue;
             const vec3 from_eye = ranges[i].bounds.centre() - view.eye;
-            const float radius = ranges[i].radius +
-                                 relative_place_rounding_error(view, ranges[i].bounds.centre());
-            if (!(length(from_eye) > radius * (1 + kViewSlopeRoundingError)) ||
-                cells.may_face_show_sphere(make_sphere_in_face_view(view, from_eye, radius)))
+            const float radius = ranges[i].radius + relative_error(view, ranges[i].bounds.centre());
+            if (!(length(from_eye) > radius * (1 + kSlopeError)) ||
+                cells.may_show_sphere(make_face_sphere(view, from_eye, radius)))
                 shown[i] |= static_cast<std::uint8_t>(1u << face);
         }
     }

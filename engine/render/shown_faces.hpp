@@ -11,14 +11,14 @@
 namespace catoptric::render {
 
 /// A ball inside a closed object. The object hides everything that the ball hides.
-struct InnerOccluderBall {
+struct InnerBall {
     vec3 centre{0};   ///< scene units
     float radius = 0; ///< scene units; 0: no ball is known
     std::size_t object = 0;
 };
 
 /// The texels of a face, and how precisely a device places triangles on them.
-struct FaceRasterSettings {
+struct FaceRaster {
     std::uint32_t edge = 0;          ///< texels of a face's edge
     std::uint32_t subtexel_bits = 4; ///< bits below a texel to which corners are rounded
 };
@@ -31,11 +31,11 @@ struct FaceRasterSettings {
 /// `wanted`: the objects that the capture draws; others get 0 and hide nothing.
 /// Costs O(objects * faces) plus the texels that objects cover. Above kFaceCellsPerEdge texels an
 /// edge, several texels form one cell of the search.
-std::vector<std::uint8_t>
-find_faces_showing_objects(std::span<const shared::View> faces, const FaceRasterSettings& raster,
-                           std::span<const ObjectDrawRange> ranges,
-                           std::span<const InnerOccluderBall> balls,
-                           const std::function<bool(std::size_t)>& wanted);
+std::vector<std::uint8_t> find_shown_faces(std::span<const shared::View> faces,
+                                           const FaceRaster& raster,
+                                           std::span<const DrawRange> ranges,
+                                           std::span<const InnerBall> balls,
+                                           const std::function<bool(std::size_t)>& wanted);
 
 inline constexpr std::uint32_t kFaceCellsPerEdge = 64;
 

@@ -25,17 +25,17 @@ constexpr float kLobeSampleBoxOverlap =
 constexpr std::uint32_t kMinSkyBaseWidth = 64, kMaxSkyBaseWidth = 1024;
 
 /// Equirectangular map with twice as many columns as rows.
-struct EquirectangularSkyMap {
+struct SkyMap {
     std::uint32_t width = 0;
     std::vector<vec3> texels;
     std::uint32_t row_count() const { return width / 2; }
-    const vec3& sky_map_texel_at(std::uint32_t column, std::uint32_t row) const {
+    const vec3& texel(std::uint32_t column, std::uint32_t row) const {
         return texels[std::size_t{row} * width + column];
     }
 };
 
 /// Returns the unit direction of a place in a map; both coordinates are in [0, 1].
-vec3 direction_in_sky_map(float across, float down) {
+vec3 sky_direction(float across, float down) {
     constexpr float kPi = std::numbers::pi_v<float>;
     const float azimuth = 2 * kPi * across - kPi, polar = kPi * down;
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar),
@@ -44,7 +44,7 @@ vec3 direction_in_sky_map(float across, float down) {
 
 /// Reads a map, as shaders/lib/environment.glsl does. `uv`:
 /// f32::direction_to_equirectangular_uv of the direction.
-vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec2& uv) {
+vec3 sample_map(const std::vector<vec3>& texels, uvec2 size, const vec2& uv) {
     const f32::EnvironmentMapPosition at = f32::environment_map_position_at_uv(uv.x, uv.y, size.x,
                                                                                size.y);
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
@@ -57,8 +57,8 @@ vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec2& uv)
 
 /// Returns the environment at a width that is a power of two, with several samples a texel where
 /// the environment is finer.
-EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
-    EquirectangularSkyMap base;
+SkyMap make_base_map(const scene::Environment& environment) {
+    SkyMap base;
     base.width = environment.studio ? kMaxSkyBaseWidth / 2
                                     : std::clamp(std::bit_ceil(environment.size.x),
                                                  kMinSkyBaseWidth, kMaxSkyBaseWidth);
@@ -73,13 +73,12 @@ EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
             for (std::uint32_t i = 0; i < edge * edge; ++i) {
                 const float x = (float(i % edge) + .5f) / float(edge);
                 const float y = (float(i / edge) + .5f) / float(edge);
-                const vec3 direction = direction_in_sky_map((float(column) + x) / float(base.width),
-                                                            (float(row) + y) /
-                                                                float(base.row_count()));
+                const vec3 direction = sky_direction((float(column) + x) / float(base.width),
+                                                     (float(row) + y) / float(base.row_count()));
                 sum += environment.studio
                            ? vec3(f32::studio_radiance(direction))
-                           : sample_sky_map(environment.texels, environment.size,
-                                            f32::direction_to_equirectangular_uv(direction));
+                           : sample_map(environment.texels, environment.size,
+                                        f32::direction_to_equirectangular_uv(direction));
             }
             base.texels.push_back(sum / float(edge * edge));
         }
@@ -87,8 +86,8 @@ EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
 }
 
 /// Returns the map at half the width. Each texel is weighted by its solid angle.
-EquirectangularSkyMap halve_sky_map(const EquirectangularSkyMap& fine) {
-    EquirectangularSkyMap half{fine.width / 2, {}};
+SkyMap halve(const SkyMap& fine) {
+    SkyMap half{fine.width / 2, {}};
     for (std::uint32_t row = 0; row < half.row_count(); ++row) {
         const auto weight = [&](std::uint32_t of) {
             return std::sin(std::numbers::pi_v<float> * (float(of) + .5f) /
@@ -96,10 +95,10 @@ EquirectangularSkyMap halve_sky_map(const EquirectangularSkyMap& fine) {
         };
         const float upper = weight(2 * row), lower = weight(2 * row + 1);
         for (std::uint32_t column = 0; column < half.width; ++column) {
-            const vec3 above = fine.sky_map_texel_at(2 * column, 2 * row) +
-                               fine.sky_map_texel_at(2 * column + 1, 2 * row);
-            const vec3 below = fine.sky_map_texel_at(2 * column, 2 * row + 1) +
-                               fine.sky_map_texel_at(2 * column + 1, 2 * row + 1);
+            const vec3 above = fine.texel(2 * column, 2 * row) +
+                               fine.texel(2 * column + 1, 2 * row);
+            const vec3 below = fine.texel(2 * column, 2 * row + 1) +
+                               fine.texel(2 * column + 1, 2 * row + 1);
             half.texels.push_back((upper * above + lower * below) / (2 * (upper + lower)));
         }
     }
@@ -108,14 +107,13 @@ EquirectangularSkyMap halve_sky_map(const EquirectangularSkyMap& fine) {
 
 /// Reads the chain of ever smaller maps between two levels, as the mean of two neighbouring maps.
 /// The first map of the chain is the finest.
-vec3 sample_sky_map_chain(const std::vector<EquirectangularSkyMap>& chain, float level,
-                          const vec3& direction) {
+vec3 sample_chain(const std::vector<SkyMap>& chain, float level, const vec3& direction) {
     const float last = static_cast<float>(chain.size() - 1);
     level = std::clamp(level, 0.f, last);
     const auto finer = static_cast<std::size_t>(std::min(level, last - 1));
     const vec2 uv = f32::direction_to_equirectangular_uv(direction);
-    const auto read = [&](const EquirectangularSkyMap& map) {
-        return sample_sky_map(map.texels, {map.width, map.row_count()}, uv);
+    const auto read = [&](const SkyMap& map) {
+        return sample_map(map.texels, {map.width, map.row_count()}, uv);
     };
     return glm::mix(read(chain[finer]), read(chain[finer + 1]), level - static_cast<float>(finer));
 }
@@ -141,8 +139,8 @@ std::vector<LobeSample> make_lobe_samples(float alpha, std::uint32_t count) {
     return samples;
 }
 
-vec3 filter_sky_texel(const std::vector<EquirectangularSkyMap>& chain,
-                      const std::vector<LobeSample>& samples, const vec3& normal) {
+vec3 filter_sky_texel(const std::vector<SkyMap>& chain, const std::vector<LobeSample>& samples,
+                      const vec3& normal) {
     constexpr float kPi = std::numbers::pi_v<float>;
     vec3 tangent, bitangent, sum(0);
     f32::tangent_frame(normal, tangent, bitangent);
@@ -153,16 +151,16 @@ vec3 filter_sky_texel(const std::vector<EquirectangularSkyMap>& chain,
     float weights = 0;
     for (const auto& [local, level] : samples) {
         const vec3 direction = local.x * tangent + local.y * bitangent + local.z * normal;
-        sum += local.z * sample_sky_map_chain(chain, level - finest, direction);
+        sum += local.z * sample_chain(chain, level - finest, direction);
         weights += local.z;
     }
     return sum / weights;
 }
 
-FilteredSkyLevels filter_environment(const scene::Environment& environment) {
-    std::vector<EquirectangularSkyMap> chain{make_base_sky_map(environment)};
-    while (chain.back().width > 4) chain.push_back(halve_sky_map(chain.back()));
-    FilteredSkyLevels levels;
+SkyLevels filter_environment(const scene::Environment& environment) {
+    std::vector<SkyMap> chain{make_base_map(environment)};
+    while (chain.back().width > 4) chain.push_back(halve(chain.back()));
+    SkyLevels levels;
     levels.width = kSkyLevelWidths;
     for (std::size_t k = 0; k < SKY_LEVEL_COUNT; ++k) {
         levels.first[k] = static_cast<std::uint32_t>(levels.texels.size());
@@ -174,8 +172,8 @@ FilteredSkyLevels filter_environment(const scene::Environment& environment) {
             for (std::uint32_t column = 0; column < width; ++column)
                 levels.texels.push_back(
                     filter_sky_texel(chain, samples,
-                                     direction_in_sky_map((float(column) + .5f) / float(width),
-                                                          (float(row) + .5f) / float(height))));
+                                     sky_direction((float(column) + .5f) / float(width),
+                                                   (float(row) + .5f) / float(height))));
     }
     return levels;
 }
@@ -191,17 +189,16 @@ std::uint64_t hash_environment_map(const scene::Environment& environment) {
 
 } // namespace
 
-std::shared_ptr<const FilteredSkyLevels>
+std::shared_ptr<const SkyLevels>
 find_sky_levels(const std::shared_ptr<const scene::Environment>& environment) {
     constexpr std::size_t kMaxKeptEnvironments = 4; // half a megabyte each
     static std::mutex mutex;
-    static std::deque<std::pair<std::uint64_t, std::shared_ptr<const FilteredSkyLevels>>> kept;
+    static std::deque<std::pair<std::uint64_t, std::shared_ptr<const SkyLevels>>> kept;
     const std::uint64_t hash = hash_environment_map(*environment);
     const std::scoped_lock lock(mutex);
     const auto known = std::ranges::find(kept, hash, [](const auto& pair) { return pair.first; });
     if (known != kept.end()) return known->second;
-    kept.emplace_back(hash,
-                      std::make_shared<const FilteredSkyLevels>(filter_environment(*environment)));
+    kept.emplace_back(hash, std::make_shared<const SkyLevels>(filter_environment(*environment)));
     if (kept.size() > kMaxKeptEnvironments) kept.pop_front();
     return kept.back().second;
 }

@@ -16,25 +16,24 @@ bool is_box_in_core(const Bounds<double>& box, const Bounds<double>& core) {
     return all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
 }
 
-dvec3 choose_scene_origin(const scene::Scene& scene, const Bounds<double>& core) {
+dvec3 choose_origin(const scene::Scene& scene, const Bounds<double>& core) {
     std::vector<Bounds<double>> small;
     Bounds<double> around;
     for (const std::size_t mirror : scene::mirrors(scene)) {
         const Bounds<double> box = scene::bounds(scene, scene.objects[mirror]);
-        if (!is_box_in_core(box, core) || !is_object_small_for_its_distance(box, core.centre()))
-            continue;
+        if (!is_box_in_core(box, core) || !is_small_for_distance(box, core.centre())) continue;
         small.push_back(box), around.add(box);
     }
     const dvec3 theirs = around.centre();
     const bool helps = !small.empty() && std::ranges::none_of(small, [&](const auto& box) {
-        return is_object_small_for_its_distance(box, theirs);
+        return is_small_for_distance(box, theirs);
     });
     return helps ? theirs : core.centre();
 }
 
 } // namespace
 
-bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& origin) {
+bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin) {
     if (box.empty()) return false;
     const double size = largest_component(box.extent()),
                  distance = largest_component(
@@ -42,14 +41,14 @@ bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& or
     return size > 0 && size < kSmallObjectRatio * distance;
 }
 
-SceneUnitTransform make_scene_units(const scene::Scene& scene) {
+SceneUnits make_scene_units(const scene::Scene& scene) {
     const Bounds<double> core = scene::core_bounds(scene);
     if (core.empty()) return {};
-    SceneUnitTransform space;
-    space.origin_world = choose_scene_origin(scene, core);
+    SceneUnits space;
+    space.origin = choose_origin(scene, core);
     if (const double extent = largest_component(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));
-    space.core = {space.world_to_scene_point(core.lo), space.world_to_scene_point(core.hi)};
+    space.core = {space.to_scene_point(core.lo), space.to_scene_point(core.hi)};
     return space;
 }
 

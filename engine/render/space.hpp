@@ -10,17 +10,15 @@ namespace catoptric::render {
 /// extent of the scene's core (scene/scene_core.hpp) is about 1. The conversion uses double, before
 /// any position becomes a float. Therefore neither the scale of a scene nor its distance from the
 /// world's origin reaches the device. Distant objects do not reduce the precision of the core.
-struct SceneUnitTransform {
-    dvec3 origin_world{0};
+struct SceneUnits {
+    dvec3 origin{0};
     double scale = 1;   ///< scene units per world unit, a power of two
     Bounds<float> core; ///< scene units; objects may lie outside
 
-    bool operator==(const SceneUnitTransform&) const = default;
-    dvec3 world_to_scene_units(const dvec3& world) const { return (world - origin_world) * scale; }
-    vec3 world_to_scene_point(const dvec3& world) const {
-        return vec3(world_to_scene_units(world));
-    }
-    float world_to_scene_length(double world) const { return static_cast<float>(world * scale); }
+    bool operator==(const SceneUnits&) const = default;
+    dvec3 to_scene(const dvec3& world) const { return (world - origin) * scale; }
+    vec3 to_scene_point(const dvec3& world) const { return vec3(to_scene(world)); }
+    float to_scene_length(double world) const { return static_cast<float>(world * scale); }
 };
 
 /// An object smaller than this fraction of its distance from the origin loses half of a float's
@@ -29,7 +27,7 @@ inline constexpr double kSmallObjectRatio = 0x1p-12;
 
 /// Returns whether the box is small in that sense; world units. The distance is that of its
 /// farthest corner. Empty boxes and points are not small.
-bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& origin);
+bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin);
 
 /// Returns the scene units of a scene at rest. All frames use the same units, so that motion does
 /// not change them.
@@ -39,7 +37,7 @@ bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& or
 /// close to these mirrors and need a float's precision. Mirrors that no common origin suits do not
 /// move it, nor do mirrors outside the core, which would take precision from everything else. Small
 /// objects have an object space instead (object_space.hpp).
-SceneUnitTransform make_scene_units(const scene::Scene& scene);
+SceneUnits make_scene_units(const scene::Scene& scene);
 
 /// Throws `exhausted` with the object's name if a corner of `box` (scene units) is farther away
 /// than scene::kMaxSceneRadius.

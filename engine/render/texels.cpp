@@ -4,7 +4,7 @@
 
 namespace catoptric::render {
 
-std::vector<vec4> pack_structs_into_texels(std::span<const shared::Surface> surfaces) {
+std::vector<vec4> to_texels(std::span<const shared::Surface> surfaces) {
     std::vector<vec4> texels;
     texels.reserve(shared::kTexelsPerSurface * surfaces.size());
     for (const shared::Surface& surface : surfaces)
@@ -15,7 +15,7 @@ std::vector<vec4> pack_structs_into_texels(std::span<const shared::Surface> surf
     return texels;
 }
 
-std::vector<vec4> pack_structs_into_texels(std::span<const shared::Probe> probes) {
+std::vector<vec4> to_texels(std::span<const shared::Probe> probes) {
     std::vector<vec4> texels;
     texels.reserve(shared::kTexelsPerProbe * probes.size());
     for (const shared::Probe& probe : probes)

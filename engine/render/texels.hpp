@@ -11,7 +11,7 @@
 /// (bvh/words.hpp), because a device may flush the bits of a small integer as a denormal float.
 namespace catoptric::render {
 
-std::vector<vec4> pack_structs_into_texels(std::span<const shared::Surface> surfaces);
-std::vector<vec4> pack_structs_into_texels(std::span<const shared::Probe> probes);
+std::vector<vec4> to_texels(std::span<const shared::Surface> surfaces);
+std::vector<vec4> to_texels(std::span<const shared::Probe> probes);
 
 } // namespace catoptric::render

@@ -17,14 +17,14 @@ public:
     void set_geometry(const FrameGeometry& geometry);
     /// Records that the object's vertices changed. Returns true if the object was expected not to
     /// move. The caller must then lay out all vertices again.
-    bool record_moved_object(std::size_t object);
+    bool record_move(std::size_t object);
     /// Copies the moved vertices. Nothing else may have changed.
-    void copy_moved_vertices(const FrameGeometry& geometry);
+    void copy_moved(const FrameGeometry& geometry);
     /// Returns how often `set_geometry` ran.
-    std::size_t geometry_set_count() const { return layouts_; }
+    std::size_t layout_count() const { return layouts_; }
     /// Returns the index of the object's first vertex in the buffer that it is drawn from.
-    std::uint32_t first_vertex_of_object(std::size_t object) const { return places_[object].first; }
-    /// Writes the changes, like DeviceList::upload_changed_pages.
+    std::uint32_t first_vertex(std::size_t object) const { return places_[object].first; }
+    /// Writes the changes, like DeviceList::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
     /// Binds the static vertices and all indices.
     void bind(graph::PassCommands& commands, std::size_t slot) const;
@@ -32,12 +32,12 @@ public:
     void bind(graph::PassCommands& commands, std::size_t slot, std::size_t object) const;
 
 private:
-    struct ObjectVertexRange {
+    struct VertexRange {
         bool moves = false;
         std::uint32_t first = 0;
     };
     std::size_t layouts_ = 0;
-    std::vector<ObjectVertexRange> places_; ///< range of each object's vertices
+    std::vector<VertexRange> places_; ///< range of each object's vertices
     bool anything_moves_ = false;
     DeviceList static_vertices_, moving_, indices_;
 };

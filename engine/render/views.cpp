@@ -26,7 +26,7 @@ constexpr double kDepthRangeMargin = 1e-3;
 constexpr double kMaxShadowWindowFactor = 1.5;
 
 /// Returns the axes of a cube whose face +Z looks along `forward`, as columns.
-glm::mat3 make_turned_cube_axes(vec3 forward) {
+glm::mat3 make_turned_axes(vec3 forward) {
     const vec3 size = abs(forward);
     const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
                        : size.y <= size.z                   ? vec3(0, 1, 0)
@@ -36,10 +36,10 @@ glm::mat3 make_turned_cube_axes(vec3 forward) {
 }
 
 /// The least and the largest product of an axis with the points of a box.
-struct AxisDepthRange {
+struct DepthRange {
     double low = 0, high = 0;
 };
-AxisDepthRange project_box(const dvec3& axis, const Bounds<float>& box) {
+DepthRange project_box(const dvec3& axis, const Bounds<float>& box) {
     if (box.empty()) return {};
     const dvec3 middle(box.centre()), half(dvec3(box.extent()) / 2.0);
     const double at = dot(axis, middle), reach = dot(abs(axis), half);
@@ -47,7 +47,7 @@ AxisDepthRange project_box(const dvec3& axis, const Bounds<float>& box) {
 }
 
 /// Returns where all geometry begins and ends along an axis, with a margin.
-AxisDepthRange geometry_depth_range_along(const dvec3& forward, const Bounds<float>& everything) {
+DepthRange depth_range(const dvec3& forward, const Bounds<float>& everything) {
     const auto [low, high] = project_box(forward, everything);
     const double room = kDepthRangeMargin * std::max(high - low, 1.0);
     return {low - room, high + room};
@@ -56,7 +56,7 @@ AxisDepthRange geometry_depth_range_along(const dvec3& forward, const Bounds<flo
 /// Makes the view parallel. It reaches from a plane at depth.low, to which the eye moves, to a
 /// plane at depth.high.
 void make_parallel_view(shared::View& view, dvec3& eye, const dvec3& forward,
-                        const AxisDepthRange& depth) {
+                        const DepthRange& depth) {
     eye += forward * (depth.low - dot(forward, eye));
     view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kDepthRangeMargin));
     view.parallel = 1;
@@ -64,14 +64,14 @@ void make_parallel_view(shared::View& view, dvec3& eye, const dvec3& forward,
 
 } // namespace
 
-Bounds<float> compute_geometry_bounds(const FrameGeometry& geometry) {
+Bounds<float> geometry_bounds(const FrameGeometry& geometry) {
     Bounds<float> everything;
-    for (const ObjectDrawRange& range : geometry.ranges) everything.add(range.bounds);
+    for (const DrawRange& range : geometry.ranges) everything.add(range.bounds);
     return everything;
 }
 
-shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransform& space,
-                              uvec2 size, float gap, const Bounds<float>& everything) {
+shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& space, uvec2 size,
+                              float gap, const Bounds<float>& everything) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const dvec3 down = glm::cross(forward, right);
@@ -81,7 +81,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
     // view's axis.
     const double along = 1 / std::sqrt(1 + tangent * tangent * (1 + aspect * aspect));
     shared::View view{};
-    dvec3 eye = space.world_to_scene_units(camera.eye);
+    dvec3 eye = space.to_scene(camera.eye);
     view.right = vec3(right / (tangent * aspect));
     view.down = vec3(down / tangent);
     view.forward = vec3(forward);
@@ -90,7 +90,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
         const double half = camera.orthographic_height * space.scale / 2;
         view.right = vec3(right / (half * aspect));
         view.down = vec3(down / half);
-        const AxisDepthRange depth = geometry_depth_range_along(forward, everything);
+        const DepthRange depth = depth_range(forward, everything);
         make_parallel_view(view, eye, forward,
                            {std::max(depth.low, dot(forward, eye)), depth.high});
     }
@@ -109,21 +109,20 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
 namespace {
 
 /// Returns the largest power of two that is not above a positive number.
-float largest_power_of_two_below(float number) { return std::ldexp(1.0f, std::ilogb(number)); }
+float power_of_two_below(float number) { return std::ldexp(1.0f, std::ilogb(number)); }
 
 } // namespace
 
 std::vector<shared::View> make_cube_views(vec3 eye, float gap) {
-    return make_turned_cube_views(eye, vec3(0), gap);
+    return make_turned_views(eye, vec3(0), gap);
 }
 
-std::vector<shared::View> make_turned_cube_views(vec3 eye, vec3 forward, float gap) {
-    return make_turned_cube_views(
-        eye, forward == vec3(0) ? glm::mat3(1) : make_turned_cube_axes(forward), gap);
+std::vector<shared::View> make_turned_views(vec3 eye, vec3 forward, float gap) {
+    return make_turned_views(eye, forward == vec3(0) ? glm::mat3(1) : make_turned_axes(forward),
+                             gap);
 }
 
-std::vector<shared::View> make_turned_cube_views(vec3 eye, const glm::mat3& world_from_cube,
-                                                 float gap) {
+std::vector<shared::View> make_turned_views(vec3 eye, const glm::mat3& world_from_cube, float gap) {
     std::vector<shared::View> views;
     for (int face = 0; face < 6; ++face) {
         shared::View view{};
@@ -134,15 +133,15 @@ std::vector<shared::View> make_turned_cube_views(vec3 eye, const glm::mat3& worl
         // The nearest surface may lie in a corner, at 1 / sqrt(3) of its distance along the axis. A
         // power of two seldom changes as something approaches, and a change alters only the
         // exponent of depths.
-        view.near = std::max(kMinNearPlane, largest_power_of_two_below(0.5f * gap));
+        view.near = std::max(kMinNearPlane, power_of_two_below(0.5f * gap));
         views.push_back(view);
     }
     return views;
 }
 
-std::array<shared::View, 2> make_directional_light_views(vec3 forward, const Bounds<float>& core,
-                                                         const Bounds<float>& everything) {
-    const glm::mat3 axes = make_turned_cube_axes(forward);
+std::array<shared::View, 2> make_directional_views(vec3 forward, const Bounds<float>& core,
+                                                   const Bounds<float>& everything) {
+    const glm::mat3 axes = make_turned_axes(forward);
     const dvec3 right(axes[0]), down(-axes[1]); // as in face +Z
     const Bounds<float>& middle = core.empty() ? everything : core;
     dvec3 eye = middle.empty() ? dvec3(0) : dvec3(middle.centre());
@@ -155,8 +154,7 @@ std::array<shared::View, 2> make_directional_light_views(vec3 forward, const Bou
                  width = half_of(right, everything), height = half_of(down, everything);
     shared::View view{};
     view.forward = forward;
-    make_parallel_view(view, eye, dvec3(forward),
-                       geometry_depth_range_along(dvec3(forward), everything));
+    make_parallel_view(view, eye, dvec3(forward), depth_range(dvec3(forward), everything));
     view.eye = vec3(eye);
     view.right = vec3(right / width), view.down = vec3(down / height);
     std::array<shared::View, 2> views{view, view};
@@ -169,14 +167,14 @@ namespace {
 
 /// Returns the inward normals, of any length, of the planes that bound a perspective view. All
 /// planes pass through the eye.
-std::array<vec3, 5> list_inward_view_planes(const shared::View& view) {
+std::array<vec3, 5> inward_planes(const shared::View& view) {
     return {view.forward, view.forward + view.right, view.forward - view.right,
             view.forward + view.down, view.forward - view.down};
 }
 
 /// Returns whether the box may lie inside a parallel view: between its sides and in front of its
 /// eye.
-bool may_parallel_view_show_box(const shared::View& view, const Bounds<float>& box) {
+bool may_parallel_show(const shared::View& view, const Bounds<float>& box) {
     const auto furthest = [&](const vec3& plane) {
         const vec3 corner(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
                           plane.z > 0 ? box.hi.z : box.lo.z);
@@ -188,9 +186,9 @@ bool may_parallel_view_show_box(const shared::View& view, const Bounds<float>& b
 
 } // namespace
 
-bool may_view_show_box(const shared::View& view, const Bounds<float>& box) {
-    if (view.parallel != 0) return may_parallel_view_show_box(view, box);
-    for (const vec3& plane : list_inward_view_planes(view)) {
+bool may_show(const shared::View& view, const Bounds<float>& box) {
+    if (view.parallel != 0) return may_parallel_show(view, box);
+    for (const vec3& plane : inward_planes(view)) {
         const vec3 furthest(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
                             plane.z > 0 ? box.hi.z : box.lo.z);
         if (dot(plane, furthest - view.eye) < 0) return false;
@@ -198,14 +196,14 @@ bool may_view_show_box(const shared::View& view, const Bounds<float>& box) {
     return true;
 }
 
-bool may_view_show_box(const shared::View& view, const ObjectDrawRange& range) {
+bool may_show(const shared::View& view, const DrawRange& range) {
     // Fraction of the distance, for the roundings of positions and planes.
     constexpr float kViewPlaneRoundingError = 0x1p-20f;
-    if (!may_view_show_box(view, range.bounds)) return false;
+    if (!may_show(view, range.bounds)) return false;
     if (view.parallel != 0) return true;
     const vec3 towards = range.bounds.centre() - view.eye;
     const float radius = range.radius + kViewPlaneRoundingError * (range.radius + length(towards));
-    return std::ranges::all_of(list_inward_view_planes(view), [&](const vec3& plane) {
+    return std::ranges::all_of(inward_planes(view), [&](const vec3& plane) {
         return dot(plane, towards) >= -radius * length(plane);
     });
 }

@@ -42,7 +42,7 @@ double max_distance(const dvec3& place, const Bounds<double>& box) {
 double filter_length(const scene::PointLight& light, const Bounds<double>& box,
                      const Bounds<double>& everything, std::uint32_t edge) {
     // A cube face at depth d is 2 d wide. The window of a directional light's shadow map is at most
-    // slightly wider than the whole scene (render::make_directional_light_views).
+    // slightly wider than the whole scene (render::make_directional_views).
     const double span = light.directional ? 1.5 * glm::length(everything.extent())
                                           : 2 * max_distance(light.position, box);
     return kShadowFilterTexels * span / std::max(edge, 1u);

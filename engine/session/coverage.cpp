@@ -65,7 +65,7 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameG
     std::vector<int> seen(pixels.size(), -1);
     std::uint64_t tests = 0;
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
-        const render::ObjectDrawRange& range = geometry.ranges[object];
+        const render::DrawRange& range = geometry.ranges[object];
         if (!range.seen_by_camera) continue;
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
              k += 3) {

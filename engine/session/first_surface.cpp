@@ -31,9 +31,8 @@ std::vector<Texel> read_output_values(graph::GraphRunner& runner, graph::FrameTi
 double find_start_of_camera_rays(const render::GpuScene& resident, const scene::Camera& camera) {
     const shared::View& view = resident.list_views()[render::GpuScene::kCameraViewIndex];
     if (view.parallel == 0) return 0;
-    return glm::dot(dvec3(view.forward),
-                    dvec3(view.eye) + dvec3(view.eye_low) -
-                        resident.scene_units().world_to_scene_units(camera.eye));
+    return glm::dot(dvec3(view.forward), dvec3(view.eye) + dvec3(view.eye_low) -
+                                             resident.scene_units().to_scene(camera.eye));
 }
 
 /// Returns the tier of a pixel from the two images of the camera's view.
@@ -107,7 +106,7 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
         const std::uint32_t object = bvh::unpack_number(objects[i].x);
         const bool is_met = object > 0;
         surfaces.object.push_back(object);
-        surfaces.mirror.push_back(is_met ? resident.mirror_number_of_object(object - 1) : 0);
+        surfaces.mirror.push_back(is_met ? resident.mirror_of(object - 1) : 0);
         surfaces.distance.push_back(
             is_met ? static_cast<float>((static_cast<double>(normals[i].w) + start) / scale)
                    : std::numeric_limits<float>::infinity());

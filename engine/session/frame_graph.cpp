@@ -89,7 +89,7 @@ std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs
     CaptureBudget capture_budget;
     for (std::size_t i = 0; i < kept.options.size(); ++i) {
         capture_budget.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
-        capture_budget.drawn += kept.changes[i] != render::CaptureChangeKind::none;
+        capture_budget.drawn += kept.changes[i] != render::CaptureChange::none;
         capture_budget.waiting += kept.waited[i] > 0;
         capture_budget.longest = std::max(capture_budget.longest, kept.waited[i]);
     }
@@ -155,8 +155,8 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                          .exposure = spec.exposure};
         const reflect::TechniqueOfEachMirror assignment =
             reflect::replace_techniques_unfit_for_mirror(
-                reflect::assign_techniques_to_mirrors(plan, mirrors),
-                scene.list_flat_mirror_faces(), scene.flat_mirror_tolerance());
+                reflect::assign_techniques_to_mirrors(plan, mirrors), scene.flat_faces(),
+                scene.flat_tolerance());
         reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
                                                                       assignment, kept);
         frame.graph.output(outputs.hdr);
@@ -259,7 +259,7 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTi
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
         if (choice.shared.capture.chooses_face)
-            part.auto_face = AutoFace{scene.common_capture_face_edge(), scene.used_face_edges()};
+            part.auto_face = AutoFace{scene.common_face_edge(), scene.used_face_edges()};
     for (const graph::BufferHandle counters : outputs.counters)
         add_ray_counters(runner.read_back(ticket, counters), part);
     const std::vector<std::byte> texels = runner.read_back(ticket, outputs.hdr);

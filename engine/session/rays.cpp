@@ -7,7 +7,7 @@ namespace catoptric::session {
 bvh::Bvh build_bvh_without_object(const render::FrameGeometry& geometry, std::size_t left_out) {
     std::vector<bvh::Triangle> triangles;
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
-        const render::ObjectDrawRange& range = geometry.ranges[object];
+        const render::DrawRange& range = geometry.ranges[object];
         if (object == left_out) continue;
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
              k += 3) {

@@ -41,8 +41,8 @@ uvec2 compute_thumbnail_size(uvec2 size) {
 std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     const scene::SceneAtTime at_time(request.scene, request.time);
     const scene::Scene& now = *at_time;
-    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
-    const render::FrameGeometry geometry = render::make_frame_geometry(now, space);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
+    const render::FrameGeometry geometry = render::make_geometry(now, space);
     const shared::View view = render::make_camera_view(
         scene::camera_at(request.camera, request.time), space, size, 0);
     // With more tests than this, building a BVH would be faster.

@@ -115,7 +115,7 @@ std::size_t count_rays_hitting_targets(const render::FrameGeometry& geometry,
 struct CameraPlacementScene {
     explicit CameraPlacementScene(const scene::Scene& scene, double seconds)
         : now(scene::scene_at(scene, seconds)), space(render::make_scene_units(scene)),
-          geometry(render::make_frame_geometry(now, space)),
+          geometry(render::make_geometry(now, space)),
           hierarchy(build_bvh_without_object(geometry, geometry.ranges.size())),
           aims(list_camera_targets(now)) {}
 
@@ -127,7 +127,7 @@ struct CameraPlacementScene {
     }
 
     scene::Scene now;
-    render::SceneUnitTransform space;
+    render::SceneUnits space;
     render::FrameGeometry geometry;
     bvh::Bvh hierarchy;
     std::vector<std::size_t> aims;

@@ -89,7 +89,7 @@ double Session::Impl::update_device_scene(const render::ShownInstant& wanted) {
                                history.face_edges->needs.size() != resident->mirror_count()))
         history.face_edges.reset(); // an edit may have made or unmade a mirror
     if (!history.face_edges)
-        history.face_edges = SequenceFaceEdges{wanted.size, resident->find_needed_face_edges()};
+        history.face_edges = SequenceFaceEdges{wanted.size, resident->needed_face_edges()};
     resident->use_face_edges(history.face_edges->needs);
     return update_ms;
 }
@@ -171,15 +171,15 @@ SessionCounters Access::session_counters(const Session& session) {
     SessionCounters counts = self.counts;
     counts.plans = self.runner.plan_count();
     counts.memory_bytes = self.runner.allocated_bytes();
-    counts.uploads = self.resident->device_buffer_write_count();
-    counts.hierarchies_built = self.resident->built_bvh_count();
-    counts.hierarchies_refitted = self.resident->refitted_bvh_count();
+    counts.uploads = self.resident->write_count();
+    counts.hierarchies_built = self.resident->built_bvhs();
+    counts.hierarchies_refitted = self.resident->refitted_bvhs();
     return counts;
 }
 
 SetupTimes Access::setup_times(const Session& session) {
     const render::GpuScene& resident = *session.impl_->resident;
-    return {resident.first_scene_upload_ms(), resident.first_bvh_build_ms()};
+    return {resident.first_upload_ms(), resident.first_bvh_build_ms()};
 }
 
 Frame Session::frame(const FrameSpec& spec) { return Frame(impl_->submit(impl_, spec, {}, {})); }
@@ -309,7 +309,7 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
         for (std::size_t i = 0; i < plans.size(); ++i) {
             keeping[i].before = frame.parts[i].outputs.kept;
-            if (k > 0 && keeping[i].before) render::mark_captures_unchanged(*keeping[i].before);
+            if (k > 0 && keeping[i].before) render::mark_unchanged(*keeping[i].before);
         }
         frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident,
                                     frame.graph.next_history(), keeping);
@@ -326,8 +326,7 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
 FrameTimes Access::measure_cube_clear_time(Session& session) {
     Session::Impl& self = *session.impl_;
     constexpr std::uint32_t kClearCostCubeEdge = 256;
-    const std::uint32_t mirrors = self.resident->mirror_count(),
-                        most = self.resident->max_cube_count();
+    const std::uint32_t mirrors = self.resident->mirror_count(), most = self.resident->max_cubes();
     graph::Graph graph;
     for (std::uint32_t first = 0; first < mirrors; first += most) {
         const std::uint32_t count = std::min(most, mirrors - first);

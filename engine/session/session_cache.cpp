@@ -46,8 +46,8 @@ Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_co
         keeping[i].most = most_captures(spec, i, model);
     for (std::size_t i = 0; follows && i < history.captures.size(); ++i) {
         keeping[i].before = history.captures[i];
-        render::read_finished_face_comparisons(
-            history.captures[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
+        render::read_comparisons(history.captures[i],
+                                 [&](std::uint64_t frame) { return runner.has_ended({frame}); });
     }
     return keeping;
 }
@@ -60,7 +60,7 @@ void Session::Impl::store_history_of_frame(const FrameSpec& spec, const render::
         history.captures.push_back(part.outputs.kept);
         if (!part.outputs.kept) continue;
         part.outputs.kept->frame = ticket.frame;
-        comparisons.mark_comparison_buffer_used(part.outputs.kept->differing, ticket.frame);
+        comparisons.mark_used(part.outputs.kept->differing, ticket.frame);
     }
     if (spec.budget_ms == 0) return;
     history.timed = {ticket.frame, {}};
@@ -71,7 +71,7 @@ void Session::Impl::store_history_of_frame(const FrameSpec& spec, const render::
 
 void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
     const auto must_learn = [&](const std::shared_ptr<render::CaptureCache>& one) {
-        return one && render::must_read_face_comparisons(*one, has_capture_limit(spec));
+        return one && render::must_read_comparisons(*one, has_capture_limit(spec));
     };
     const auto learns = std::ranges::find_if(history.captures, must_learn);
     if (learns != history.captures.end() && !runner.has_ended({(*learns)->frame}))

@@ -80,7 +80,7 @@ struct Session::Impl {
     Access::EngineImpl& engine_impl;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
-    render::CaptureComparisonBufferPool comparisons;
+    render::ComparisonBuffers comparisons;
     History history;
     graph::GraphRunner runner;
     std::vector<std::string> mirrors; ///< names of the mirrors

@@ -44,14 +44,14 @@ f32::Ray reflect_ray_at_hit(const render::FrameGeometry& geometry, const f32::Ra
 TrueHitFinder::TrueHitFinder(const Request& request) {
     const scene::SceneAtTime at_time(request.scene, request.time);
     const scene::Scene& now = *at_time;
-    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
-    geometry_ = render::make_frame_geometry(now, space);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
+    geometry_ = render::make_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);
     for (const scene::Object& object : now.objects)
         emits_.push_back(scene::is_visibly_emissive(now.materials[object.material]));
     everything_ = build_bvh_without_object(geometry_, geometry_.ranges.size());
     for (const dvec3& centre : scene::capture_centres(now))
-        centres_.push_back(space.world_to_scene_point(centre));
+        centres_.push_back(space.to_scene_point(centre));
     for (const std::size_t object : mirror_objects_) {
         without_.push_back(build_bvh_without_object(geometry_, object));
     }
@@ -59,10 +59,10 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
 }
 
 void TrueHitFinder::trace_true_hits_of_request(const Request& request) {
-    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
     const shared::View view = render::make_camera_view(
         scene::camera_at(request.camera, request.time), space, request.size, 0,
-        render::compute_geometry_bounds(geometry_));
+        render::geometry_bounds(geometry_));
     const auto mirror_of = [&](std::uint32_t object) {
         return static_cast<std::uint32_t>(std::ranges::find(mirror_objects_, object) -
                                           mirror_objects_.begin());
@@ -96,7 +96,7 @@ int TrueHitFinder::find_captured_object(std::uint32_t mirror, const vec3& direct
         const vec4* corner = &tree.triangles[3 * hit->place];
         const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])),
                                ray.direction) < 0;
-        const render::ObjectDrawRange& range = geometry_.ranges[hit->object];
+        const render::DrawRange& range = geometry_.ranges[hit->object];
         if (!(left_out && range.mirror && range.exact_sphere && !range.lit)) {
             if (behind_first && (!second_layer || faces)) return static_cast<int>(hit->object);
             behind_first = true;

@@ -71,7 +71,7 @@ BenchmarkSubject make_session_benchmark_subject(Engine& engine, const scene::Sce
 
 BenchmarkSubject make_bvh_benchmark_subject(const scene::Scene& scene) {
     const auto geometry = std::make_shared<render::FrameGeometry>(
-        render::make_frame_geometry(scene::scene_at(scene, 0), render::make_scene_units(scene)));
+        render::make_geometry(scene::scene_at(scene, 0), render::make_scene_units(scene)));
     const auto triangles = static_cast<double>(geometry->indices.size() / 3);
     return {.name = "hierarchy/" + scene.name,
             .work =

@@ -46,7 +46,7 @@ float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
 }
 
 // Returns whether the probe belongs to the layer around the scene's bounds, which only scenes with an environment have
-// (make_light_probe_grid).
+// (make_probe_grid).
 bool is_outer_light_probe(LightProbeGrid grid, uvec3 place) {
     return environment_kind != kNoEnvironment && (any(equal(place, uvec3(0))) || any(equal(place, grid.counts - 1u)));
 }

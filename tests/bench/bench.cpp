@@ -102,26 +102,27 @@ void compare_tree_shapes(const session::Request& base, int rounds) {
 /// printed.
 void compare_processor_rules(const session::Request& base) {
     constexpr int kRepetitions = 25;
-    const render::SceneUnitTransform space = render::make_scene_units(base.scene);
-    const render::FrameGeometry geometry = render::make_frame_geometry(base.scene, space);
-    render::NearestTriangleQuery nearest;
+    const render::SceneUnits space = render::make_scene_units(base.scene);
+    const render::FrameGeometry geometry = render::make_geometry(base.scene, space);
+    render::NearestTriangle nearest;
     nearest.set_geometry(geometry);
     volatile float kept = 0; // volatile, so that the compiler keeps the measured work
     const std::vector<benchmark::BenchmarkSubject> subjects{
-        benchmark::make_benchmark_subject(
-            "near planes from the nearest gap | frame",
-            [&] {
-                // One search each for the camera, four captures and the
-                // light.
-                for (int i = 0; i < 6; ++i)
-                    kept = nearest.distance_to_nearest_triangle(
-                        geometry, dvec3(0.1 * i),
-                        [](std::size_t, const render::ObjectDrawRange&) { return false; });
-            }),
+        benchmark::make_benchmark_subject("near planes from the nearest gap | frame",
+                                          [&] {
+                                              // One search each for the camera, four captures and
+                                              // the light.
+                                              for (int i = 0; i < 6; ++i)
+                                                  kept = nearest.distance(
+                                                      geometry, dvec3(0.1 * i),
+                                                      [](std::size_t, const render::DrawRange&) {
+                                                          return false;
+                                                      });
+                                          }),
         benchmark::make_benchmark_subject(
             "centre and scale in doubles, then floats | frame",
             [&] {
-                kept = render::make_frame_geometry(base.scene, render::make_scene_units(base.scene))
+                kept = render::make_geometry(base.scene, render::make_scene_units(base.scene))
                            .vertices.front()
                            .position.x;
             }),

@@ -27,7 +27,7 @@ constexpr int kNoDeviceExitCode = 69;
 
 /// Returns one ray through each pixel of the scene's first camera, in blocks of 8x8 pixels.
 std::vector<DeviceRay> make_camera_rays(const scene::Scene& scene,
-                                        const render::SceneUnitTransform& space) {
+                                        const render::SceneUnits& space) {
     const scene::Camera& camera = scene.cameras.front();
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
@@ -38,7 +38,7 @@ std::vector<DeviceRay> make_camera_rays(const scene::Scene& scene,
                   y = block / (kRaysAcrossPicture / 8) * 8 + i / 8 % 8;
         const dvec2 place = (dvec2(x, y) + .5) / (kRaysAcrossPicture / 2.0) - 1.0;
         rays.push_back(
-            {.origin = vec3(space.world_to_scene_point(camera.eye)),
+            {.origin = vec3(space.to_scene_point(camera.eye)),
              .direction = vec3(normalize(forward + half * (place.x * right - place.y * up)))});
     }
     return rays;
@@ -102,7 +102,7 @@ int main(int argc, char** argv) try {
     }
     const test::DriverRayQuery query(*device);
     const scene::Scene scene = scene::make_cornell();
-    const render::SceneUnitTransform space = render::make_scene_units(scene);
+    const render::SceneUnits space = render::make_scene_units(scene);
     const std::vector<bvh::Triangle> triangles = test::list_built_in_triangles();
     test::RandomNumbers numbers(7);
     std::printf("walk on %s, ray query on %s; %zu triangles\n",

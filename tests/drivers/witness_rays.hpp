@@ -22,8 +22,8 @@ struct WitnessRayBatch {
 /// Returns the triangles of the built-in scene as the ray tracer stores them, in scene units.
 inline std::vector<bvh::Triangle> list_built_in_triangles() {
     const scene::Scene scene = scene::make_cornell();
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene::scene_at(scene, 0), render::make_scene_units(scene));
+    const render::FrameGeometry geometry = render::make_geometry(scene::scene_at(scene, 0),
+                                                                 render::make_scene_units(scene));
     std::vector<bvh::Triangle> result;
     const auto corner = [&](std::size_t i) {
         return geometry.vertices[geometry.indices[i]].position;

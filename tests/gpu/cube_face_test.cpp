@@ -112,8 +112,8 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
         wrong += vec3(answers[i]) != room.colour_of_wall_point(seen);
         // A lookup of the nearest texel may read a distance up to half a texel's diagonal beside
         // the given direction. Over this length, the distance changes only a little.
-        EXPECT_NEAR(answers[i].w, gpu_scene.scene_units().world_to_scene_length(seen.distance),
-                    0.02 * gpu_scene.scene_units().world_to_scene_length(seen.distance));
+        EXPECT_NEAR(answers[i].w, gpu_scene.scene_units().to_scene_length(seen.distance),
+                    0.02 * gpu_scene.scene_units().to_scene_length(seen.distance));
     }
     EXPECT_GT(judged, 1000u);
     EXPECT_EQ(wrong, 0u);
@@ -134,11 +134,11 @@ TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {
     const bool unorm = GetParam() == TexelFormat::r8_unorm;
     const test::CapturedCubes captured = test::capture_mirrors(
         room.make_letter_room_scene(), kCubeFaceTexels, GetParam(), kUnormRangeInWorldUnits);
-    const double unit = unorm ? captured.space.world_to_scene_length(kUnormRangeInWorldUnits) : 1.0;
+    const double unit = unorm ? captured.space.to_scene_length(kUnormRangeInWorldUnits) : 1.0;
     double worst = 0;
     stress::for_each_cube_texel(
         kCubeFaceTexels, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const double wanted = captured.space.world_to_scene_length(
+            const double wanted = captured.space.to_scene_length(
                                       room.seen_wall_point(direction).distance) /
                                   unit;
             const double found = captured.distance(0, face, x, y, GetParam());

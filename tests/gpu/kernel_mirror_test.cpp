@@ -29,8 +29,8 @@ std::vector<DeviceRay> make_random_rays_in_box(std::size_t count, vec3 lo, vec3 
 
 TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     const scene::Scene room = scene::make_cornell();
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        room, render::make_scene_units(room));
+    const render::FrameGeometry geometry = render::make_geometry(room,
+                                                                 render::make_scene_units(room));
     DeviceRayTracer kernel(session::build_bvh_without_object(geometry, geometry.ranges.size()));
     const std::vector<DeviceRay> rays = make_random_rays_in_box(
         100000, vec3(kernel.traversed_bvh().nodes[0]), vec3(kernel.traversed_bvh().nodes[1]), 1);

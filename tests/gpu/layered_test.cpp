@@ -29,7 +29,7 @@ TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);
 }
 
-/// Draws captures as render::add_capture_passes does, but draws every object into every face.
+/// Draws captures as render::add_captures does, but draws every object into every face.
 /// Returns the colours.
 std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene,
                                                        std::uint32_t face) {
@@ -54,13 +54,12 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
                 for (const bool mirrors_now : {false, true}) {
                     commands.bind_pipeline(gpu::RasterState{
                         "scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag", {}});
-                    for (std::size_t i = 0; i < gpu_scene.list_draw_ranges().size(); ++i) {
-                        const render::ObjectDrawRange& range = gpu_scene.list_draw_ranges()[i];
-                        if (range.mirror != mirrors_now ||
-                            i == gpu_scene.object_index_of_mirror(mirror))
+                    for (std::size_t i = 0; i < gpu_scene.draw_ranges().size(); ++i) {
+                        const render::DrawRange& range = gpu_scene.draw_ranges()[i];
+                        if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
                             continue;
-                        commands.push_constants(shared::DrawParameters{
-                            .first_view = gpu_scene.capture_view_index(mirror)});
+                        commands.push_constants(
+                            shared::DrawParameters{.first_view = gpu_scene.capture_view(mirror)});
                         gpu_scene.bind_vertices(commands, i);
                         commands.draw(range.first_index, range.index_count, 0, 6,
                                       static_cast<std::uint32_t>(i) << shared::kInstanceLayerBits);
@@ -92,7 +91,7 @@ TEST(Culling, BoxWithAVisiblePointIsNeverCulled) {
         box.add(corner);
         box.add(corner + vec3(size(random), size(random), size(random)));
         for (const shared::View& view : render::make_cube_views(eye, .01f)) {
-            if (render::may_view_show_box(view, box)) continue;
+            if (render::may_show(view, box)) continue;
             ++left_out;
             for (int i = 0; i < 20; ++i) {
                 const vec3 v = box.lo +
@@ -116,12 +115,12 @@ TEST(Culling, BallWithAVisiblePointIsNeverCulled) {
     for (int round = 0; round < 2000; ++round) {
         const vec3 eye(coordinate(random), coordinate(random), coordinate(random));
         const vec3 centre(coordinate(random), coordinate(random), coordinate(random));
-        render::ObjectDrawRange ball;
+        render::DrawRange ball;
         ball.radius = size(random);
         ball.bounds = {centre - ball.radius, centre + ball.radius};
         for (const shared::View& view : render::make_cube_views(eye, .01f)) {
-            by_box += !render::may_view_show_box(view, ball.bounds);
-            if (render::may_view_show_box(view, ball)) continue;
+            by_box += !render::may_show(view, ball.bounds);
+            if (render::may_show(view, ball)) continue;
             ++left_out;
             for (int i = 0; i < 40; ++i) {
                 const vec3 out(normal(random), normal(random), normal(random));

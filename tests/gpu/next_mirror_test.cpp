@@ -35,8 +35,7 @@ std::vector<NextMirrorAnswer> list_next_mirror_answers(const std::vector<shared:
     auto& [device, pipelines] = test::get_test_device();
     gpu::Buffer input, mirrors, tree, frame;
     upload(device, input, "rays", rays, gpu::BufferUsage::plain);
-    upload(device, mirrors, "probes", render::pack_structs_into_texels(probes),
-           gpu::BufferUsage::texels);
+    upload(device, mirrors, "probes", render::to_texels(probes), gpu::BufferUsage::texels);
     upload(device, tree, "tree", render::build_mirror_tree(probes), gpu::BufferUsage::texels);
     const auto count = static_cast<std::uint32_t>(probes.size());
     upload(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},

@@ -37,9 +37,9 @@ struct EditableResidentScene {
           resident(resident_test_device(), current_scene, slots) {}
     /// Writes the changes to the device. Returns the number of buffer writes.
     std::size_t write_changes_to_device(std::size_t slot = 0) {
-        const std::size_t before = resident.device_buffer_write_count();
+        const std::size_t before = resident.write_count();
         resident.update(current_scene, camera, kResidentPictureSize, ambient, slot);
-        return resident.device_buffer_write_count() - before;
+        return resident.write_count() - before;
     }
     dvec4& object_translation(std::size_t object) {
         return current_scene.objects[object].world_from_object[3];
@@ -81,27 +81,27 @@ TEST(Resident, HierarchiesAreBuiltOnlyForTracingTechniques) {
     EditableResidentScene live;
     live.write_changes_to_device();
     render_resident_scene(live.resident, "parallax:face=16,shadow_map=16");
-    EXPECT_EQ(live.resident.built_bvh_count(), 0u);
+    EXPECT_EQ(live.resident.built_bvhs(), 0u);
     EXPECT_EQ(live.resident.bvh_update_ms(), 0);
     for (int frame = 0; frame < 3; ++frame) {
         live.write_changes_to_device();
         render_resident_scene(live.resident, "raytrace");
-        EXPECT_EQ(live.resident.built_bvh_count(), 1u);
+        EXPECT_EQ(live.resident.built_bvhs(), 1u);
     }
-    EXPECT_EQ(live.resident.refitted_bvh_count(), 0u);
+    EXPECT_EQ(live.resident.refitted_bvhs(), 0u);
     live.move_mirror_ball({.1, .1, 0});
     live.write_changes_to_device();
     render_resident_scene(live.resident, "raytrace");
-    EXPECT_EQ(live.resident.built_bvh_count(), 1u);
-    EXPECT_EQ(live.resident.refitted_bvh_count(), 1u);
+    EXPECT_EQ(live.resident.built_bvhs(), 1u);
+    EXPECT_EQ(live.resident.refitted_bvhs(), 1u);
     // Move three balls out of the room, along three axes.
     for (std::size_t ball = 0; ball < 3; ++ball)
         live.object_translation(live.current_scene.objects.size() - 3 +
                                 ball)[static_cast<int>(ball)] += 30;
     live.write_changes_to_device();
     render_resident_scene(live.resident, "raytrace");
-    EXPECT_EQ(live.resident.built_bvh_count(), 2u) << "a refit twice as bad is none";
-    EXPECT_GT(live.resident.scene_update_ms(), 0);
+    EXPECT_EQ(live.resident.built_bvhs(), 2u) << "a refit twice as bad is none";
+    EXPECT_GT(live.resident.update_ms(), 0);
     EXPECT_GT(live.resident.bvh_update_ms(), 0);
 }
 
@@ -115,14 +115,14 @@ TEST(Resident, HierarchiesAreRebuiltWhenWallsBeginToCastShadows) {
         {.kind = scene::PunctualLight::Kind::point, .intensity = vec3(1)});
     live.write_changes_to_device();
     render_resident_scene(live.resident, "raytrace");
-    EXPECT_EQ(live.resident.built_bvh_count(), 1u) << "the light is in the room";
+    EXPECT_EQ(live.resident.built_bvhs(), 1u) << "the light is in the room";
     live.current_scene.punctual.back().world_from_light[3] = dvec4(0, 5, 0, 1);
     live.write_changes_to_device();
     render::GpuScene fresh(resident_test_device(), live.current_scene);
     fresh.update(live.current_scene, live.camera, kResidentPictureSize, live.ambient);
     EXPECT_EQ(render_resident_scene(live.resident, "raytrace"),
               render_resident_scene(fresh, "raytrace"));
-    EXPECT_EQ(live.resident.built_bvh_count(), 2u);
+    EXPECT_EQ(live.resident.built_bvhs(), 2u);
 }
 
 /// Makes one random change of the kinds that a program may make.
@@ -176,7 +176,7 @@ TEST(Resident, ChangedSceneEqualsASceneMadeForTheFrame) {
                       render_resident_scene(fresh, technique))
                 << technique << ", step " << step;
     }
-    EXPECT_GT(live.resident.refitted_bvh_count(), 2u);
+    EXPECT_GT(live.resident.refitted_bvhs(), 2u);
 }
 
 /// Turns two meshes in one update. Together they have more triangles than the update compares at a
@@ -235,42 +235,39 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kListSlotCount = 3, kListWordCount = 9000;
     render::DeviceList list("list", gpu::BufferUsage::plain, kListSlotCount);
     std::vector<std::uint32_t> current_words(kListWordCount, 1);
-    list.set_device_list_contents(current_words);
+    list.set(current_words);
     for (std::size_t slot = 0; slot < kListSlotCount; ++slot)
-        list.upload_changed_pages(resident_test_device(), slot);
-    EXPECT_EQ(list.device_copy_count(), 1u) << "nothing has changed: one copy";
+        list.write(resident_test_device(), slot);
+    EXPECT_EQ(list.copy_count(), 1u) << "nothing has changed: one copy";
     std::vector<std::vector<std::uint32_t>> bound(kListSlotCount, current_words);
     test::RandomNumbers numbers(6);
     for (std::size_t frame = 0; frame < 40; ++frame) {
         if (numbers.random_integer_below(3) > 0)
             current_words[numbers.random_integer_below(kListWordCount)] = numbers.random_word();
-        list.set_device_list_contents(current_words);
+        list.set(current_words);
         const std::size_t slot = frame % kListSlotCount;
-        list.upload_changed_pages(resident_test_device(), slot);
+        list.write(resident_test_device(), slot);
         bound[slot] = current_words;
         for (std::size_t other = 0; other < kListSlotCount; ++other)
-            ASSERT_EQ(read_buffer_words(list.buffer_of_device_copy(other), kListWordCount),
-                      bound[other])
+            ASSERT_EQ(read_buffer_words(list.buffer(other), kListWordCount), bound[other])
                 << "frame " << frame;
     }
-    EXPECT_LE(list.device_copy_count(), kListSlotCount);
+    EXPECT_LE(list.copy_count(), kListSlotCount);
 }
 
 TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
     render::DeviceList list("list", gpu::BufferUsage::plain, 1);
     std::vector<std::uint32_t> current_words(100000, 1);
-    list.set_device_list_contents(current_words);
-    EXPECT_EQ(list.upload_changed_pages(resident_test_device(), 0), 1u);
+    list.set(current_words);
+    EXPECT_EQ(list.write(resident_test_device(), 0), 1u);
     current_words[10] = current_words[20] = current_words[60000] = 2;
-    list.set_device_list_contents(current_words);
-    EXPECT_EQ(list.upload_changed_pages(resident_test_device(), 0), 2u);
-    EXPECT_EQ(read_buffer_words(list.buffer_of_device_copy(0), current_words.size()),
-              current_words);
+    list.set(current_words);
+    EXPECT_EQ(list.write(resident_test_device(), 0), 2u);
+    EXPECT_EQ(read_buffer_words(list.buffer(0), current_words.size()), current_words);
     current_words.resize(200000, 3);
-    list.set_device_list_contents(current_words);
-    list.upload_changed_pages(resident_test_device(), 0);
-    EXPECT_EQ(read_buffer_words(list.buffer_of_device_copy(0), current_words.size()),
-              current_words);
+    list.set(current_words);
+    list.write(resident_test_device(), 0);
+    EXPECT_EQ(read_buffer_words(list.buffer(0), current_words.size()), current_words);
 }
 
 } // namespace

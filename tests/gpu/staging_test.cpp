@@ -127,7 +127,7 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         graph::Graph graph;
         render::FrameRequests requests(gpu_scene.next_view());
         const render::FrameInputs inputs{gpu_scene, requests, {48, 32}, ""};
-        const render::ShadingLights lighting{render::add_shadow_passes(graph, inputs, 64)};
+        const render::ShadingLights lighting{render::add_shadows(graph, inputs, 64)};
         const graph::ImageHandle hdr = render::add_camera_view(graph, inputs, lighting, {}).hdr;
         graph.output(hdr);
         gpu_scene.fulfil(requests, [] {});

@@ -56,10 +56,8 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     auto& [device, pipelines] = test::get_test_device();
     gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
     using gpu::BufferUsage;
-    upload(device, surface_list, "surfaces", render::pack_structs_into_texels(surfaces),
-           BufferUsage::texels);
-    upload(device, probe_list, "probes", render::pack_structs_into_texels(probes),
-           BufferUsage::texels);
+    upload(device, surface_list, "surfaces", render::to_texels(surfaces), BufferUsage::texels);
+    upload(device, probe_list, "probes", render::to_texels(probes), BufferUsage::texels);
     upload(device, detail_list, "details", details, BufferUsage::quads);
     upload(device, attribute_list, "attributes", attributes, BufferUsage::texels);
     upload(device, texture_list, "texels", texels, BufferUsage::words);

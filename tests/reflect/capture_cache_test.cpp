@@ -32,8 +32,7 @@ protected:
         graph.output(outputs_.hdr);
         runner_.run_and_wait(graph, graph::PassTiming::isolated);
         kept_ = outputs_.kept;
-        if (learns_)
-            render::read_finished_face_comparisons(kept_, [](std::uint64_t) { return true; });
+        if (learns_) render::read_comparisons(kept_, [](std::uint64_t) { return true; });
         Names names;
         for (const graph::PlannedPass& planned : runner_.plan(graph).passes)
             if (graph.passes()[planned.pass].name != "view")
@@ -59,7 +58,7 @@ protected:
     scene::Scene room_ = test::make_lit_room(3, 2);
     render::GpuScene scene_{bench_.device, room_};
     render::GpuScene* shown_ = &scene_; ///< the scene that the frames show
-    render::CaptureComparisonBufferPool comparisons_{
+    render::ComparisonBuffers comparisons_{
         bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
     graph::GraphRunner runner_{bench_.device, bench_.pipelines};
     require::WorkModel model_;

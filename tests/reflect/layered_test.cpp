@@ -83,7 +83,7 @@ TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
                 solid_angle += 4 /
                                (kCaptureFaceTexels * kCaptureFaceTexels * std::pow(length(at), 3));
                 int wall = 0;
-                const float expected = first.space.world_to_scene_length(
+                const float expected = first.space.to_scene_length(
                     distance_to_box_wall(centre, normalize(at), wall));
                 EXPECT_GT(two, one * (1 + 0x1p-10f));
                 // Interpolated positions are exact to a few roundings of the scene's size, which is

@@ -236,11 +236,11 @@ TEST(LightProbes, PathsInAPlanDoNotCountProbesToo) {
 
 TEST(LightProbeGrid, CoversTheBoundsWithEqualStepsOffTheWalls) {
     const Bounds<float> room{{-2, 0, -1}, {6, 2, 3}}; // 8 x 2 x 4
-    const shared::LightProbeGrid grid = render::make_light_probe_grid(room, 64, false);
+    const shared::LightProbeGrid grid = render::make_probe_grid(room, 64, false);
     EXPECT_EQ(grid.counts, uvec3(8, 2, 4));
     EXPECT_EQ(grid.step, vec3(1));
     EXPECT_EQ(grid.first, vec3(-1.5f, .5f, -.5f)) << "in the middle of a cell";
-    const shared::LightProbeGrid open = render::make_light_probe_grid(room, 64, true);
+    const shared::LightProbeGrid open = render::make_probe_grid(room, 64, true);
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_GE(open.counts[axis], 3u);
         EXPECT_LT(open.first[axis], room.lo[axis]) << "a layer outside the bounds";
@@ -248,15 +248,14 @@ TEST(LightProbeGrid, CoversTheBoundsWithEqualStepsOffTheWalls) {
     }
     EXPECT_LE(open.counts.x * open.counts.y * open.counts.z, 64u);
     for (const std::size_t most : {8u, 9u, 42u, 63u, 341u, 4096u}) {
-        const shared::LightProbeGrid some = render::make_light_probe_grid(room, most, false);
+        const shared::LightProbeGrid some = render::make_probe_grid(room, most, false);
         EXPECT_LE(some.counts.x * some.counts.y * some.counts.z, most);
         EXPECT_GE(some.counts.x * some.counts.y * some.counts.z, most / 3) << most;
     }
-    const shared::LightProbeGrid flat = render::make_light_probe_grid({{0, 0, 0}, {4, 0, 4}}, 32,
-                                                                      false);
+    const shared::LightProbeGrid flat = render::make_probe_grid({{0, 0, 0}, {4, 0, 4}}, 32, false);
     EXPECT_EQ(flat.counts, uvec3(4, 2, 4));
     EXPECT_GT(flat.step.y, 0) << "probes on both sides of a flat scene";
-    EXPECT_EQ(render::make_light_probe_grid({}, 64, false).counts, uvec3(4));
+    EXPECT_EQ(render::make_probe_grid({}, 64, false).counts, uvec3(4));
 }
 
 } // namespace

@@ -285,7 +285,7 @@ TEST(RoughSurfaces, LevelsOfTheEnvironmentEqualAQuadrature) {
     test::RandomNumbers numbers(11);
     for (const std::shared_ptr<scene::Environment>& environment :
          {make_smooth_test_environment(false), studio}) {
-        const std::shared_ptr<const render::FilteredSkyLevels> levels = render::find_sky_levels(
+        const std::shared_ptr<const render::SkyLevels> levels = render::find_sky_levels(
             environment);
         auto copy = std::make_shared<scene::Environment>(*environment);
         copy->name = "other", copy->scale = 2, copy->rotation_degrees = 30;

@@ -20,8 +20,7 @@ reflect::MirrorShadingSetup make_two_captures_shading(graph::Graph& graph,
     for (render::CaptureOptions& of_mirror : options) of_mirror.lighting = around.lighting;
     const render::MirrorCaptures second = render::declare_capture_images(graph, inputs, "second",
                                                                          std::move(options));
-    render::add_capture_passes(graph, inputs, second,
-                               render::use_same_shader_for_mirrors(inputs.scene, {}));
+    render::add_captures(graph, inputs, second, render::use_same_shader(inputs.scene, {}));
     reflect::MirrorShadingSetup look{
         reflect::make_capture_shader(around, "tests/two_captures.frag", settings), {}};
     std::vector<graph::ImageHandle> colours;

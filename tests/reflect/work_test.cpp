@@ -38,11 +38,11 @@ std::uint64_t total_work_of_kind(const std::vector<PassWork>& passes, WorkKind k
 /// Returns the work of all camera rays, by the traversal on the CPU.
 bvh::TraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
     const session::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
-    const render::SceneUnitTransform units = render::make_scene_units(scene);
-    const render::FrameGeometry geometry = render::make_frame_geometry(scene, units);
+    const render::SceneUnits units = render::make_scene_units(scene);
+    const render::FrameGeometry geometry = render::make_geometry(scene, units);
     const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
     const shared::View view = render::make_camera_view(asked.camera, units, kWorkPictureSize, 0,
-                                                       render::compute_geometry_bounds(geometry));
+                                                       render::geometry_bounds(geometry));
     bvh::TraversalCounters sum;
     for (std::size_t pixel = 0; pixel < kWorkPixelCount; ++pixel) {
         bvh::TraversalCounters one;

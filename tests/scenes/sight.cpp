@@ -61,13 +61,13 @@ vec4 sample_texture_filtered(const scene::Texture& texture, const vec4& uv) {
 SceneSurfaceCaster::SceneSurfaceCaster(const session::Request& request)
     : current_scene_(scene::scene_at(request.scene, request.time)),
       space_(render::make_scene_units(request.scene)),
-      geometry_(render::make_frame_geometry(current_scene_, space_)),
+      geometry_(render::make_geometry(current_scene_, space_)),
       view_(render::make_camera_view(request.camera, space_, request.size, 0,
-                                     render::compute_geometry_bounds(geometry_))),
+                                     render::geometry_bounds(geometry_))),
       size_(request.size), lights_(scene::list_lights(current_scene_)) {
     std::vector<bvh::Triangle> all;
     for (std::size_t object = 0; object < geometry_.ranges.size(); ++object) {
-        const render::ObjectDrawRange& range = geometry_.ranges[object];
+        const render::DrawRange& range = geometry_.ranges[object];
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
              k += 3) {
             const uvec3 corners(geometry_.indices[k], geometry_.indices[k + 1],
@@ -91,7 +91,7 @@ SceneSurfaceCaster::find_first_solid_hit(f32::Ray ray, float farthest, std::uint
     for (cut = 0; cut < kMaxCutOutSurfaces; ++cut) {
         const auto hit = bvh::find_closest_hit<float>(tree_, ray, farthest, skipped);
         if (!hit) return {};
-        const render::ObjectDrawRange& range = geometry_.ranges[hit->object];
+        const render::DrawRange& range = geometry_.ranges[hit->object];
         CutOutSurface met{*hit};
         vec4 colour(1);
         if (range.first_attribute) {
@@ -125,9 +125,8 @@ std::uint32_t SceneSurfaceCaster::find_lights_hidden_from_place(const SeenSurfac
     std::uint32_t hidden = 0;
     for (std::size_t i = 0; i < lights_.size() && i < 32; ++i) {
         const scene::PointLight& light = lights_[i];
-        const vec3 to = light.directional
-                            ? -vec3(light.axis)
-                            : space_.world_to_scene_point(light.position) - seen.place;
+        const vec3 to = light.directional ? -vec3(light.axis)
+                                          : space_.to_scene_point(light.position) - seen.place;
         const bool is_dark_side = !light.directional && light.normal != dvec3(0) &&
                                   dot(dvec3(to), light.normal) >= 0;
         if (is_dark_side || dot(to, seen.normal) <= 0) continue;

@@ -58,7 +58,7 @@ private:
     }
 
     scene::Scene current_scene_;
-    render::SceneUnitTransform space_;
+    render::SceneUnits space_;
     render::FrameGeometry geometry_;
     std::vector<uvec3> triangles_; ///< indices of the corners of each triangle
     bvh::Bvh tree_;

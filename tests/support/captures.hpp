@@ -44,7 +44,7 @@ inline CapturedLayers draw_cube_captures_with_options(const scene::Scene& scene,
     render::FrameRequests requests(gpu_scene.next_view());
     const render::FrameInputs inputs{gpu_scene, requests, {16, 16}, ""};
     if (options.distance == TexelFormat::r8_unorm)
-        options.stored_unit = gpu_scene.scene_units().world_to_scene_length(range_world);
+        options.stored_unit = gpu_scene.scene_units().to_scene_length(range_world);
     const render::CubeCaptureArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})

@@ -26,8 +26,7 @@ inline render::CubeCaptureArray add_black_captures(graph::Graph& graph,
                                                    const render::CaptureOptions& options) {
     const render::MirrorCaptures captures = render::declare_capture_images(
         graph, inputs, "capture", std::vector(inputs.scene.mirror_count(), options));
-    render::add_capture_passes(graph, inputs, captures,
-                               render::use_same_shader_for_mirrors(inputs.scene, {}));
+    render::add_captures(graph, inputs, captures, render::use_same_shader(inputs.scene, {}));
     return captures.arrays.front();
 }
 

@@ -1,4 +1,4 @@
-// Tests of render::find_shadowless_backdrops, which finds the objects whose shadow falls on nothing
+// Tests of render::find_backdrops, which finds the objects whose shadow falls on nothing
 // for a given light.
 #include "render/backdrop.hpp"
 #include "render/space.hpp"
@@ -14,16 +14,16 @@ namespace {
 using namespace catoptric;
 using Names = std::vector<std::string>;
 
-/// Returns the names of the objects that find_shadowless_backdrops reports. The light is at `place`
+/// Returns the names of the objects that find_backdrops reports. The light is at `place`
 /// in world units. A directional light instead shines along `place` from infinitely far away.
 Names list_backdrop_names(const scene::Scene& scene, const dvec3& place, bool directional = false) {
-    const render::SceneUnitTransform space = render::make_scene_units(scene);
+    const render::SceneUnits space = render::make_scene_units(scene);
     shared::Light light{};
     light.kind = directional ? shared::kLightKindDirectional : shared::kLightKindPoint;
-    light.position = vec3(space.world_to_scene_units(place));
+    light.position = vec3(space.to_scene(place));
     light.forward = vec3(place);
-    const std::vector<std::uint8_t> found = render::find_shadowless_backdrops(
-        render::make_frame_geometry(scene, space), light);
+    const std::vector<std::uint8_t> found = render::find_backdrops(
+        render::make_geometry(scene, space), light);
     Names names;
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i]) names.push_back(scene.objects[i].name);

@@ -41,7 +41,7 @@ struct WrongScene {
 };
 
 /// Sets a member of the environment.
-auto set_environment(const std::function<void(scene::Environment&)>& change) {
+auto set(const std::function<void(scene::Environment&)>& change) {
     return [change](scene::Scene& scene) {
         scene::Environment wrong = *scene.environment;
         change(wrong);
@@ -109,9 +109,9 @@ std::vector<WrongScene> list_wrong_scenes() {
         {"motion: wanted a period above 0", "found 0",
          [](Scene& s) { s.objects[0].motion = scene::HarmonicMotion{.period = 0}; }},
         {"environment[0] 'sky'", "found 2x1 with 1 texels",
-         set_environment([](auto& sky) { sky.texels.pop_back(); })},
+         set([](auto& sky) { sky.texels.pop_back(); })},
         {"environment[0] 'sky': texels", "inf",
-         set_environment([](auto& sky) { sky.texels[1].x = float(kInfinity); })},
+         set([](auto& sky) { sky.texels[1].x = float(kInfinity); })},
         {"cameras[0]: camera 'inside': wanted a target away from the eye", "45 degrees",
          [](Scene& s) { s.cameras[0] = {.name = "inside", .eye = dvec3(1), .target = dvec3(1)}; }},
         {"light_samples", "found 0", [](Scene& s) { s.light_samples = 0; }},

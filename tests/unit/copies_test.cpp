@@ -29,8 +29,8 @@ scene::Scene make_scene_with_coincident_triangles(std::size_t count) {
 /// Counts the traversal steps of a grid of rays through the bounds of `count` coincident triangles.
 std::size_t count_steps_past_copies(std::size_t count) {
     const scene::Scene scene = make_scene_with_coincident_triangles(count);
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene, render::make_scene_units(scene));
+    const render::FrameGeometry geometry = render::make_geometry(scene,
+                                                                 render::make_scene_units(scene));
     const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
     bvh::TraversalCounters steps;
     int hits = 0;

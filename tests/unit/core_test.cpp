@@ -86,11 +86,11 @@ TEST(Core, CoreLeavesOutADistantSkyOfManyTriangles) {
 }
 
 TEST(Core, ObjectsFarOutsideDoNotChangeSceneUnits) {
-    const render::SceneUnitTransform plain = render::make_scene_units(scene::make_cornell());
+    const render::SceneUnits plain = render::make_scene_units(scene::make_cornell());
     for (const double distance : {1e4, 1e9}) {
-        const render::SceneUnitTransform with = render::make_scene_units(
+        const render::SceneUnits with = render::make_scene_units(
             make_scene_with_distant_triangle(distance));
-        EXPECT_EQ(with.origin_world, plain.origin_world);
+        EXPECT_EQ(with.origin, plain.origin);
         EXPECT_EQ(with.scale, plain.scale);
         EXPECT_EQ(with.core.lo, plain.core.lo);
         EXPECT_EQ(with.core.hi, plain.core.hi);
@@ -107,7 +107,7 @@ scene::Scene make_room_with_mirror_balls(const std::vector<std::pair<double, dve
 }
 
 dvec3 scene_origin_with_mirrors(const std::vector<std::pair<double, dvec3>>& mirrors) {
-    return render::make_scene_units(make_room_with_mirror_balls(mirrors)).origin_world;
+    return render::make_scene_units(make_room_with_mirror_balls(mirrors)).origin;
 }
 
 /// Floats keep 24 bits, so a mirror that is small compared with its distance from the origin loses
@@ -132,8 +132,8 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
     const std::vector<std::pair<double, dvec3>> apart{{1e-4, place}, {1e-4, -place}};
     EXPECT_EQ(scene_origin_with_mirrors(apart), middle);
     const scene::Scene scene = make_room_with_mirror_balls(apart);
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene, render::make_scene_units(scene), render::VertexCoordinateSpaceChoice::object_space);
+    const render::FrameGeometry geometry = render::make_geometry(
+        scene, render::make_scene_units(scene), render::VertexSpaces::object_space);
     for (const std::size_t mirror : scene::mirrors(scene))
         EXPECT_TRUE(geometry.ranges[mirror].own) << mirror;
 }
@@ -142,10 +142,10 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
 /// the vertices of the room would lose precision.
 TEST(Core, MirrorFarOutsideDoesNotMoveTheOrigin) {
     const scene::Scene scene = make_room_with_mirror_balls({{.5, {1e6, 2e5, 0}}});
-    const render::SceneUnitTransform space = render::make_scene_units(scene);
-    EXPECT_EQ(space.origin_world, scene::bounds(test::make_lit_room(0, 1)).centre());
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene, space, render::VertexCoordinateSpaceChoice::object_space);
+    const render::SceneUnits space = render::make_scene_units(scene);
+    EXPECT_EQ(space.origin, scene::bounds(test::make_lit_room(0, 1)).centre());
+    const render::FrameGeometry geometry = render::make_geometry(
+        scene, space, render::VertexSpaces::object_space);
     EXPECT_TRUE(geometry.ranges.back().own);
     for (std::size_t i = 0; i + 1 < geometry.ranges.size(); ++i)
         EXPECT_FALSE(geometry.ranges[i].own) << scene.objects[i].name;
@@ -157,7 +157,7 @@ TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
     test::add_mesh(scene, make_triangle_mesh("reachable", dvec3(1e20, 0, 0), 1e19), 0);
     test::add_mesh(scene, make_triangle_mesh("beyond", dvec3(1e22, 0, 0), 1e21), 0);
     try {
-        render::make_frame_geometry(scene, render::make_scene_units(scene));
+        render::make_geometry(scene, render::make_scene_units(scene));
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::exhausted);
@@ -172,7 +172,7 @@ TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
     EXPECT_THAT(scene.warnings,
                 testing::ElementsAre("file.obj: objects farther away than floats reach, left out: "
                                      "1 (first: 'beyond')"));
-    render::make_frame_geometry(scene, render::make_scene_units(scene));
+    render::make_geometry(scene, render::make_scene_units(scene));
 }
 
 std::vector<bvh::Triangle> list_bvh_triangles(const render::FrameGeometry& geometry) {
@@ -187,7 +187,7 @@ std::vector<bvh::Triangle> list_bvh_triangles(const render::FrameGeometry& geome
 }
 
 /// Rays and the rasteriser tell the front of a lamp by the order of its corners.
-/// make_frame_geometry therefore orders the corners by the normals, whatever order the file has.
+/// make_geometry therefore orders the corners by the normals, whatever order the file has.
 TEST(Geometry, LampCornersRunCounterClockwiseAroundTheirNormals) {
     scene::Scene scene{.name = "lamp"};
     scene.materials = {{.name = "lamp", .emission = vec3(1)}, {.name = "wall", .albedo = vec3(1)}};
@@ -199,7 +199,7 @@ TEST(Geometry, LampCornersRunCounterClockwiseAroundTheirNormals) {
         for (const dmat4& world : {dmat4(1), mirrored})
             scene.objects.push_back(
                 {.name = "quad", .material = material, .world_from_object = world});
-    const render::FrameGeometry geometry = render::make_frame_geometry(scene, {});
+    const render::FrameGeometry geometry = render::make_geometry(scene, {});
     const std::vector<bvh::Triangle> all = list_bvh_triangles(geometry);
     ASSERT_EQ(all.size(), 8u);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -214,10 +214,9 @@ TEST(Geometry, LampCornersRunCounterClockwiseAroundTheirNormals) {
 /// must not widen all boxes, and rays must still find the stray triangle.
 TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
     const scene::Scene room = scene::make_cornell(), scene = make_scene_with_distant_triangle(1e9);
-    const render::FrameGeometry plain = render::make_frame_geometry(room,
-                                                                    render::make_scene_units(room)),
-                                geometry = render::make_frame_geometry(
-                                    scene, render::make_scene_units(scene));
+    const render::FrameGeometry plain = render::make_geometry(room, render::make_scene_units(room)),
+                                geometry = render::make_geometry(scene,
+                                                                 render::make_scene_units(scene));
     const bvh::Bvh alone = bvh::build(list_bvh_triangles(plain), plain.core),
                    with = bvh::build(list_bvh_triangles(geometry), geometry.core);
     test::RandomNumbers random(3);

@@ -41,8 +41,8 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
     std::mt19937 random(5);
     for (const char* name : {"cornell-mirrors", "room", "courtyard", "gallery"}) {
         const scene::Scene scene = scene::load(name);
-        const render::SceneUnitTransform space = render::make_scene_units(scene);
-        const render::FrameGeometry geometry = render::make_frame_geometry(scene, space);
+        const render::SceneUnits space = render::make_scene_units(scene);
+        const render::FrameGeometry geometry = render::make_geometry(scene, space);
         for (int k = 0; k < 8; ++k) {
             const scene::Camera camera = draw_random_camera_near(scene.cameras.front(), random);
             const shared::View view = render::make_camera_view(camera, space, kCoveragePictureSize,
@@ -58,8 +58,8 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
 
 TEST(Coverage, SearchStopsAtTheLimitOfTests) {
     const scene::Scene scene = scene::load("cornell-mirrors");
-    const render::SceneUnitTransform space = render::make_scene_units(scene);
-    const render::FrameGeometry geometry = render::make_frame_geometry(scene, space);
+    const render::SceneUnits space = render::make_scene_units(scene);
+    const render::FrameGeometry geometry = render::make_geometry(scene, space);
     const shared::View view = render::make_camera_view(scene.cameras.front(), space, {64, 64}, 0);
     EXPECT_FALSE(session::find_first_object_per_pixel(geometry, view, {64, 64}, 100));
 }

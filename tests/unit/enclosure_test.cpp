@@ -1,4 +1,4 @@
-// Tests of render::does_object_enclose_point, which tells whether a mirror's triangles enclose a
+// Tests of render::encloses, which tells whether a mirror's triangles enclose a
 // point, and of render::is_closed_shell.
 #include "render/enclosure.hpp"
 #include "scene/build.hpp"
@@ -16,10 +16,10 @@ struct PointEnclosureTest {
     explicit PointEnclosureTest(scene::Mesh mesh) {
         scene::Scene scene;
         test::add_mesh(scene, std::move(mesh), test::add_material(scene, {.mirror = true}));
-        geometry = render::make_frame_geometry(scene, {});
+        geometry = render::make_geometry(scene, {});
     }
     bool is_point_enclosed(vec3 point) const {
-        return render::does_object_enclose_point(geometry, geometry.ranges.front(), dvec3(point));
+        return render::encloses(geometry, geometry.ranges.front(), dvec3(point));
     }
     render::FrameGeometry geometry;
 };

@@ -40,7 +40,7 @@ double density_of_direction(const scene::Environment& map, const render::Environ
 TEST(EnvironmentCells, DensityIntegratesToOneOverAllDirections) {
     for (const uvec2 size : {uvec2(16, 8), uvec2(5, 3), uvec2(4, 1)}) {
         const scene::Environment map = make_map_with_bright_texels(size);
-        const render::EnvironmentCells cells = render::find_bright_environment_cells(map);
+        const render::EnvironmentCells cells = render::find_bright_cells(map);
         const int rows = 240, columns = 960; // divisible by the numbers of half cells
         double sum = 0;
         for (int row = 0; row < rows; ++row)
@@ -60,7 +60,7 @@ TEST(EnvironmentCells, DensityIntegratesToOneOverAllDirections) {
 /// density of the directions in the cell.
 TEST(EnvironmentCells, AliasTableDrawsCellsByTheirDensity) {
     const scene::Environment map = make_map_with_bright_texels({16, 8});
-    const render::EnvironmentCells cells = render::find_bright_environment_cells(map);
+    const render::EnvironmentCells cells = render::find_bright_cells(map);
     const auto count = static_cast<double>(cells.texels.size());
     std::map<std::uint32_t, double> probability;
     for (const vec4& texel : cells.texels) {
@@ -84,7 +84,7 @@ TEST(EnvironmentCells, AliasTableDrawsCellsByTheirDensity) {
 TEST(EnvironmentCells, UniformEnvironmentsHaveNone) {
     scene::Environment map{.size = {7, 5}};
     map.texels.assign(35, vec3(.1f, .7f, 3.3f));
-    EXPECT_TRUE(render::find_bright_environment_cells(map).texels.empty());
+    EXPECT_TRUE(render::find_bright_cells(map).texels.empty());
 }
 
 } // namespace

@@ -254,7 +254,7 @@ TEST(MirroredViews, MirroredViewCullsBoxesBehindOrBesideTheMirror) {
                                           {find_mirror_plane(make_flat_board())}, {64, 64}, most)
                                           .front();
     const auto meets = [&](const vec3& low, const vec3& high) {
-        return may_view_show_box(view, {64, 64}, {low, high});
+        return may_show(view, {64, 64}, {low, high});
     };
     EXPECT_TRUE(meets({0, 0, 1}, {.1f, .1f, 1.1f}));
     EXPECT_FALSE(meets({0, 0, -1}, {.1f, .1f, -.1f})) << "behind it";

@@ -20,10 +20,9 @@ const double kPixelAngleRadians = 2 * std::tan(glm::radians(37.5) / 2) /
 
 /// Returns the pixels of a square picture from `eye` towards `target`, with the field of view of
 /// the built-in scene's camera.
-PicturePixelGrid make_pixel_grid(const dvec3& eye, const dvec3& target,
-                                 std::uint32_t height = 512) {
+PixelGrid make_pixel_grid(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
     const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
-    return {make_camera_view(camera, SceneUnitTransform{}, uvec2(height), 1), height};
+    return {make_camera_view(camera, SceneUnits{}, uvec2(height), 1), height};
 }
 
 /// Returns the direction of a ray, as an angle, after reflection at a circle of radius |r| around
@@ -48,73 +47,68 @@ TEST(Footprint, FootprintEqualsTheAngleBetweenTwoTracedRays) {
                 reflected_angle_at_circle(kMirrorCentreDistance, r, angle + kTiny) -
                 reflected_angle_at_circle(kMirrorCentreDistance, r, angle));
             spread = std::min(spread, 2 * std::numbers::pi - spread);
-            EXPECT_NEAR(angle_between_reflected_pixels(kTiny, distance, 1 / r, cosine) / spread, 1,
-                        1e-5)
+            EXPECT_NEAR(pixel_footprint(kTiny, distance, 1 / r, cosine) / spread, 1, 1e-5)
                 << "r " << r << ", share " << share;
         }
 }
 
 TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
-    EXPECT_EQ(angle_between_reflected_pixels(kPixelAngleRadians, 1e9, 0, 1e-9), kPixelAngleRadians);
-    EXPECT_EQ(angle_between_reflected_pixels(kPixelAngleRadians, 1, -.5, 1),
+    EXPECT_EQ(pixel_footprint(kPixelAngleRadians, 1e9, 0, 1e-9), kPixelAngleRadians);
+    EXPECT_EQ(pixel_footprint(kPixelAngleRadians, 1, -.5, 1),
               kPixelAngleRadians); // the eye is in the focus of a hollow mirror
-    EXPECT_EQ(angle_between_reflected_pixels(kPixelAngleRadians, 0, 5, 1),
+    EXPECT_EQ(pixel_footprint(kPixelAngleRadians, 0, 5, 1),
               kPixelAngleRadians); // the eye is on the mirror
 }
 
 TEST(Footprint, FaceEdgesEqualHandComputedValues) {
-    const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
-    EXPECT_NEAR(pixels.camera_angle_per_pixel(1), kPixelAngleRadians, 1e-7 * kPixelAngleRadians);
-    EXPECT_NEAR(cube_edge_texels_for_footprint(kPixelAngleRadians), 1184.62,
+    const PixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
+    EXPECT_NEAR(pixels.pixel_angle(1), kPixelAngleRadians, 1e-7 * kPixelAngleRadians);
+    EXPECT_NEAR(edge_for_footprint(kPixelAngleRadians), 1184.62,
                 .01); // the face edge that a flat mirror needs
     // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
     // radius times its angle.
-    EXPECT_NEAR(cube_edge_needed_by_sphere(pixels, {0, 0, 12}, 2),
-                cube_edge_texels_for_footprint(kPixelAngleRadians * (1 + 2 * 10 / 2.)), .01);
-    EXPECT_EQ(cube_edge_needed_by_sphere(pixels, {0, 0, 1}, 2),
-              cube_edge_texels_for_footprint(
-                  pixels.camera_angle_per_pixel(0))); // the eye is inside the ball
+    EXPECT_NEAR(edge_for_sphere(pixels, {0, 0, 12}, 2),
+                edge_for_footprint(kPixelAngleRadians * (1 + 2 * 10 / 2.)), .01);
+    EXPECT_EQ(edge_for_sphere(pixels, {0, 0, 1}, 2),
+              edge_for_footprint(pixels.pixel_angle(0))); // the eye is inside the ball
 }
 
 TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
-    const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
+    const PixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
     // The expected angle lies between the two borders of a pixel in the middle row, at distance
     // `place` from the axis.
     for (const double place : {.0, .1, .3}) {
         const double between = std::atan(place + kPixelAngleRadians / 2) -
                                std::atan(place - kPixelAngleRadians / 2);
-        EXPECT_NEAR(pixels.camera_angle_per_pixel(std::cos(std::atan(place))) / between, 1, 1e-6);
+        EXPECT_NEAR(pixels.pixel_angle(std::cos(std::atan(place))) / between, 1, 1e-6);
     }
     const double corner = std::sqrt(2.) * std::tan(glm::radians(37.5) / 2);
-    EXPECT_NEAR(pixels.cosine_to_view_at_corner(), std::cos(std::atan(corner)), 1e-7);
-    EXPECT_EQ(pixels.camera_angle_per_pixel(0),
-              pixels.camera_angle_per_pixel(pixels.cosine_to_view_at_corner()));
-    const double ahead = cube_edge_needed_by_sphere(pixels, {0, 0, 12}, .1);
-    const double aside = cube_edge_needed_by_sphere(
-        pixels, vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
+    EXPECT_NEAR(pixels.corner_cosine(), std::cos(std::atan(corner)), 1e-7);
+    EXPECT_EQ(pixels.pixel_angle(0), pixels.pixel_angle(pixels.corner_cosine()));
+    const double ahead = edge_for_sphere(pixels, {0, 0, 12}, .1);
+    const double aside = edge_for_sphere(pixels, vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
     EXPECT_NEAR(aside / ahead, 1 + .3 * .3, .01);
 }
 
 TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
-    const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
-    EXPECT_EQ(cube_edge_needed_by_sphere(pixels, {0, 0, -12}, 2), 0);
-    EXPECT_EQ(cube_edge_needed_by_sphere(pixels, {12, 0, 12}, 2), 0);
-    EXPECT_GT(cube_edge_needed_by_sphere(pixels, {5, 0, 12}, 2), 0) << "its rim is";
+    const PixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
+    EXPECT_EQ(edge_for_sphere(pixels, {0, 0, -12}, 2), 0);
+    EXPECT_EQ(edge_for_sphere(pixels, {12, 0, 12}, 2), 0);
+    EXPECT_GT(edge_for_sphere(pixels, {5, 0, 12}, 2), 0) << "its rim is";
     // The triangle lies wholly behind the eye, but is so wide that its bounds reach around the
     // sides of the picture.
     const std::vector<shared::Vertex> corners{
         {{-50, -50, -9}, {0, 0, 1}}, {{50, -50, -.5f}, {0, 0, 1}}, {{0, 50, -.5f}, {0, 0, 1}}};
     const std::vector<std::uint32_t> triangle{0, 1, 2};
-    EXPECT_EQ(cube_edge_needed_by_mesh(pixels, corners, triangle), 0);
-    EXPECT_GT(cube_edge_needed_by_mesh(make_pixel_grid(dvec3(0), {0, 0, -1}), corners, triangle),
-              0);
+    EXPECT_EQ(edge_for_mesh(pixels, corners, triangle), 0);
+    EXPECT_GT(edge_for_mesh(make_pixel_grid(dvec3(0), {0, 0, -1}), corners, triangle), 0);
 }
 
 struct FootprintMirror {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     double needed_face_edge_of_mirror(const dvec3& eye, const dvec3& target) const {
-        return cube_edge_needed_by_mesh(make_pixel_grid(eye, target), vertices, indices);
+        return edge_for_mesh(make_pixel_grid(eye, target), vertices, indices);
     }
 };
 
@@ -138,8 +132,8 @@ TEST(Footprint, BallMeshNeedsTheSameEdgeAsItsSphere) {
     // The tolerance allows for the width of a facet, about a twentieth of the radius. The point
     // nearest to the eye is up to half a facet away from a vertex.
     for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
-        const double wanted = cube_edge_needed_by_sphere(make_pixel_grid(eye, target), vec3(centre),
-                                                         kMirrorBallRadius);
+        const double wanted = edge_for_sphere(make_pixel_grid(eye, target), vec3(centre),
+                                              kMirrorBallRadius);
         EXPECT_NEAR(ball.needed_face_edge_of_mirror(eye, target), wanted, .01 * wanted);
     }
 }
@@ -159,10 +153,10 @@ TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
             return shared::Vertex{vec3(kMirrorBallRadius * p), vec3(side * p)};
         });
         const dvec3 top(0, 0, -kMirrorBallRadius), away(0, 0, -kDistance);
-        const double bulge = cube_edge_texels_for_footprint(
-                         kPixelAngleRadians * (1 + 2 * kDistance / kMirrorBallRadius)),
-                     hollow = cube_edge_texels_for_footprint(
-                         kPixelAngleRadians * (2 * kDistance / kMirrorBallRadius - 1));
+        const double bulge = edge_for_footprint(kPixelAngleRadians *
+                                                (1 + 2 * kDistance / kMirrorBallRadius)),
+                     hollow = edge_for_footprint(kPixelAngleRadians *
+                                                 (2 * kDistance / kMirrorBallRadius - 1));
         EXPECT_NEAR(mirror.needed_face_edge_of_mirror(top + away, top), bulge, .01 * bulge);
         EXPECT_NEAR(mirror.needed_face_edge_of_mirror(top - away, top), hollow, .01 * hollow);
     }
@@ -186,7 +180,7 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
     const dvec3 eye(0, 0, 5), middle(0);
     // Squared tangent of the angle between the camera's axis and a corner of the plane.
     const double corner = 2 * .4 * .4 / (5 * 5);
-    const double wanted = cube_edge_texels_for_footprint(kPixelAngleRadians) * (1 + corner);
+    const double wanted = edge_for_footprint(kPixelAngleRadians) * (1 + corner);
     EXPECT_NEAR(make_mirror_of_mesh(plane, bent).needed_face_edge_of_mirror(eye, middle), wanted,
                 .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
@@ -200,7 +194,7 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
 
 TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     const auto edge = [](const std::vector<double>& needs) {
-        return choose_common_capture_face_edge(needs, 16384);
+        return choose_common_edge(needs, 16384);
     };
     EXPECT_EQ(edge({}), 16u);
     EXPECT_EQ(edge({0}), 16u);
@@ -210,8 +204,8 @@ TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     EXPECT_EQ(edge({16370}), 16384u);
     EXPECT_EQ(edge({1e30}), 16384u);
     EXPECT_EQ(edge({std::numeric_limits<double>::infinity()}), 16384u);
-    EXPECT_EQ(choose_common_capture_face_edge(std::vector<double>{90}, 100), 96u);
-    EXPECT_EQ(choose_common_capture_face_edge(std::vector<double>{97}, 100), 100u);
+    EXPECT_EQ(choose_common_edge(std::vector<double>{90}, 100), 96u);
+    EXPECT_EQ(choose_common_edge(std::vector<double>{97}, 100), 100u);
 }
 
 } // namespace

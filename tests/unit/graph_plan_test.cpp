@@ -83,8 +83,8 @@ struct SeedReportFrame {
 
     /// Adds one scene pass per mirror. The pass draws the mirror's capture into `target` and may
     /// read `source`.
-    void add_capture_passes(const std::string& name, ImageHandle target,
-                            std::optional<ImageHandle> source) {
+    void add_captures(const std::string& name, ImageHandle target,
+                      std::optional<ImageHandle> source) {
         for (std::uint32_t n = 0; n < mirrors; ++n) {
             PassBuilder pass = g.add_pass(name + "/" + std::to_string(n), PassPurpose::scene);
             pass.reads(shadow, ResourceUse::sampled);
@@ -130,8 +130,8 @@ struct NaiveSeedReportFrame : SeedReportFrame {
         for (int k = 0; k < bounces; ++k) {
             images.push_back(add_capture_image("cubes" + std::to_string(k)));
             const bool first = k == 0;
-            add_capture_passes("capture" + std::to_string(k), images.back(),
-                               first ? std::nullopt : std::optional(images[images.size() - 2]));
+            add_captures("capture" + std::to_string(k), images.back(),
+                         first ? std::nullopt : std::optional(images[images.size() - 2]));
         }
         add_camera_view_pass(images.back());
     }
@@ -142,7 +142,7 @@ struct NaiveSeedReportFrame : SeedReportFrame {
 /// from the captures of the previous frame.
 struct ReuseSeedReportFrame : SeedReportFrame {
     explicit ReuseSeedReportFrame(int mirror_count) : SeedReportFrame(mirror_count) {
-        add_capture_passes("capture", captured, g.previous(captured));
+        add_captures("capture", captured, g.previous(captured));
         add_camera_view_pass(captured);
     }
     ImageHandle captured = add_capture_image("cubes");

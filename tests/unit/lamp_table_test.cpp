@@ -23,7 +23,7 @@ void add_right_triangle(LampScene& scene, vec3 corner, float leg, vec3 emission)
     const auto first = static_cast<std::uint32_t>(scene.geometry.vertices.size());
     for (const vec3& p : {corner, corner + vec3(leg, 0, 0), corner + vec3(0, leg, 0)})
         scene.geometry.vertices.push_back({.position = p, .normal = {0, 0, 1}});
-    render::ObjectDrawRange range;
+    render::DrawRange range;
     range.first_index = static_cast<std::uint32_t>(scene.geometry.indices.size());
     range.index_count = 3;
     for (std::uint32_t i = 0; i < 3; ++i) scene.geometry.indices.push_back(first + i);
@@ -91,14 +91,14 @@ TEST(LampTable, NoLampsOrTooManyTrianglesGiveAnEmptyList) {
     add_right_triangle(scene, {0, 0, 0}, 1, {0, 0, 0});
     EXPECT_TRUE(render::make_lamp_table(scene.geometry, scene.surfaces).empty());
     scene.surfaces[0].emission = vec3(1);
-    for (std::size_t i = 1; i <= render::kMaxSampledLampTriangles; ++i) {
+    for (std::size_t i = 1; i <= render::kMaxLampTriangles; ++i) {
         scene.geometry.ranges.push_back(scene.geometry.ranges[0]);
         scene.surfaces.push_back(scene.surfaces[0]);
     }
     EXPECT_TRUE(render::make_lamp_table(scene.geometry, scene.surfaces).empty());
     scene.geometry.ranges.pop_back(), scene.surfaces.pop_back();
     EXPECT_EQ(count_table_triangles(render::make_lamp_table(scene.geometry, scene.surfaces)),
-              render::kMaxSampledLampTriangles);
+              render::kMaxLampTriangles);
 }
 
 } // namespace

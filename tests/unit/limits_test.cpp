@@ -14,19 +14,19 @@ using namespace catoptric;
 
 constexpr render::GeometryLimits kGenerousGeometryLimits{1u << 27, 1u << 27, 1u << 30, 1ull << 31};
 
-std::string geometry_limit_error_text(const render::SceneDataAmounts& amounts,
+std::string geometry_limit_error_text(const render::SceneAmounts& amounts,
                                       const render::GeometryLimits& limits) {
     return test::catch_error_text(Failure::exhausted,
-                                  [&] { render::check_geometry_limits("s", amounts, limits); });
+                                  [&] { render::check_limits("s", amounts, limits); });
 }
 
 TEST(Limits, AmountsCountTrianglesObjectsAndMirrors) {
     const scene::Scene room = test::make_lit_room(2, 1);
-    const render::SceneDataAmounts amounts = render::count_scene_amounts(room);
+    const render::SceneAmounts amounts = render::count_amounts(room);
     EXPECT_EQ(amounts.triangles, scene::triangle_count(room));
     EXPECT_EQ(amounts.objects, 9u);
     EXPECT_EQ(amounts.mirrors, 2u);
-    EXPECT_NO_THROW(render::check_geometry_limits("s", amounts, kGenerousGeometryLimits));
+    EXPECT_NO_THROW(render::check_limits("s", amounts, kGenerousGeometryLimits));
 }
 
 TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
@@ -36,12 +36,12 @@ TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
     map.texels.resize(32);
     room.environment = std::make_shared<const scene::Environment>(map);
     render::GeometryLimits limits = kGenerousGeometryLimits;
-    const render::SceneDataAmounts amounts = render::count_scene_amounts(room);
+    const render::SceneAmounts amounts = render::count_amounts(room);
     EXPECT_EQ(amounts.environment_texels, 32u);
     limits.texels = 63;
-    EXPECT_NO_THROW(render::check_geometry_limits("s", amounts, limits));
+    EXPECT_NO_THROW(render::check_limits("s", amounts, limits));
     limits.texels = 31;
-    render::SceneDataAmounts few = amounts;
+    render::SceneAmounts few = amounts;
     few.triangles = 2;
     EXPECT_EQ(geometry_limit_error_text(few, limits),
               "scene 's' wants 32 texels of the environment, the device allows 31");
@@ -52,13 +52,13 @@ TEST(Limits, MoreImageTexelsThanTheLimitAreRefused) {
     const auto image = std::make_shared<const scene::Image>(
         scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
     room.materials[room.objects.front().material].albedo_texture = scene::Texture{.image = image};
-    const render::SceneUnitTransform space = render::make_scene_units(room);
-    const render::FrameGeometry geometry = render::make_frame_geometry(
-        room, space, render::VertexCoordinateSpaceChoice::object_space);
+    const render::SceneUnits space = render::make_scene_units(room);
+    const render::FrameGeometry geometry = render::make_geometry(
+        room, space, render::VertexSpaces::object_space);
     render::DeviceVertices vertices(std::vector<bool>(room.objects.size()), 1);
     vertices.set_geometry(geometry);
     const auto fill = [&](std::uint64_t most) {
-        render::MaterialParameterLists(1).fill(room, space, geometry, vertices, most);
+        render::MaterialLists(1).fill(room, space, geometry, vertices, most);
     };
     constexpr std::uint64_t kSharedTableTexels = 256 +
                                                  32 * 32; // sRGB in linear light, albedo of lobes
@@ -78,9 +78,9 @@ scene::Scene make_room_of_ball_copies(int count) {
 }
 
 TEST(Limits, CopiesThatShareAMeshCountOnce) {
-    const render::SceneDataAmounts room = render::count_scene_amounts(make_room_of_ball_copies(0)),
-                                   few = render::count_scene_amounts(make_room_of_ball_copies(65)),
-                                   many = render::count_scene_amounts(make_room_of_ball_copies(66));
+    const render::SceneAmounts room = render::count_amounts(make_room_of_ball_copies(0)),
+                               few = render::count_amounts(make_room_of_ball_copies(65)),
+                               many = render::count_amounts(make_room_of_ball_copies(66));
     EXPECT_EQ(few.triangles, room.triangles + 65 * 4096) << "2^18 and one are put where they are";
     EXPECT_EQ(many.triangles, room.triangles + 4096);
     EXPECT_EQ(many.vertices, room.vertices + 2050);
@@ -89,28 +89,27 @@ TEST(Limits, CopiesThatShareAMeshCountOnce) {
     scene::Scene flattened = make_room_of_ball_copies(66);
     flattened.objects.back().world_from_object = dmat4(1, 0, 0, 0, 1, 1e-3, 0, 0, 0, 0, 1, 0, 0, 0,
                                                        0, 1);
-    EXPECT_EQ(render::count_scene_amounts(flattened).triangles, room.triangles + 2 * 4096);
+    EXPECT_EQ(render::count_amounts(flattened).triangles, room.triangles + 2 * 4096);
     render::GeometryLimits tight = kGenerousGeometryLimits;
     tight.memory_bytes = 1 << 20;
-    EXPECT_NO_THROW(render::check_geometry_limits("s", many, tight));
-    EXPECT_THROW(render::check_geometry_limits("s", few, tight), Error);
+    EXPECT_NO_THROW(render::check_limits("s", many, tight));
+    EXPECT_THROW(render::check_limits("s", few, tight), Error);
 }
 
 /// The counts that are checked against limits equal the counts of the stored geometry.
 TEST(Limits, AmountsEqualTheStoredGeometry) {
     for (const int count : {0, 3, 65, 66, 80}) {
         const scene::Scene scene = make_room_of_ball_copies(count);
-        const render::FrameGeometry geometry = render::make_frame_geometry(
-            scene, render::make_scene_units(scene),
-            render::VertexCoordinateSpaceChoice::object_space);
-        const render::SceneDataAmounts amounts = render::count_scene_amounts(scene);
+        const render::FrameGeometry geometry = render::make_geometry(
+            scene, render::make_scene_units(scene), render::VertexSpaces::object_space);
+        const render::SceneAmounts amounts = render::count_amounts(scene);
         EXPECT_EQ(geometry.vertices.size(), amounts.vertices) << count;
         EXPECT_EQ(geometry.indices.size(), 3 * amounts.triangles) << count;
     }
 }
 
 TEST(Limits, ErrorsNameWantedAndAllowedAmounts) {
-    const render::SceneDataAmounts one{
+    const render::SceneAmounts one{
         .vertices = 100, .triangles = 100, .objects = 100, .mirrors = 100};
     render::GeometryLimits limits = kGenerousGeometryLimits;
     limits.texels = 299;

@@ -34,7 +34,7 @@ TEST(NearPlane, NearPlaneOfCubeFacesClipsNothingInTheCorners) {
         for (int k = 0; k < 20; ++k) {
             // The axes of the first cube are the world axes. The other cubes are turned at random.
             const vec3 forward = k == 0 ? vec3(0) : numbers.random_unit_direction();
-            const auto views = render::make_turned_cube_views(kEyeNearSurface, forward, gap);
+            const auto views = render::make_turned_views(kEyeNearSurface, forward, gap);
             ASSERT_EQ(views.size(), 6u);
             const vec3 x = views[0].forward, y = views[2].forward, z = views[4].forward;
             std::vector<vec3> directions{x, -x, y, -y, z, -z};

@@ -1,4 +1,4 @@
-// Tests of render::find_faces_showing_objects, which finds the objects that each face of a capture
+// Tests of render::find_shown_faces, which finds the objects that each face of a capture
 // shows.
 #include "render/shown_faces.hpp"
 
@@ -25,7 +25,7 @@ using namespace catoptric;
 struct CapturedScene {
     scene::Scene scene{.name = "balls"};
     render::FrameGeometry geometry;
-    std::vector<render::InnerOccluderBall> balls;
+    std::vector<render::InnerBall> balls;
 
     std::size_t add_mirror_ball(double radius, const dvec3& centre, int halvings) {
         if (scene.materials.empty()) test::add_material(scene, {.name = "mirror", .mirror = true});
@@ -38,18 +38,17 @@ struct CapturedScene {
         finish_scene();
     }
     void finish_scene() {
-        geometry = render::make_frame_geometry(scene, render::make_scene_units(scene));
-        render::NearestTriangleQuery nearest;
+        geometry = render::make_geometry(scene, render::make_scene_units(scene));
+        render::NearestTriangle nearest;
         nearest.set_geometry(geometry);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
             ASSERT_TRUE(render::is_closed_shell(scene.meshes[scene.objects[i].mesh]));
             const vec3 centre = geometry.ranges[i].bounds.centre();
             balls.push_back({centre,
-                             nearest.distance_to_nearest_triangle(
-                                 geometry, dvec3(centre),
-                                 [&](std::size_t object, const render::ObjectDrawRange&) {
-                                     return object != i;
-                                 }),
+                             nearest.distance(geometry, dvec3(centre),
+                                              [&](std::size_t object, const render::DrawRange&) {
+                                                  return object != i;
+                                              }),
                              i});
         }
     }
@@ -59,9 +58,8 @@ struct CapturedScene {
     /// Returns, for each object, the faces that show it in the capture around the given object.
     std::vector<std::uint8_t> faces_showing_objects_around(std::size_t object,
                                                            std::uint32_t edge) const {
-        return render::find_faces_showing_objects(make_capture_views(object), {edge, 8},
-                                                  geometry.ranges, balls,
-                                                  [&](std::size_t i) { return i != object; });
+        return render::find_shown_faces(make_capture_views(object), {edge, 8}, geometry.ranges,
+                                        balls, [&](std::size_t i) { return i != object; });
     }
     /// Returns the object, other than `except`, whose triangles a ray meets first.
     std::optional<std::size_t> find_first_object_of_ray(const vec3& eye, const vec3& direction,
@@ -69,7 +67,7 @@ struct CapturedScene {
         double least = std::numeric_limits<double>::infinity();
         std::optional<std::size_t> first;
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-            const render::ObjectDrawRange& range = geometry.ranges[i];
+            const render::DrawRange& range = geometry.ranges[i];
             for (std::uint32_t k = 0; i != except && k < range.index_count; k += 3) {
                 const auto corner = [&](std::uint32_t j) {
                     return dvec3(
@@ -161,7 +159,7 @@ TEST(ShownFaces, AnObjectBetweenTexelCentresIsNotDrawn) {
 TEST(ShownFaces, AnObjectThatIsNotDrawnHidesNothing) {
     CapturedScene scene;
     scene.add_row_of_balls();
-    const std::vector<std::uint8_t> shown = render::find_faces_showing_objects(
+    const std::vector<std::uint8_t> shown = render::find_shown_faces(
         scene.make_capture_views(0), {64}, scene.geometry.ranges, scene.balls,
         [](std::size_t object) { return object == 2; });
     EXPECT_EQ(shown, (std::vector<std::uint8_t>{0, 0, 1}));
@@ -173,7 +171,7 @@ TEST(ShownFaces, AnObjectThatTheNearPlaneCutsHidesNothing) {
     std::vector<shared::View> views = scene.make_capture_views(0);
     for (shared::View& view : views)
         view.near = length(scene.geometry.ranges[1].bounds.centre() - view.eye);
-    const std::vector<std::uint8_t> shown = render::find_faces_showing_objects(
+    const std::vector<std::uint8_t> shown = render::find_shown_faces(
         views, {64}, scene.geometry.ranges, scene.balls,
         [](std::size_t object) { return object > 0; });
     EXPECT_EQ(shown[2], 1);

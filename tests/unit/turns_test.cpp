@@ -16,13 +16,11 @@ using namespace catoptric;
 using Mirrors = std::vector<std::uint32_t>;
 
 TEST(Turns, CapturesThatWaitedLongestAreDrawnFirst) {
-    EXPECT_EQ(render::choose_postponed_capture_redraws({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2),
-              (Mirrors{1, 4}));
-    EXPECT_EQ(render::choose_postponed_capture_redraws({{4, 2}, {2, 2}, {3, 2}}, 1),
-              (Mirrors{3, 4}))
+    EXPECT_EQ(render::choose_postponed({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2), (Mirrors{1, 4}));
+    EXPECT_EQ(render::choose_postponed({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4}))
         << "of mirrors that waited equally long, the lower number is drawn first";
-    EXPECT_EQ(render::choose_postponed_capture_redraws({{4, 2}, {2, 2}}, 2), Mirrors());
-    EXPECT_EQ(render::choose_postponed_capture_redraws({}, 1), Mirrors());
+    EXPECT_EQ(render::choose_postponed({{4, 2}, {2, 2}}, 2), Mirrors());
+    EXPECT_EQ(render::choose_postponed({}, 1), Mirrors());
 }
 
 // Mirrors request a new capture at random and keep requesting until it is drawn. No mirror may wait
@@ -34,7 +32,7 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
         std::vector<std::uint32_t> waited(kMirrorCount, 0);
         std::uint32_t longest = 0;
         for (int frame = 0; frame < 2000; ++frame) {
-            std::vector<render::CaptureRedrawRequest> asking;
+            std::vector<render::RedrawRequest> asking;
             for (std::uint32_t i = 0; i < kMirrorCount; ++i) {
                 // The share of mirrors that request a new capture changes from none to all, so that
                 // all shares are tested.
@@ -42,7 +40,7 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
                                   numbers.random_number_between(0, 1) < (frame % 200) / 150.;
                 if (asks) asking.push_back({i, waited[i]});
             }
-            const Mirrors later = render::choose_postponed_capture_redraws(asking, most);
+            const Mirrors later = render::choose_postponed(asking, most);
             EXPECT_EQ(later.size(), asking.size() - std::min<std::size_t>(asking.size(), most));
             for (std::uint32_t i = 0; i < kMirrorCount; ++i)
                 waited[i] = std::ranges::find(later, i) != later.end() ? waited[i] + 1 : 0;
