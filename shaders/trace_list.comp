@@ -24,7 +24,7 @@ layout(push_constant, scalar) uniform Push { uvec2 size; };
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
-uvec2 count_work_groups(uint pixels) {
+uvec2 count_groups(uint pixels) {
     uint groups = (pixels + kPixelsPerListGroup - 1u) / kPixelsPerListGroup;
     return uvec2(min(groups, kMaxListGroupsPerRow), (groups + kMaxListGroupsPerRow - 1u) / kMaxListGroupsPerRow);
 }
@@ -56,7 +56,7 @@ void list_pixels_of_block(uvec2 pixel) {
     if (is_first && listed > 0u) {
         // Adds the work groups that the list needs beyond those of the pixels listed before. The sum over all subgroups
         // is the number of work groups for the whole list.
-        uvec2 more = count_work_groups(first + listed) - count_work_groups(first);
+        uvec2 more = count_groups(first + listed) - count_groups(first);
         if (more.x > 0u) atomicAdd(arguments.groups.x, more.x);
         if (more.y > 0u) atomicAdd(arguments.groups.y, more.y);
     }

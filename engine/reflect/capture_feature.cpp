@@ -24,11 +24,10 @@ bool needs_captures(const FrameDeclaration& frame) {
 }
 
 /// Returns the options of the captures of one technique's mirrors.
-render::CaptureOptions choose_capture_options_of_technique(FrameDeclaration& frame,
-                                                           const TechniqueChoice& choice) {
+render::CaptureOptions choose_options(FrameDeclaration& frame, const TechniqueChoice& choice) {
     if (has_shared_captures(choice)) {
         render::CaptureOptions options = choice.technique->capture(frame.inputs, choice.settings);
-        options.lighting = frame.light_with_shadow_map(choose_shadow_map(choice.shared.shadow));
+        options.lighting = frame.light_with(choose_shadow_map(choice.shared.shadow));
         return options;
     }
     render::CaptureOptions options{.face = 0, .lighting = frame.lighting};
@@ -42,12 +41,12 @@ render::CaptureOptions choose_capture_options_of_technique(FrameDeclaration& fra
 
 /// Returns the capture options of each mirror: the options of its technique, extended by data that
 /// searches need which read captures of other mirrors.
-std::vector<render::CaptureOptions> choose_capture_options(FrameDeclaration& frame) {
+std::vector<render::CaptureOptions> choose_options(FrameDeclaration& frame) {
     std::vector<render::CaptureOptions> of_choice;
     render::CaptureOptions shared;
     for (const TechniqueChoice& choice : frame.choices()) {
-        of_choice.push_back(choose_capture_options_of_technique(frame, choice));
-        if (!has_shared_captures(choice) || !choice.shared.search.reads_other_captures()) continue;
+        of_choice.push_back(choose_options(frame, choice));
+        if (!has_shared_captures(choice) || !choice.shared.search.reads_others()) continue;
         const render::CaptureOptions& options = of_choice.back();
         shared.surfaces = shared.surfaces || options.surfaces;
         shared.second_layer = shared.second_layer || options.second_layer;
@@ -68,7 +67,7 @@ std::vector<render::CaptureOptions> choose_capture_options(FrameDeclaration& fra
 
 /// Returns how a mirror is drawn inside captures: by look-ups in the captures of the last frame.
 /// Without such a capture, the mirror is black.
-render::MirrorShader choose_look_in_captures(const FrameDeclaration& frame, std::uint32_t mirror) {
+render::MirrorShader choose_captured_look(const FrameDeclaration& frame, std::uint32_t mirror) {
     const render::CaptureUpdate& update = *frame.captures;
     const TechniqueChoice& choice = frame.choices()[frame.assignment.of_mirror[mirror]];
     const bool is_kept = update.kept != nullptr;
@@ -79,21 +78,19 @@ render::MirrorShader choose_look_in_captures(const FrameDeclaration& frame, std:
     look.fragment = has_shared_captures(choice) ? choice.technique->in_captures
                                                 : "reflect/parallax.frag";
     look.captures = update.last;
-    look.constants.emplace_back("refract_model",
-                                choose_refraction_model_of_other_views(choice.shared.refract));
+    look.constants.emplace_back("refract_model", other_view_refraction(choice.shared.refract));
     look.blank = !update.was_there[mirror];
     // The previous contents are requested even if the mirror is drawn black, because only requested
     // images exist in the next frame. Images of kept captures exist without a request.
     if (!look.blank || !is_kept)
-        frame.levels->add_rough_lookup_to_shader(frame.graph, std::span(&mirror, 1), choice.shared,
-                                                 look, true);
+        frame.levels->add_lookup(frame.graph, std::span(&mirror, 1), choice.shared, look, true);
     return look;
 }
 
-render::MirrorShaders choose_looks_in_captures(const FrameDeclaration& frame) {
+render::MirrorShaders choose_captured_looks(const FrameDeclaration& frame) {
     render::MirrorShaders looks;
     for (std::uint32_t i = 0; i < frame.assignment.of_mirror.size(); ++i) {
-        render::MirrorShader look = choose_look_in_captures(frame, i);
+        render::MirrorShader look = choose_captured_look(frame, i);
         const auto found = std::ranges::find_if(
             looks.looks, [&](const render::MirrorShader& other) {
                 return other.fragment == look.fragment && other.constants == look.constants &&
@@ -106,8 +103,8 @@ render::MirrorShaders choose_looks_in_captures(const FrameDeclaration& frame) {
 }
 
 void declare_captures(FrameDeclaration& frame) {
-    std::vector<render::CaptureOptions> options = choose_capture_options(frame);
-    const PreviousCaptureHistory& history = frame.continued_history();
+    std::vector<render::CaptureOptions> options = choose_options(frame);
+    const CaptureHistory& history = frame.continued_history();
     frame.captures = history.model.is_everything
                          ? render::update_all_captures(frame.graph, frame.inputs, "capture",
                                                        std::move(options))
@@ -120,7 +117,7 @@ void declare_captures(FrameDeclaration& frame) {
     for (const std::uint32_t choice : frame.assignment.of_mirror)
         knobs.push_back(frame.choices()[choice].shared);
     frame.levels.emplace(frame.graph, frame.inputs, frame.captures->captures, knobs);
-    frame.captured_looks = choose_looks_in_captures(frame);
+    frame.captured_looks = choose_captured_looks(frame);
 }
 
 bool has_captures(const FrameDeclaration& frame) { return frame.captures.has_value(); }

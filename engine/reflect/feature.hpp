@@ -23,22 +23,21 @@ struct ShadowMapRequest {
 /// handles and settings; what only one feature needs stays in that feature's file.
 struct FrameDeclaration {
     FrameDeclaration(graph::Graph& of, const render::FrameInputs& given,
-                     const TechniqueOfEachMirror& of_mirrors,
-                     const PreviousCaptureHistory& continued)
+                     const Assignment& of_mirrors, const CaptureHistory& continued)
         : graph(of), inputs(given), assignment(of_mirrors), history(continued) {}
 
     graph::Graph& graph;
     const render::FrameInputs& inputs;
-    const TechniqueOfEachMirror& assignment;
-    const PreviousCaptureHistory& history;
+    const Assignment& assignment;
+    const CaptureHistory& history;
 
     const std::vector<TechniqueChoice>& choices() const { return assignment.choices; }
     bool is_mixed() const { return choices().size() > 1; }
     /// Returns the captures from which the frame continues, and the work that it may leave out.
     /// With light probes, light goes from every surface to every other one, so nothing is left out.
-    const PreviousCaptureHistory& continued_history() const;
+    const CaptureHistory& continued_history() const;
     /// Returns lighting with a shadow map that many passes may share.
-    render::ShadingLights light_with_shadow_map(const ShadowMapRequest& wanted);
+    render::ShadingLights light_with(const ShadowMapRequest& wanted);
 
     std::optional<render::LightProbes> probes;
     /// Whether the ray tracer draws all parts of the view that the rasteriser cannot finish
@@ -59,7 +58,7 @@ struct FrameDeclaration {
 
 private:
     std::map<std::uint32_t, render::ShadingLights> shadow_maps_; ///< by edge in texels
-    render::ShadingLights find_or_add_shadow_map(std::uint32_t edge);
+    render::ShadingLights shadow_map(std::uint32_t edge);
 };
 
 /// Orders of the features that every frame may have. A feature between two of them takes a number
@@ -86,7 +85,7 @@ struct RegisteredFeature {
 };
 
 /// Returns all features, sorted by `order`.
-std::vector<const FrameFeature*> list_features();
+std::vector<const FrameFeature*> features();
 
 /// Returns the shadow map that a technique's captures and mirrors ask for.
 ShadowMapRequest choose_shadow_map(const ShadowKnobs& knobs);

@@ -9,21 +9,20 @@ RegisteredFeature::RegisteredFeature(const FrameFeature& feature) {
     table_rows<const FrameFeature*>().push_back(&feature);
 }
 
-std::vector<const FrameFeature*> list_features() {
+std::vector<const FrameFeature*> features() {
     return sorted_rows<const FrameFeature*>(
         [](const FrameFeature* row) { return std::pair(row->order, row->name); });
 }
 
-const PreviousCaptureHistory& FrameDeclaration::continued_history() const {
-    static const PreviousCaptureHistory kNothing{.model = kDrawEverythingModel};
+const CaptureHistory& FrameDeclaration::continued_history() const {
+    static const CaptureHistory kNothing{.model = kDrawEverythingModel};
     return probes ? kNothing : history;
 }
 
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
-                                  const TechniqueOfEachMirror& assignment,
-                                  const PreviousCaptureHistory& history) {
+                                  const Assignment& assignment, const CaptureHistory& history) {
     FrameDeclaration frame(graph, inputs, assignment, history);
-    for (const FrameFeature* const feature : list_features())
+    for (const FrameFeature* const feature : features())
         if (feature->applies(frame)) feature->add(frame);
     return std::move(frame.outputs);
 }

@@ -8,7 +8,7 @@ namespace catoptric::reflect {
 
 /// Input of add_frame_passes(): the work that the frame may leave out, and the captures of the
 /// previous frame.
-struct PreviousCaptureHistory {
+struct CaptureHistory {
     const require::WorkModel& model;
     /// TechniqueOutputs::kept of the previous frame; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
@@ -27,8 +27,7 @@ inline const require::WorkModel kDrawEverythingModel;
 /// mirrors get captures, so that the captures can show every mirror. Work that the model culls gets
 /// no passes.
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
-                                  const TechniqueOfEachMirror& assignment,
-                                  const PreviousCaptureHistory& keeping = {
-                                      .model = kDrawEverythingModel});
+                                  const Assignment& assignment,
+                                  const CaptureHistory& keeping = {.model = kDrawEverythingModel});
 
 } // namespace catoptric::reflect

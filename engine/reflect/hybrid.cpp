@@ -7,24 +7,22 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kForcedSearchResultChoices{"search", "unknown"};
-enum class ForcedSearchResult { search, unknown };
-constexpr Knob kForcedSearchResultKnob{
-    .name = "force",
-    .help = "pixels to trace: those for which the search answers unknown, or all",
-    .high = 1,
-    .choices = kForcedSearchResultChoices};
+constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
+enum class ForcedResult { search, unknown };
+constexpr Knob kForce{.name = "force",
+                      .help = "pixels to trace: those for which the search answers unknown, or all",
+                      .high = 1,
+                      .choices = kForceChoices};
 constexpr auto kHybridKnobs = [] {
-    auto knobs = list_search_knobs(std::array{kForcedSearchResultKnob});
-    std::ranges::find(knobs, kGlassRefractionModelKnob.name, &Knob::name)->value =
-        shared::kRefractTraced;
+    auto knobs = search_knobs(std::array{kForce});
+    std::ranges::find(knobs, kRefract.name, &Knob::name)->value = shared::kRefractTraced;
     return knobs;
 }();
 
 /// Searches that end on glass or a blended surface are left to rays: the captured colour there
 /// holds what the capture's centre sees behind the surface.
-render::CaptureOptions make_hybrid_capture_options(const render::FrameInputs& inputs,
-                                                   const KnobSettings& settings) {
+render::CaptureOptions make_hybrid_options(const render::FrameInputs& inputs,
+                                           const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.blended_alpha = 0;
     options.surfaces = options.surfaces || inputs.scene.has_blended_surfaces() ||
@@ -34,17 +32,15 @@ render::CaptureOptions make_hybrid_capture_options(const render::FrameInputs& in
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
-MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                       const KnobSettings& settings,
-                                       const MirrorShadingInputs& around) {
-    MirrorShadingSetup look = make_pyramid_shading(graph, inputs, settings, around);
-    const bool traces_all = settings.get<ForcedSearchResult>(kForcedSearchResultKnob) ==
-                            ForcedSearchResult::unknown;
+MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                  const KnobSettings& settings, const ShadingInputs& around) {
+    MirrorShading look = make_pyramid_shading(graph, inputs, settings, around);
+    const bool traces_all = settings.get<ForcedResult>(kForce) == ForcedResult::unknown;
     if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
     const bool is_rough = std::ranges::any_of(
         around.mirrors, [&](std::uint32_t mirror) { return inputs.scene.is_rough_mirror(mirror); });
-    const SharedKnobs knobs = read_shared_knobs(settings);
+    const SharedKnobs knobs = read_knobs(settings);
     if (is_rough && knobs.rough.lookup != RoughKnobs::Lookup::none)
         look.tracer->rays = knobs.rough.rays;
     // Reading the triangle numbers of the rasteriser costs more than tracing camera rays for the
@@ -55,7 +51,7 @@ MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameI
         look.tracer->first_raster = true;
     }
     if (knobs.shadow.method == ShadowKnobs::Method::none)
-        look.tracer->shadow = TracerSettings::TracedShadow::none;
+        look.tracer->shadow = TracerSettings::Shadow::none;
     return look;
 }
 
@@ -70,8 +66,8 @@ constexpr Technique kHybridTechnique{
                .noise = TechniqueTraits::Noise::rays},
     .knobs = kHybridKnobs,
     .compared = kHybridDefaultRows,
-    .scene_passes = count_capture_passes_with_feedback,
-    .capture = make_hybrid_capture_options,
+    .scene_passes = count_capture_passes,
+    .capture = make_hybrid_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_hybrid_shading};
 const RegisteredTechnique kHybridRegistration{kHybridTechnique};

@@ -6,26 +6,25 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kSearchStepsKnob{.name = "steps",
-                                .help = "number of steps of equal angle along the reflected ray",
-                                .low = 1,
-                                .high = 256,
-                                .value = 16};
-constexpr auto kLayeredKnobs = list_search_knobs(std::array{kSearchStepsKnob});
+constexpr Knob kLayeredSteps{.name = "steps",
+                             .help = "number of steps of equal angle along the reflected ray",
+                             .low = 1,
+                             .high = 256,
+                             .value = 16};
+constexpr auto kLayeredKnobs = search_knobs(std::array{kLayeredSteps});
 
-render::CaptureOptions choose_layered_capture_options(const render::FrameInputs& inputs,
-                                                      const KnobSettings& settings) {
+render::CaptureOptions make_layered_options(const render::FrameInputs& inputs,
+                                            const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.second_layer = true;
     return options;
 }
 
-MirrorShadingSetup make_layered_shading(graph::Graph&, const render::FrameInputs&,
-                                        const KnobSettings& settings,
-                                        const MirrorShadingInputs& around) {
-    MirrorShadingSetup look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
-    look.mirror.constants.emplace_back(
-        "steps", static_cast<std::uint32_t>(settings.integer(kSearchStepsKnob)));
+MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
+                                   const KnobSettings& settings, const ShadingInputs& around) {
+    MirrorShading look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
+    look.mirror.constants.emplace_back("steps",
+                                       static_cast<std::uint32_t>(settings.integer(kLayeredSteps)));
     // Mirrors with this shader never look into captures without a second layer. For such captures,
     // the colour image is bound as a placeholder.
     const auto bind_layer_images = [&](const char* name, auto&& image) {
@@ -58,9 +57,9 @@ constexpr Technique kLayeredTechnique{
     // The number of scene passes R is 2 N + 2 for N mirrors.
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
-            return count_capture_passes_with_feedback(2 * mirrors, lights, settings);
+            return count_capture_passes(2 * mirrors, lights, settings);
         },
-    .capture = choose_layered_capture_options,
+    .capture = make_layered_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_layered_shading};
 const RegisteredTechnique kLayeredRegistration{kLayeredTechnique};

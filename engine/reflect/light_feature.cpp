@@ -17,18 +17,18 @@ bool has_some(const std::vector<TechniqueChoice>& choices, Occlusion occlusion) 
     });
 }
 
-bool has_light_between_surfaces(const FrameDeclaration& frame) {
+bool has_probe_light(const FrameDeclaration& frame) {
     return std::ranges::any_of(frame.choices(), [](const TechniqueChoice& choice) {
-        return choice.shared.light.lights_between_surfaces();
+        return choice.shared.light.has_probe_light();
     });
 }
 
 /// Returns the most light probes of the frame's grid: the largest number of its techniques. 0: no
 /// technique needs light probes.
-std::uint32_t count_most_light_probes(const FrameDeclaration& frame) {
+std::uint32_t most_probes(const FrameDeclaration& frame) {
     std::uint32_t most = 0;
     for (const TechniqueChoice& choice : frame.choices())
-        if (choice.shared.light.lights_between_surfaces() ||
+        if (choice.shared.light.has_probe_light() ||
             (choice.shared.light.uses_probes() && frame.inputs.scene.has_environment_light()))
             most = std::max(most, choice.shared.light.most_probes);
     return most;
@@ -37,14 +37,14 @@ std::uint32_t count_most_light_probes(const FrameDeclaration& frame) {
 constexpr FrameFeature kLightProbeFeature{
     .name = "light probes",
     .order = feature_order::kLightProbes,
-    .applies = [](const FrameDeclaration& frame) { return count_most_light_probes(frame) > 0; },
+    .applies = [](const FrameDeclaration& frame) { return most_probes(frame) > 0; },
     .add =
         [](FrameDeclaration& frame) {
             // If some technique has light between surfaces, light probes hold it for all.
             frame.probes = render::declare_light_probes(
-                frame.graph, frame.inputs, count_most_light_probes(frame),
-                has_light_between_surfaces(frame) ? shared::kLightProbesOfSurfaces
-                                                  : shared::kLightProbesOfEnvironment);
+                frame.graph, frame.inputs, most_probes(frame),
+                has_probe_light(frame) ? shared::kLightProbesOfSurfaces
+                                       : shared::kLightProbesOfEnvironment);
         }};
 const RegisteredFeature kLightProbeRegistration{kLightProbeFeature};
 
@@ -68,8 +68,8 @@ const RegisteredFeature kLightProbeCaptureRegistration{kLightProbeCaptureFeature
 
 /// Adds notes on values of `ao` that have no effect. Light probes of ao=captures already know what
 /// hides the light.
-void note_occlusion_without_effect(FrameDeclaration& frame) {
-    const bool has_light = has_light_between_surfaces(frame);
+void note_unused_occlusion(FrameDeclaration& frame) {
+    const bool has_light = has_probe_light(frame);
     if (!has_some(frame.choices(), Occlusion::captures)) return;
     if (has_light)
         frame.outputs.notes.emplace_back(
@@ -81,8 +81,8 @@ void note_occlusion_without_effect(FrameDeclaration& frame) {
 }
 
 /// Returns whether surfaces of the camera's view hide light from each other.
-bool is_light_occluded_by_camera_view(const FrameDeclaration& frame) {
-    const bool has_light = has_light_between_surfaces(frame);
+bool has_screen_occlusion(const FrameDeclaration& frame) {
+    const bool has_light = has_probe_light(frame);
     return has_some(frame.choices(), Occlusion::screen) &&
            (has_light || (!has_some(frame.choices(), Occlusion::captures) &&
                           frame.inputs.scene.has_environment_light()));
@@ -98,13 +98,13 @@ constexpr FrameFeature kOcclusionFeature{
         },
     .add =
         [](FrameDeclaration& frame) {
-            note_occlusion_without_effect(frame);
-            if (!is_light_occluded_by_camera_view(frame)) return;
+            note_unused_occlusion(frame);
+            if (!has_screen_occlusion(frame)) return;
             char note[96];
-            std::snprintf(
-                note, sizeof note, "ao=screen: surfaces up to %.3g world units away hide the %s",
-                render::occlusion_radius(frame.inputs.scene),
-                has_light_between_surfaces(frame) ? "light of light probes" : "environment");
+            std::snprintf(note, sizeof note,
+                          "ao=screen: surfaces up to %.3g world units away hide the %s",
+                          render::occlusion_radius(frame.inputs.scene),
+                          has_probe_light(frame) ? "light of light probes" : "environment");
             frame.outputs.notes.emplace_back(note);
             frame.view_lighting.ambient_occlusion = render::add_ambient_occlusion(frame.graph,
                                                                                   frame.inputs);

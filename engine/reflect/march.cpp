@@ -6,7 +6,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kMarchKnobs = list_search_knobs(
+constexpr auto kMarchKnobs = search_knobs(
     std::array{Knob{.name = "steps",
                     .help = "number of steps of equal angle along the reflected ray",
                     .low = 1,
@@ -23,7 +23,7 @@ constexpr Technique kMarchTechnique{
     .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kMarchKnobs,
     .compared = kMarchDefaultRows,
-    .scene_passes = count_capture_passes_with_feedback,
+    .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .search = "reflect/march.frag"};

@@ -10,7 +10,7 @@ namespace catoptric::reflect {
 namespace {
 
 /// Returns whether the picture without glass needs levels; none: no glass looks it up.
-std::optional<bool> find_levels_of_opaque_picture(const FrameDeclaration& frame) {
+std::optional<bool> find_opaque_levels(const FrameDeclaration& frame) {
     const render::GpuScene& scene = frame.inputs.scene;
     bool is_read = false, has_levels = false;
     for (std::uint32_t mirror = 0; mirror < frame.assignment.of_mirror.size(); ++mirror) {
@@ -18,8 +18,7 @@ std::optional<bool> find_levels_of_opaque_picture(const FrameDeclaration& frame)
         if (knobs.refract != render::kRefractScreen) continue;
         is_read = is_read || scene.draw_ranges()[scene.mirror_object(mirror)].glass;
         // Shaders of rough mirrors read levels.
-        has_levels = has_levels ||
-                     (knobs.rough.uses_filtered_levels() && scene.is_rough_mirror(mirror));
+        has_levels = has_levels || (knobs.rough.uses_levels() && scene.is_rough_mirror(mirror));
     }
     return is_read ? std::optional(has_levels) : std::nullopt;
 }
@@ -29,17 +28,16 @@ constexpr FrameFeature kOpaquePictureFeature{
     .order = feature_order::kOpaquePicture,
     .applies =
         [](const FrameDeclaration& frame) {
-            return is_rasterised(frame) && find_levels_of_opaque_picture(frame).has_value();
+            return is_rasterised(frame) && find_opaque_levels(frame).has_value();
         },
     .add =
         [](FrameDeclaration& frame) {
             frame.opaque = render::declare_opaque_picture(frame.graph, frame.inputs,
-                                                          *find_levels_of_opaque_picture(frame));
+                                                          *find_opaque_levels(frame));
         }};
 const RegisteredFeature kOpaquePictureRegistration{kOpaquePictureFeature};
 
-std::vector<std::uint32_t> list_mirrors_using_technique(std::size_t choice,
-                                                        const TechniqueOfEachMirror& assignment) {
+std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assignment) {
     std::vector<std::uint32_t> mirrors;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i)
         if (assignment.of_mirror[i] == choice) mirrors.push_back(i);
@@ -47,8 +45,8 @@ std::vector<std::uint32_t> list_mirrors_using_technique(std::size_t choice,
 }
 
 /// Returns how a technique draws its mirrors. Declares the passes that this needs.
-MirrorShadingSetup make_look(FrameDeclaration& frame, const TechniqueChoice& choice,
-                             const MirrorShadingInputs& around) {
+MirrorShading make_look(FrameDeclaration& frame, const TechniqueChoice& choice,
+                        const ShadingInputs& around) {
     const Technique& technique = *choice.technique;
     if (technique.search) return {make_search_shader(technique, around, choice.settings), {}};
     render::FrameInputs own = frame.inputs;
@@ -58,7 +56,7 @@ MirrorShadingSetup make_look(FrameDeclaration& frame, const TechniqueChoice& cho
 
 /// Adds images that glass reads: the back faces behind it, and the picture without glass.
 /// `glass_backs` is made at first use.
-void add_glass_images(FrameDeclaration& frame, std::uint32_t refract, MirrorShadingSetup& look,
+void add_glass_images(FrameDeclaration& frame, std::uint32_t refract, MirrorShading& look,
                       std::optional<graph::ImageHandle>& glass_backs) {
     const std::optional<render::OpaquePicture>& opaque = frame.opaque;
     if (refract == render::kRefractBackface && frame.inputs.scene.has_glass()) {
@@ -66,7 +64,7 @@ void add_glass_images(FrameDeclaration& frame, std::uint32_t refract, MirrorShad
         look.mirror.images.emplace_back(kGlassBackImage, std::vector{*glass_backs});
     }
     if (refract == render::kRefractScreen) {
-        if (!opaque) remove_images_of_camera_view(look.mirror);
+        if (!opaque) remove_view_images(look.mirror);
         if (opaque)
             look.mirror.images.emplace_back(kOpaquePictureImage, std::vector{opaque->colour});
         if (opaque && opaque->levels)
@@ -80,7 +78,7 @@ void add_glass_images(FrameDeclaration& frame, std::uint32_t refract, MirrorShad
 }
 
 /// Adds the tracer that completes the pixels which a mirror's shader leaves to rays.
-void add_tracer(FrameDeclaration& frame, MirrorShadingSetup& look) {
+void add_tracer(FrameDeclaration& frame, MirrorShading& look) {
     if (!look.tracer) return;
     if (!look.tracer->paths) {
         look.tracer->lighting.probes = frame.lighting.probes;
@@ -94,16 +92,14 @@ void add_looks(FrameDeclaration& frame) {
     std::optional<graph::ImageHandle> glass_backs;
     for (std::size_t i = 0; i < frame.choices().size(); ++i) {
         const TechniqueChoice& choice = frame.choices()[i];
-        const MirrorShadingInputs around{
-            frame.outputs.captures,
-            frame.completes_view
-                ? frame.lighting
-                : frame.light_with_shadow_map(choose_shadow_map(choice.shared.shadow)),
-            list_mirrors_using_technique(i, frame.assignment), frame.completes_view};
-        MirrorShadingSetup look = make_look(frame, choice, around);
+        const ShadingInputs around{frame.outputs.captures,
+                                   frame.completes_view
+                                       ? frame.lighting
+                                       : frame.light_with(choose_shadow_map(choice.shared.shadow)),
+                                   mirrors_of(i, frame.assignment), frame.completes_view};
+        MirrorShading look = make_look(frame, choice, around);
         if (frame.captures && look.mirror.captures == frame.captures->captures)
-            frame.levels->add_rough_lookup_to_shader(frame.graph, around.mirrors, choice.shared,
-                                                     look.mirror);
+            frame.levels->add_lookup(frame.graph, around.mirrors, choice.shared, look.mirror);
         add_glass_images(frame, choice.shared.refract, look, glass_backs);
         add_tracer(frame, look);
         if (!frame.outputs.captures) frame.outputs.captures = look.mirror.captures;

@@ -15,7 +15,7 @@ namespace {
 using render::MirroredView;
 
 /// A flat face that can have mirrored views, with its mirror and its triangles.
-struct FlatMirrorFace {
+struct MirrorFace {
     std::uint32_t mirror = 0;
     std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
     std::vector<scene::TriangleRun> triangles;
@@ -26,8 +26,8 @@ struct FlatMirrorFace {
 };
 
 /// All mirrors that are drawn by mirrored views.
-struct FlatMirrorFaceList {
-    std::vector<FlatMirrorFace> faces;
+struct MirrorFaces {
+    std::vector<MirrorFace> faces;
     std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
     /// Mirrors with several faces, and their triangles that belong to no flat face.
     std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
@@ -44,9 +44,8 @@ double find_blur_angle(const render::GpuScene& scene, std::uint32_t mirror) {
                                 : std::numbers::pi;
 }
 
-FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
-                                                  const TechniqueOfEachMirror& assignment) {
-    FlatMirrorFaceList all;
+MirrorFaces collect_faces(const render::GpuScene& scene, const Assignment& assignment) {
+    MirrorFaces all;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         if (!choice.technique->traits.draws_mirrored_views) continue;
@@ -72,18 +71,18 @@ FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
 
 /// Returns the name of a view. "mirrored/2/1" is the view of mirror 1 inside mirror 2.
 /// "mirrored/2.3" is the view of face 3 of mirror 2.
-std::string mirrored_view_name(const FlatMirrorFaceList& all,
-                               const std::vector<MirroredView>& views, std::size_t view) {
+std::string view_name(const MirrorFaces& all, const std::vector<MirroredView>& views,
+                      std::size_t view) {
     const auto& within = views[view].within;
-    const FlatMirrorFace& face = all.faces[views[view].plane_index];
-    return (within ? mirrored_view_name(all, views, *within) : "mirrored") + "/" +
+    const MirrorFace& face = all.faces[views[view].plane_index];
+    return (within ? view_name(all, views, *within) : "mirrored") + "/" +
            std::to_string(face.mirror + 1) +
            (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
 
 /// Returns the shader of a mirror that shows a view. `is_within`: the mirror is drawn into a
 /// mirrored view, which may store the distances of what the mirror shows.
-render::MirrorShader make_planar_shader(const FlatMirrorFace& face, const MirroredView& view,
+render::MirrorShader make_planar_shader(const MirrorFace& face, const MirroredView& view,
                                         const render::MirroredViewImages& made, uvec2 size,
                                         bool is_within) {
     render::MirrorShader look{.fragment = "reflect/planar.frag",
@@ -110,11 +109,10 @@ render::MirrorShader make_planar_shader(const FlatMirrorFace& face, const Mirror
 /// Adds to `looks` how mirrors are drawn inside the view with index `within`, or in the picture if
 /// `within` is none. Faces with mirrored views show the images `made`. Faces without views, and
 /// triangles outside all flat faces, are black.
-render::MirrorShaders
-add_mirror_shaders_of_mirrored_view(render::MirrorShaders looks, const FlatMirrorFaceList& all,
-                                    const std::vector<MirroredView>& views,
-                                    const std::vector<render::MirroredViewImages>& made, uvec2 size,
-                                    std::optional<std::size_t> within) {
+render::MirrorShaders add_view_looks(render::MirrorShaders looks, const MirrorFaces& all,
+                                     const std::vector<MirroredView>& views,
+                                     const std::vector<render::MirroredViewImages>& made,
+                                     uvec2 size, std::optional<std::size_t> within) {
     const auto black = static_cast<std::uint32_t>(looks.looks.size());
     looks.looks.emplace_back();
     std::vector<std::uint32_t> of_face(all.faces.size(), black);
@@ -129,7 +127,7 @@ add_mirror_shaders_of_mirrored_view(render::MirrorShaders looks, const FlatMirro
         if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
-        const FlatMirrorFace& face = all.faces[i];
+        const MirrorFace& face = all.faces[i];
         const bool is_looked_through = within && views[*within].plane_index == i;
         if (face.number == 0)
             looks.of_mirror[face.mirror] = of_face[i];
@@ -139,39 +137,38 @@ add_mirror_shaders_of_mirrored_view(render::MirrorShaders looks, const FlatMirro
     return looks;
 }
 
-bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
+bool has_mirrored_views(const TechniqueChoice& choice) {
     return choice.technique->traits.draws_mirrored_views;
 }
 
 /// Returns how all other mirrors inside mirrored views are drawn: as in the picture, but without
 /// ray tracing. Mirrors that are only ray traced in the picture are drawn from their captures, if
 /// they have any.
-render::MirrorShaders choose_looks_in_mirrored_views(const FrameDeclaration& frame) {
+render::MirrorShaders choose_mirrored_looks(const FrameDeclaration& frame) {
     render::MirrorShaders looks = frame.looks;
     for (std::size_t i = 0; i < looks.looks.size(); ++i) {
         const TechniqueChoice& choice = frame.choices()[i];
         render::MirrorShader& look = looks.looks[i];
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
-        remove_images_of_camera_view(look);
-        if (is_drawn_by_mirrored_views(choice)) look = {};
+        remove_view_images(look);
+        if (has_mirrored_views(choice)) look = {};
         if (!choice.technique->traits.is_ray_traced()) continue;
         look = {};
         if (choice.shared.others.is_black || !frame.outputs.captures) continue;
         look.fragment = "reflect/parallax.frag";
-        look.constants.emplace_back("refract_model",
-                                    choose_refraction_model_of_other_views(choice.shared.refract));
+        look.constants.emplace_back("refract_model", other_view_refraction(choice.shared.refract));
         look.captures = frame.outputs.captures;
     }
     return looks;
 }
 
 /// Returns the images that each view has besides its colour.
-std::vector<render::MirroredViewWishes>
-choose_images_of_views(const FlatMirrorFaceList& all, const std::vector<MirroredView>& views) {
+std::vector<render::MirroredViewWishes> choose_view_images(const MirrorFaces& all,
+                                                           const std::vector<MirroredView>& views) {
     std::vector<render::MirroredViewWishes> wanted;
     for (const MirroredView& view : views) {
-        const FlatMirrorFace& face = all.faces[view.plane_index];
+        const MirrorFace& face = all.faces[view.plane_index];
         // The distance of a mirror's surface is not that of what the mirror shows, so a view inside
         // a view with distances has distances, too.
         wanted.push_back({(face.is_blurred() && face.options.law != RoughKnobs::Law::none) ||
@@ -183,29 +180,26 @@ choose_images_of_views(const FlatMirrorFaceList& all, const std::vector<Mirrored
 
 void add_mirrored_views(FrameDeclaration& frame) {
     const render::FrameInputs& inputs = frame.inputs;
-    const render::MirrorShaders others = choose_looks_in_mirrored_views(frame);
-    const FlatMirrorFaceList all = list_flat_mirror_faces_to_view(inputs.scene, frame.assignment);
+    const render::MirrorShaders others = choose_mirrored_looks(frame);
+    const MirrorFaces all = collect_faces(inputs.scene, frame.assignment);
     int asked = 0;
     for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
     int most = asked;
     const std::vector<MirroredView> views = render::find_mirrored_views(
         inputs.scene.eye(), all.planes, inputs.size, most);
-    const std::vector<render::MirroredViewWishes> wanted = choose_images_of_views(all, views);
+    const std::vector<render::MirroredViewWishes> wanted = choose_view_images(all, views);
     std::vector<render::MirroredViewImages> made(views.size());
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.requests.add_view(views[i].view);
-        const FlatMirrorFace& face = all.faces[views[i].plane_index];
+        const MirrorFace& face = all.faces[views[i].plane_index];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;
         made[i] = render::add_mirrored_view(
-            frame.graph, inputs, mirrored_view_name(all, views, i), views[i], number,
-            frame.lighting,
-            add_mirror_shaders_of_mirrored_view(others, all, views, made, inputs.size, i), whole,
-            wanted[i]);
+            frame.graph, inputs, view_name(all, views, i), views[i], number, frame.lighting,
+            add_view_looks(others, all, views, made, inputs.size, i), whole, wanted[i]);
     }
-    frame.looks = add_mirror_shaders_of_mirrored_view(std::move(frame.looks), all, views, made,
-                                                      inputs.size, {});
+    frame.looks = add_view_looks(std::move(frame.looks), all, views, made, inputs.size, {});
     if (most < asked)
         frame.outputs.notes.push_back(
             "flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
@@ -219,7 +213,7 @@ constexpr FrameFeature kMirroredViewFeature{
     .applies =
         [](const FrameDeclaration& frame) {
             return is_rasterised(frame) && !frame.assignment.of_mirror.empty() &&
-                   std::ranges::any_of(frame.choices(), is_drawn_by_mirrored_views);
+                   std::ranges::any_of(frame.choices(), has_mirrored_views);
         },
     .add = add_mirrored_views};
 const RegisteredFeature kMirroredViewRegistration{kMirroredViewFeature};

@@ -8,25 +8,23 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kBouncesKnob{.name = "bounces",
-                            .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
-                            .low = 0,
-                            .high = 8,
-                            .value = 3};
-constexpr Knob kNaiveKnobs[] = {
-    kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,         kGlassRefractionModelKnob,
-    kIndirectLightKnob, kLightProbesKnob, kAmbientOcclusionKnob,      kShadowKnob,
-    kShadowMapEdgeKnob, kSoftShadowKnob,  kCaptureForOtherMirrorsKnob};
+constexpr Knob kBounces{.name = "bounces",
+                        .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
+                        .low = 0,
+                        .high = 8,
+                        .value = 3};
+constexpr Knob kNaiveKnobs[] = {kBounces,   kFace,       kColour,           kRefract,
+                                kIndirect,  kProbes,     kAmbientOcclusion, kShadow,
+                                kShadowMap, kSoftShadow, kOthersFace};
 
 /// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
 /// technique `naive`, because only these look into its captures.
-MirrorShadingSetup make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const KnobSettings& settings,
-                                      const MirrorShadingInputs& around) {
+MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                 const KnobSettings& settings, const ShadingInputs& around) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // without a fragment shader, the mirror is black
-    const int bounces = settings.integer(kBouncesKnob);
+    const int bounces = settings.integer(kBounces);
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
         if (bounce == bounces) of_others.face = 0;
@@ -35,7 +33,7 @@ MirrorShadingSetup make_naive_shading(graph::Graph& graph, const render::FrameIn
         const auto captures = std::make_shared<const render::MirrorCaptures>(
             render::declare_capture_images(graph, inputs, "bounce" + std::to_string(bounce),
                                            std::move(of_mirrors)));
-        remove_images_of_camera_view(look);
+        remove_view_images(look);
         render::add_captures(graph, inputs, *captures, render::use_same_shader(inputs.scene, look));
         look = make_capture_shader({captures, around.lighting, around.mirrors},
                                    "reflect/naive.frag", settings);
@@ -58,8 +56,7 @@ constexpr Technique kNaiveTechnique{
     .compared = kNaiveDefaultRows,
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
-            return mirrors * settings.integer(kBouncesKnob) +
-                   count_shadow_passes(lights, settings) + 1;
+            return mirrors * settings.integer(kBounces) + count_shadow_passes(lights, settings) + 1;
         },
     .look = make_naive_shading};
 const RegisteredTechnique kNaiveRegistration{kNaiveTechnique};

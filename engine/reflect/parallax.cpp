@@ -8,36 +8,22 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kParallaxShader = "reflect/parallax.frag";
-constexpr std::array<std::string_view, 3> kOmittedParallaxRuleChoices{"none", "saturation",
-                                                                      "void_test"};
-enum class OmittedParallaxRule { none, saturation, void_test };
-constexpr Knob kOmittedParallaxRuleKnob{
-    .name = "without",
-    .help = "rule of robustness to leave out, to measure its cost",
-    .high = 2,
-    .choices = kOmittedParallaxRuleChoices};
-constexpr Knob kParallaxKnobs[] = {kCaptureFaceKnob,
-                                   kCaptureColourKnob,
-                                   kCaptureDistanceKnob,
-                                   kDistanceRangeKnob,
-                                   kRoughMirrorMethodKnob,
-                                   kBlurLawKnob,
-                                   kFilterTapsKnob,
-                                   kRoughRaysKnob,
-                                   kGlassRefractionModelKnob,
-                                   kIndirectLightKnob,
-                                   kLightProbesKnob,
-                                   kAmbientOcclusionKnob,
-                                   kShadowKnob,
-                                   kShadowMapEdgeKnob,
-                                   kSoftShadowKnob,
-                                   kOmittedParallaxRuleKnob};
+constexpr std::array<std::string_view, 3> kParallaxWithoutChoices{"none", "saturation",
+                                                                  "void_test"};
+enum class ParallaxRule { none, saturation, void_test };
+constexpr Knob kParallaxWithout{.name = "without",
+                                .help = "rule of robustness to leave out, to measure its cost",
+                                .high = 2,
+                                .choices = kParallaxWithoutChoices};
+constexpr Knob kParallaxKnobs[] = {kFace,    kColour,    kDistance,   kRange,
+                                   kRough,   kLaw,       kTaps,       kRays,
+                                   kRefract, kIndirect,  kProbes,     kAmbientOcclusion,
+                                   kShadow,  kShadowMap, kSoftShadow, kParallaxWithout};
 
-render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
-                                                     const KnobSettings& settings) {
+render::CaptureOptions make_parallax_options(const render::FrameInputs& inputs,
+                                             const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
-    options.saturates = settings.get<OmittedParallaxRule>(kOmittedParallaxRuleKnob) !=
-                        OmittedParallaxRule::saturation;
+    options.saturates = settings.get<ParallaxRule>(kParallaxWithout) != ParallaxRule::saturation;
     return options;
 }
 
@@ -51,14 +37,13 @@ constexpr Technique kParallaxTechnique{
                .seed_part = TechniqueTraits::SeedPart::parallax},
     .knobs = kParallaxKnobs,
     .compared = kParallaxDefaultRows,
-    .scene_passes = count_capture_passes_with_feedback,
-    .capture = make_parallax_capture_options,
+    .scene_passes = count_capture_passes,
+    .capture = make_parallax_options,
     .in_captures = kParallaxShader,
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings& settings,
-               const MirrorShadingInputs& around) {
-        MirrorShadingSetup look{make_capture_shader(around, kParallaxShader, settings), {}};
-        if (settings.get<OmittedParallaxRule>(kOmittedParallaxRuleKnob) ==
-            OmittedParallaxRule::void_test)
+               const ShadingInputs& around) {
+        MirrorShading look{make_capture_shader(around, kParallaxShader, settings), {}};
+        if (settings.get<ParallaxRule>(kParallaxWithout) == ParallaxRule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;
     }};

@@ -12,7 +12,7 @@ namespace catoptric::reflect {
 
 /// One entry of a plan. The pattern is a list of mirror numbers from 1, names with shell wildcards,
 /// or `*`, separated by commas.
-struct TechniquePlanRule {
+struct PlanRule {
     std::string pattern;
     TechniqueChoice choice;
 };
@@ -20,7 +20,7 @@ struct TechniquePlanRule {
 /// The techniques of a frame as the user asked for them.
 struct TechniquePlan {
     std::string label; ///< "secant:face=64", "1=planar *=reuse", "plan:mixed.json"
-    std::vector<TechniquePlanRule> rules;
+    std::vector<PlanRule> rules;
     bool is_technique = false; ///< one technique for all mirrors; the scene may have none
     bool is_auto = false;      ///< no rules until a scene has suggested them (kAutoPlanName)
     /// Reason for the technique of each mirror, in suggested plans.
@@ -30,9 +30,9 @@ struct TechniquePlan {
     std::string file_name() const;
     /// Returns whether both plans have the same patterns with the same techniques and settings. The
     /// spelling of the labels does not matter.
-    bool is_same_plan_as(const TechniquePlan& other) const;
+    bool is_same(const TechniquePlan& other) const;
     /// Returns whether some technique of the plan takes light between surfaces from light probes.
-    bool has_light_between_surfaces() const;
+    bool has_probe_light() const;
     /// Returns whether some rule draws soft shadows of lamps (soft=pcss).
     bool uses_soft_shadows() const;
     /// Returns whether some technique of the plan hides the environment from diffuse surfaces.
@@ -49,7 +49,7 @@ TechniquePlan parse_plan(std::string_view text);
 
 /// A plan applied to the mirrors of a scene. All lists but `choices` have one entry per mirror;
 /// entry n-1 belongs to mirror n.
-struct TechniqueOfEachMirror {
+struct Assignment {
     std::vector<TechniqueChoice> choices; ///< all different; at least one
     std::vector<std::uint32_t> of_mirror; ///< index into `choices` for each mirror
     /// For each mirror: the pattern of the rule that chose its technique. Empty: one technique
@@ -67,21 +67,18 @@ struct TechniqueOfEachMirror {
 /// wins over a name and a name over `*`. Between equals the first rule wins. Throws
 /// `Failure::usage` for a pattern without a match and for a mirror without a rule. O(rules *
 /// mirrors).
-TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
-                                                   const std::vector<std::string>& names);
+Assignment assign_techniques(const TechniquePlan& plan, const std::vector<std::string>& names);
 
 /// Adds to the model's input the needs of the plan's techniques that do not depend on visibility:
 /// whole cubes, captures of all mirrors, and the edge of the coarsest shadow map.
-void add_capture_needs_of_plan(require::WorkModelInput& question,
-                               const std::vector<TechniquePlan>& plans);
+void add_capture_needs(require::WorkModelInput& question, const std::vector<TechniquePlan>& plans);
 
 /// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The
 /// knob `rest` names the replacement, which keeps the shadow settings.
 ///
-/// TechniqueOfEachMirror::lacks reports the replacement, and the share of a mirror that lies in
+/// Assignment::lacks reports the replacement, and the share of a mirror that lies in
 /// none of its flat faces. `flats` has one entry per mirror. `tolerance` is in radians.
-TechniqueOfEachMirror
-replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
-                                    const std::vector<scene::FlatFaces>& flats, double tolerance);
+Assignment replace_unfit(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
+                         double tolerance);
 
 } // namespace catoptric::reflect

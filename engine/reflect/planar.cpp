@@ -11,28 +11,28 @@ namespace catoptric::reflect {
 namespace {
 
 /// Returns the techniques that may draw mirrors which are not flat.
-std::span<const std::string_view> list_rest_techniques() {
+std::span<const std::string_view> rest_techniques() {
     static const std::vector<std::string_view> kNames = [] {
         std::vector<std::string_view> names;
-        for (const Technique* technique : list_techniques())
+        for (const Technique* technique : techniques())
             if (technique->traits.draws_any_mirror()) names.push_back(technique->name);
         return names;
     }();
     return kNames;
 }
 
-constexpr Knob kPlanarBouncesKnob{
+constexpr Knob kPlanarBounces{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
     .low = 0,
     .high = 16,
     .value = 2};
-constexpr Knob kNonPlanarMirrorTechniqueKnob{.name = "rest",
-                                             .help = "technique of mirrors that are not flat",
-                                             .find_choices = list_rest_techniques};
+constexpr Knob kPlanarRest{.name = "rest",
+                           .help = "technique of mirrors that are not flat",
+                           .find_choices = rest_techniques};
 constexpr std::array<std::string_view, 4> kPlanarRoughChoices{"none", "mips", "prefilter", "rest"};
 constexpr int kRoughByRest = 3; // index of "rest"
-constexpr Knob kPlanarRoughKnob{
+constexpr Knob kPlanarRough{
     .name = "rough",
     .help = "look-up of rough mirrors in their view: none (sharp), mips (one box-filtered level), "
             "prefilter (directions of the GGX lobe, each in a box-filtered level), rest (the "
@@ -41,29 +41,26 @@ constexpr Knob kPlanarRoughKnob{
     .value = 2,
     .choices = kPlanarRoughChoices};
 constexpr std::array<std::string_view, 2> kPlanarLawChoices{"none", "cone"};
-constexpr Knob kPlanarLawKnob{
+constexpr Knob kPlanarLaw{
     .name = "law",
     .help = "how the blur of a rough mirror depends on the distance of the reflected surface: none "
             "(it does not), or cone",
     .high = kPlanarLawChoices.size() - 1,
     .value = 1,
     .choices = kPlanarLawChoices};
-constexpr Knob kPlanarTapsKnob{.name = "taps",
-                               .help = "look-ups of each rough pixel for rough=prefilter",
-                               .low = 1,
-                               .high = 1024,
-                               .value = 16};
-constexpr Knob kPlanarKnobs[] = {kPlanarBouncesKnob, kNonPlanarMirrorTechniqueKnob,
-                                 kPlanarRoughKnob,   kPlanarLawKnob,
-                                 kPlanarTapsKnob,    kIndirectLightKnob,
-                                 kLightProbesKnob,   kAmbientOcclusionKnob,
-                                 kShadowKnob,        kShadowMapEdgeKnob,
-                                 kSoftShadowKnob,    kCaptureForOtherMirrorsKnob};
+constexpr Knob kPlanarTaps{.name = "taps",
+                           .help = "look-ups of each rough pixel for rough=prefilter",
+                           .low = 1,
+                           .high = 1024,
+                           .value = 16};
+constexpr Knob kPlanarKnobs[] = {kPlanarBounces, kPlanarRest, kPlanarRough, kPlanarLaw,
+                                 kPlanarTaps,    kIndirect,   kProbes,      kAmbientOcclusion,
+                                 kShadow,        kShadowMap,  kSoftShadow,  kOthersFace};
 
-std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance,
-                                              const KnobSettings& settings) {
+std::string describe_misfit(const scene::FlatFaces& flats, double tolerance,
+                            const KnobSettings& settings) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);
-    if (flats.is_rough && settings.integer(kPlanarRoughKnob) == kRoughByRest) return "rough";
+    if (flats.is_rough && settings.integer(kPlanarRough) == kRoughByRest) return "rough";
     if (flats.flat_share(tolerance) >= scene::kMinFlatShare) return {};
     char text[96] = "not flat";
     if (flats.flat_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatShare)
@@ -72,13 +69,13 @@ std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, dou
     return text;
 }
 
-MirroredViewOptions read_mirrored_view_options(const KnobSettings& settings) {
+MirroredViewOptions read_view_options(const KnobSettings& settings) {
     MirroredViewOptions options;
-    options.bounces = settings.integer(kPlanarBouncesKnob);
-    if (settings.integer(kPlanarRoughKnob) != kRoughByRest)
-        options.rough = settings.get<RoughKnobs::Lookup>(kPlanarRoughKnob);
-    if (settings.integer(kPlanarLawKnob) == 1) options.law = RoughKnobs::Law::cone;
-    options.taps = static_cast<std::uint32_t>(settings.integer(kPlanarTapsKnob));
+    options.bounces = settings.integer(kPlanarBounces);
+    if (settings.integer(kPlanarRough) != kRoughByRest)
+        options.rough = settings.get<RoughKnobs::Lookup>(kPlanarRough);
+    if (settings.integer(kPlanarLaw) == 1) options.law = RoughKnobs::Law::cone;
+    options.taps = static_cast<std::uint32_t>(settings.integer(kPlanarTaps));
     return options;
 }
 
@@ -96,10 +93,10 @@ constexpr Technique kPlanarTechnique{
             return count_shadow_passes(lights, settings) + 1;
         },
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
-               const MirrorShadingInputs&) { return MirrorShadingSetup{}; },
-    .mirrored_views = read_mirrored_view_options,
-    .unfit = describe_why_mirror_is_not_planar,
-    .rest = &kNonPlanarMirrorTechniqueKnob};
+               const ShadingInputs&) { return MirrorShading{}; },
+    .mirrored_views = read_view_options,
+    .unfit = describe_misfit,
+    .rest = &kPlanarRest};
 const RegisteredTechnique kPlanarRegistration{kPlanarTechnique};
 
 } // namespace

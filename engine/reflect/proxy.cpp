@@ -8,22 +8,21 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kProxyShapeChoices{"box", "sphere"};
-constexpr Knob kProxyShapeKnob{.name = "shape",
-                               .help = "shape that approximates the surroundings",
-                               .high = 1,
-                               .choices = kProxyShapeChoices};
+constexpr Knob kProxyShape{.name = "shape",
+                           .help = "shape that approximates the surroundings",
+                           .high = 1,
+                           .choices = kProxyShapeChoices};
 constexpr auto kProxyKnobs = [] {
-    auto knobs = list_search_knobs(std::array{kProxyShapeKnob});
-    std::ranges::find(knobs, kContinuedSearchesKnob.name, &Knob::name)->value =
+    auto knobs = search_knobs(std::array{kProxyShape});
+    std::ranges::find(knobs, kContinue.name, &Knob::name)->value =
         0; // as published: rays are not followed through other mirrors
     return knobs;
 }();
 constexpr std::uint64_t kProxyStructBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
 /// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
-graph::BufferHandle
-add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inputs,
-                             const std::shared_ptr<const render::MirrorCaptures>& captures) {
+graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const std::shared_ptr<const render::MirrorCaptures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::BufferHandle proxies = graph.add_buffer(
         {inputs.prefix + "proxies", kProxyStructBytes * mirrors});
@@ -57,15 +56,12 @@ add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inp
     return proxies;
 }
 
-MirrorShadingSetup make_mirror_shading_by_proxies(graph::Graph& graph,
-                                                  const render::FrameInputs& inputs,
-                                                  const KnobSettings& settings,
-                                                  const MirrorShadingInputs& around) {
-    MirrorShadingSetup look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
-    look.mirror.buffers.emplace_back("Proxies",
-                                     add_proxy_shape_fitting_pass(graph, inputs, around.captures));
-    look.mirror.constants.emplace_back(
-        "shape", static_cast<std::uint32_t>(settings.integer(kProxyShapeKnob)));
+MirrorShading make_proxy_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                 const KnobSettings& settings, const ShadingInputs& around) {
+    MirrorShading look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
+    look.mirror.buffers.emplace_back("Proxies", add_proxy_pass(graph, inputs, around.captures));
+    look.mirror.constants.emplace_back("shape",
+                                       static_cast<std::uint32_t>(settings.integer(kProxyShape)));
     return look;
 }
 
@@ -76,11 +72,11 @@ constexpr Technique kProxyTechnique{
     .order = 10,
     .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kProxyKnobs,
-    .scene_passes = count_capture_passes_with_feedback,
+    .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .reads_whole_cubes = true,
-    .look = make_mirror_shading_by_proxies};
+    .look = make_proxy_shading};
 const RegisteredTechnique kProxyRegistration{kProxyTechnique};
 
 } // namespace

@@ -13,27 +13,26 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kPyramidKnobs = list_search_knobs(std::array<Knob, 0>{});
+constexpr auto kPyramidKnobs = search_knobs(std::array<Knob, 0>{});
 
-/// Returns the topmost level, which has one cell per face. Must match texel_edge_of_pyramid_level
-/// and topmost_level_of_pyramid in shaders/reflect/pyramid.glsl.
-std::uint32_t topmost_level_of_pyramid(std::uint32_t face) {
+/// Returns the topmost level, which has one cell per face. Must match level_edge
+/// and top_level in shaders/reflect/pyramid.glsl.
+std::uint32_t top_level(std::uint32_t face) {
     return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1));
 }
-std::uint32_t texel_edge_of_pyramid_level(std::uint32_t face, std::uint32_t level) {
+std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
 /// Consecutive cubes of one array.
-struct PyramidCubeRange {
+struct PyramidRange {
     graph::ImageHandle distances, bounds;
     std::uint32_t face = 0;
 };
 
 /// Returns the content hash of the distance bounds of a mirror's cube. It covers the whole cube,
 /// because cells at the edge of a face read the neighbouring faces.
-std::uint64_t hash_distance_pyramid_content(const render::MirrorCaptures& captures,
-                                            std::size_t mirror) {
+std::uint64_t hash_bounds(const render::MirrorCaptures& captures, std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
     return ContentHash()
         .add(captures.drawings[mirror])
@@ -44,19 +43,17 @@ std::uint64_t hash_distance_pyramid_content(const render::MirrorCaptures& captur
 }
 
 /// Returns the cubes of the array whose stored bounds are out of date, as runs.
-std::vector<PyramidCubeRange> find_outdated_pyramids(graph::Graph& graph,
-                                                     const render::MirrorCaptures& captures,
-                                                     std::uint32_t array,
-                                                     graph::ImageHandle bounds) {
+std::vector<PyramidRange> find_outdated_pyramids(graph::Graph& graph,
+                                                 const render::MirrorCaptures& captures,
+                                                 std::uint32_t array, graph::ImageHandle bounds) {
     const render::CubeCaptureArray& cubes = captures.arrays[array];
     // Captures that no search reads have no distance. Their colour is a placeholder that is never
     // read.
     const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
-    std::vector<PyramidCubeRange> runs;
-    for (const CaptureCubeRange& run :
-         find_outdated_cubes(graph, captures, array, bounds, [&](std::uint32_t mirror) {
-             return hash_distance_pyramid_content(captures, mirror);
-         }))
+    std::vector<PyramidRange> runs;
+    for (const CubeRange& run :
+         find_outdated_cubes(graph, captures, array, bounds,
+                             [&](std::uint32_t mirror) { return hash_bounds(captures, mirror); }))
         runs.push_back({distances.layers(run.first, run.count), bounds.layers(run.first, run.count),
                         cubes.face});
     return runs;
@@ -69,15 +66,15 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
                                                    const render::FrameInputs& inputs,
                                                    const render::MirrorCaptures& captures) {
     std::vector<graph::ImageHandle> pyramids;
-    std::vector<PyramidCubeRange> runs;
+    std::vector<PyramidRange> runs;
     std::uint32_t top_of_all = 0;
     for (std::uint32_t array = 0; array < captures.arrays.size(); ++array) {
         const render::CubeCaptureArray& cubes = captures.arrays[array];
-        const std::uint32_t top = topmost_level_of_pyramid(cubes.face);
+        const std::uint32_t top = top_level(cubes.face);
         top_of_all = std::max(top_of_all, top);
         graph::ImageDesc desc{inputs.prefix + "pyramid" + (array ? std::to_string(array + 1) : ""),
-                              TexelFormat::r32ui, 1u << top,
-                              texel_edge_of_pyramid_level(cubes.face, 1), cubes.colour.layer_count};
+                              TexelFormat::r32ui, 1u << top, level_edge(cubes.face, 1),
+                              cubes.colour.layer_count};
         pyramids.push_back(captures.drawings.empty() ? graph.add_image(std::move(desc))
                                                      : graph.add_persistent(std::move(desc)));
         std::ranges::copy(find_outdated_pyramids(graph, captures, array, pyramids.back()),
@@ -85,7 +82,7 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
     }
     if (runs.empty()) return pyramids;
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "pyramid");
-    for (const PyramidCubeRange& run : runs)
+    for (const PyramidRange& run : runs)
         pass.reads(run.distances, graph::ResourceUse::sampled)
             .writes(run.bounds, graph::ResourceUse::storage_write);
     pass.record([top_of_all, runs = std::move(runs)](graph::PassCommands& commands) {
@@ -94,11 +91,11 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
             commands.bind_pipeline(
                 gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push_constants(static_cast<std::int32_t>(level));
-            for (const PyramidCubeRange& run : runs) {
-                if (level > topmost_level_of_pyramid(run.face)) continue;
+            for (const PyramidRange& run : runs) {
+                if (level > top_level(run.face)) continue;
                 commands.bind("distances", run.distances);
                 commands.bind("bounds", run.bounds);
-                const std::uint32_t groups = (texel_edge_of_pyramid_level(run.face, level) + 7) / 8;
+                const std::uint32_t groups = (level_edge(run.face, level) + 7) / 8;
                 commands.dispatch(groups, groups, run.bounds.layer_count);
             }
         }
@@ -108,10 +105,9 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
 
 } // namespace
 
-MirrorShadingSetup make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const KnobSettings& settings,
-                                        const MirrorShadingInputs& around) {
-    MirrorShadingSetup look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
+MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const KnobSettings& settings, const ShadingInputs& around) {
+    MirrorShading look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
     look.mirror.images.emplace_back("bounds", add_pyramid_passes(graph, inputs, *around.captures));
     return look;
 }
@@ -128,7 +124,7 @@ constexpr Technique kPyramidTechnique{
     .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kPyramidKnobs,
     .compared = kPyramidDefaultRows,
-    .scene_passes = count_capture_passes_with_feedback,
+    .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_pyramid_shading};

@@ -5,8 +5,7 @@
 /// The search of `pyramid`, which other techniques use as well.
 namespace catoptric::reflect {
 
-MirrorShadingSetup make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const KnobSettings& settings,
-                                        const MirrorShadingInputs& around);
+MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const KnobSettings& settings, const ShadingInputs& around);
 
 } // namespace catoptric::reflect

@@ -13,25 +13,25 @@ constexpr std::array<std::string_view, 2> kExactSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
 /// Names of the rules that can be left out, numbered as in shaders/lib/plain.glsl.
-constexpr std::array<std::string_view, 6> kOmittedTracerRuleChoices{
+constexpr std::array<std::string_view, 6> kTracerWithoutChoices{
     "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
-enum class LampSamplingMethod { sampled, met };
-enum class IndirectLightMethod { none, paths };
-enum class TracedSphereShape { mesh, exact };
-enum class FirstHitMethod { ray, raster };
-enum class RayHitPrecision { f32, f64 };
-constexpr Knob kRayDepthKnob{.name = "depth",
-                             .help = "largest number of mirror bounces; longer paths end black",
-                             .low = 0,
-                             .high = 64,
-                             .value = 8};
-constexpr Knob kSamplesPerPixelKnob{
+enum class LampSampling { sampled, met };
+enum class IndirectLight { none, paths };
+enum class SphereShape { mesh, exact };
+enum class FirstHit { ray, raster };
+enum class HitPrecision { f32, f64 };
+constexpr Knob kDepth{.name = "depth",
+                      .help = "largest number of mirror bounces; longer paths end black",
+                      .low = 0,
+                      .high = 64,
+                      .value = 8};
+constexpr Knob kSamples{
     .name = "samples",
     .help = "rays per pixel: 1 = the centre, n*n = a regular grid, other numbers = stratified",
     .low = 1,
     .high = 65536,
     .value = 1};
-constexpr Knob kLobeRaysKnob{
+constexpr Knob kLobeRays{
     .name = "rays",
     .help =
         "rays of each sample, whose directions are drawn from the lobes of rough surfaces (GGX, "
@@ -39,21 +39,21 @@ constexpr Knob kLobeRaysKnob{
     .low = 0,
     .high = 65536,
     .value = 0};
-constexpr Knob kLobeSeedKnob{
+constexpr Knob kLobeSeed{
     .name = "seed",
     .help = "seed of the directions drawn for rays=N, in addition to --seed; pictures of two seeds "
             "are independent draws",
     .low = 0,
     .high = 999'999'999,
     .value = 0};
-constexpr Knob kLampSamplingKnob{
+constexpr Knob kLamps{
     .name = "lamps",
     .help =
         "how rays of rough surfaces find lamps: sampled = beside each ray, one to a point drawn "
         "on a lamp (next-event estimation; not with sphere=exact or hit=f64); met = by chance",
     .high = 1,
     .choices = kLampSamplingChoices};
-constexpr Knob kIndirectKnob{
+constexpr Knob kTracedIndirect{
     .name = "indirect",
     .help = "light between surfaces: none = lamps are points, and ambient light stands in; paths = "
             "path tracing, for which rays also leave diffuse surfaces (rays=0 counts as 1; depth "
@@ -61,114 +61,98 @@ constexpr Knob kIndirectKnob{
     .high = 1,
     .choices = kIndirectChoices};
 constexpr std::int64_t kMaxPathsPerPixel = 65536; // largest number for a pixel: samples times rays
-constexpr Knob kExactSphereKnob{.name = "sphere",
-                                .help = "shape of balls: triangles or exact spheres",
-                                .high = 1,
-                                .choices = kExactSphereChoices};
-constexpr Knob kFirstHitKnob{
+constexpr Knob kSphere{.name = "sphere",
+                       .help = "shape of balls: triangles or exact spheres",
+                       .high = 1,
+                       .choices = kExactSphereChoices};
+constexpr Knob kFirstHit{
     .name = "first",
     .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
     .high = 1,
     .choices = kFirstHitChoices};
-constexpr Knob kHitPrecisionKnob{.name = "hit",
-                                 .help = "precision of hit points: single or double",
-                                 .high = 1,
-                                 .choices = kHitPrecisionChoices};
-constexpr Knob kOmittedTracerRuleKnob{
-    .name = "without",
-    .help = "rule of robustness to leave out, to measure its cost",
-    .high = 5,
-    .choices = kOmittedTracerRuleChoices};
-constexpr Knob kRaytraceKnobs[] = {kRayDepthKnob,
-                                   kSamplesPerPixelKnob,
-                                   kLobeRaysKnob,
-                                   kLobeSeedKnob,
-                                   kLampSamplingKnob,
-                                   kIndirectKnob,
-                                   kTracedShadowKnob,
-                                   kExactSphereKnob,
-                                   kFirstHitKnob,
-                                   kHitPrecisionKnob,
-                                   kOmittedTracerRuleKnob,
-                                   kShadowMapEdgeKnob,
-                                   kCaptureForOtherMirrorsKnob};
+constexpr Knob kHitPrecision{.name = "hit",
+                             .help = "precision of hit points: single or double",
+                             .high = 1,
+                             .choices = kHitPrecisionChoices};
+constexpr Knob kTracerWithout{.name = "without",
+                              .help = "rule of robustness to leave out, to measure its cost",
+                              .high = 5,
+                              .choices = kTracerWithoutChoices};
+constexpr Knob kRaytraceKnobs[] = {
+    kDepth,  kSamples,  kLobeRays,     kLobeSeed,      kLamps,     kTracedIndirect, kTracedShadow,
+    kSphere, kFirstHit, kHitPrecision, kTracerWithout, kShadowMap, kOthersFace};
 
-bool are_first_hits_rasterised(const KnobSettings& settings) {
-    return settings.get<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
+bool rasters_first(const KnobSettings& settings) {
+    return settings.get<FirstHit>(kFirstHit) == FirstHit::raster;
 }
 
 bool is_path_traced(const KnobSettings& settings) {
-    return settings.get<IndirectLightMethod>(kIndirectKnob) == IndirectLightMethod::paths;
+    return settings.get<IndirectLight>(kTracedIndirect) == IndirectLight::paths;
 }
 
-TracerSettings make_ray_tracer_settings(const KnobSettings& settings,
-                                        const render::ShadingLights& lighting) {
-    const ShadowKnobs::Method shadow = read_shared_knobs(settings).shadow.method;
-    return {.depth = static_cast<std::uint32_t>(settings.integer(kRayDepthKnob)),
-            .samples = settings.integer(kSamplesPerPixelKnob),
+TracerSettings make_tracer_settings(const KnobSettings& settings,
+                                    const render::ShadingLights& lighting) {
+    const ShadowKnobs::Method shadow = read_knobs(settings).shadow.method;
+    return {.depth = static_cast<std::uint32_t>(settings.integer(kDepth)),
+            .samples = settings.integer(kSamples),
             .rays = static_cast<std::uint32_t>(
-                std::max(settings.integer(kLobeRaysKnob), is_path_traced(settings) ? 1 : 0)),
-            .samples_lamps = settings.get<LampSamplingMethod>(kLampSamplingKnob) ==
-                             LampSamplingMethod::sampled,
+                std::max(settings.integer(kLobeRays), is_path_traced(settings) ? 1 : 0)),
+            .samples_lamps = settings.get<LampSampling>(kLamps) == LampSampling::sampled,
             .paths = is_path_traced(settings),
-            .seed = static_cast<std::uint32_t>(settings.integer(kLobeSeedKnob)),
+            .seed = static_cast<std::uint32_t>(settings.integer(kLobeSeed)),
             // A scene without lights needs neither a shadow map nor shadow rays.
-            .shadow = shadow == ShadowKnobs::Method::none ? TracerSettings::TracedShadow::none
+            .shadow = shadow == ShadowKnobs::Method::none ? TracerSettings::Shadow::none
                       : shadow == ShadowKnobs::Method::map && lighting.shadow_map
-                          ? TracerSettings::TracedShadow::map
-                          : TracerSettings::TracedShadow::ray,
+                          ? TracerSettings::Shadow::map
+                          : TracerSettings::Shadow::ray,
             .lighting = lighting,
-            .exact_spheres = settings.get<TracedSphereShape>(kExactSphereKnob) ==
-                             TracedSphereShape::exact,
-            .first_raster = are_first_hits_rasterised(settings),
-            .doubles = settings.get<RayHitPrecision>(kHitPrecisionKnob) == RayHitPrecision::f64,
-            .without = static_cast<std::uint32_t>(settings.integer(kOmittedTracerRuleKnob))};
+            .exact_spheres = settings.get<SphereShape>(kSphere) == SphereShape::exact,
+            .first_raster = rasters_first(settings),
+            .doubles = settings.get<HitPrecision>(kHitPrecision) == HitPrecision::f64,
+            .without = static_cast<std::uint32_t>(settings.integer(kTracerWithout))};
 }
 
-std::string describe_raytrace_knob_conflict(const KnobSettings& settings) {
-    if (settings.integer(kLobeRaysKnob) * std::int64_t{settings.integer(kSamplesPerPixelKnob)} >
-        kMaxPathsPerPixel)
-        return "rays=" + settings.format(kLobeRaysKnob) +
-               " for each of samples=" + settings.format(kSamplesPerPixelKnob) +
+std::string describe_conflict(const KnobSettings& settings) {
+    if (settings.integer(kLobeRays) * std::int64_t{settings.integer(kSamples)} > kMaxPathsPerPixel)
+        return "rays=" + settings.format(kLobeRays) +
+               " for each of samples=" + settings.format(kSamples) +
                ": wanted at most 65536 in all";
     if (is_path_traced(settings)) {
-        if (are_first_hits_rasterised(settings))
+        if (rasters_first(settings))
             return "indirect=paths lights the first surface by rays; wanted first=ray, found "
                    "first=raster";
-        if (settings.get<RayHitPrecision>(kHitPrecisionKnob) == RayHitPrecision::f64)
+        if (settings.get<HitPrecision>(kHitPrecision) == HitPrecision::f64)
             return "indirect=paths computes points in single precision; wanted hit=f32, found "
                    "hit=f64";
     }
-    if (!are_first_hits_rasterised(settings)) return {};
-    if (settings.integer(kSamplesPerPixelKnob) > 1)
+    if (!rasters_first(settings)) return {};
+    if (settings.integer(kSamples) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
-               settings.format(kSamplesPerPixelKnob);
-    if (settings.get<TracedSphereShape>(kExactSphereKnob) == TracedSphereShape::exact)
+               settings.format(kSamples);
+    if (settings.get<SphereShape>(kSphere) == SphereShape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};
 }
 
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
 int count_scene_passes(int, int lights, const KnobSettings& settings) {
-    if (!are_first_hits_rasterised(settings)) return count_shadow_passes(lights, settings);
-    return 1 +
-           (read_shared_knobs(settings).shadow.method == ShadowKnobs::Method::none ? 0 : lights);
+    if (!rasters_first(settings)) return count_shadow_passes(lights, settings);
+    return 1 + (read_knobs(settings).shadow.method == ShadowKnobs::Method::none ? 0 : lights);
 }
 
-TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const KnobSettings& settings,
-                                        const render::ShadingLights& lighting) {
+TechniqueOutputs add_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
+                                    const KnobSettings& settings,
+                                    const render::ShadingLights& lighting) {
     const TracedPicture traced = add_picture_tracing(graph, inputs,
-                                                     make_ray_tracer_settings(settings, lighting));
+                                                     make_tracer_settings(settings, lighting));
     return {.hdr = traced.hdr, .has_hits = true, .counters = {traced.counters}};
 }
 
-MirrorShadingSetup make_ray_traced_shading(graph::Graph&, const render::FrameInputs& inputs,
-                                           const KnobSettings& settings,
-                                           const MirrorShadingInputs& around) {
-    MirrorShadingSetup look;
-    look.tracer = make_ray_tracer_settings(settings, around.lighting);
+MirrorShading make_traced_shading(graph::Graph&, const render::FrameInputs& inputs,
+                                  const KnobSettings& settings, const ShadingInputs& around) {
+    MirrorShading look;
+    look.tracer = make_tracer_settings(settings, around.lighting);
     look.mirror.fragment = "reflect/traced.frag";
     // If the view is drawn for another technique, blended surfaces would be drawn over the
     // rasteriser's triangle numbers.
@@ -191,19 +175,19 @@ constexpr Technique kRaytraceTechnique{
     .traits = {.traces_rays = true,
                .draws_whole_picture = true,
                .noise = TechniqueTraits::Noise::rays,
-               .seed = kLobeSeedKnob.name,
-               .rays = kLobeRaysKnob.name,
-               .samples = kSamplesPerPixelKnob.name,
-               .paths = {kIndirectKnob.name, kIndirectChoices[1]},
-               .unshadowed = {kTracedShadowKnob.name, kTracedShadowChoices[2]},
+               .seed = kLobeSeed.name,
+               .rays = kLobeRays.name,
+               .samples = kSamples.name,
+               .paths = {kTracedIndirect.name, kIndirectChoices[1]},
+               .unshadowed = {kTracedShadow.name, kTracedShadowChoices[2]},
                .seed_part = TechniqueTraits::SeedPart::rays},
     .knobs = kRaytraceKnobs,
     .compared = kRaytraceDefaultRows,
     .scene_passes = count_scene_passes,
-    .look = make_ray_traced_shading,
-    .conflict = describe_raytrace_knob_conflict,
-    .completes_view = are_first_hits_rasterised,
-    .picture = add_ray_traced_picture};
+    .look = make_traced_shading,
+    .conflict = describe_conflict,
+    .completes_view = rasters_first,
+    .picture = add_traced_picture};
 const RegisteredTechnique kRaytraceRegistration{kRaytraceTechnique};
 
 } // namespace

@@ -7,10 +7,9 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
-constexpr Knob kReuseKnobs[] = {kCaptureFaceKnob,   kCaptureColourKnob, kRoughMirrorMethodKnob,
-                                kFilterTapsKnob,    kRoughRaysKnob,     kGlassRefractionModelKnob,
-                                kIndirectLightKnob, kLightProbesKnob,   kAmbientOcclusionKnob,
-                                kShadowKnob,        kShadowMapEdgeKnob, kSoftShadowKnob};
+constexpr Knob kReuseKnobs[] = {
+    kFace,   kColour,           kRough,  kTaps,      kRays,      kRefract, kIndirect,
+    kProbes, kAmbientOcclusion, kShadow, kShadowMap, kSoftShadow};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 
@@ -23,7 +22,7 @@ constexpr Technique kReuseTechnique{
                .seed_part = TechniqueTraits::SeedPart::last_captures},
     .knobs = kReuseKnobs,
     .compared = kReuseDefaultRows,
-    .scene_passes = count_capture_passes_with_feedback,
+    .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = kReuseShader,
     .search = kReuseShader};

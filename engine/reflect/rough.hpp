@@ -22,9 +22,9 @@ public:
     /// by the knobs `rough`, `law` and `rays`. `before`: the look-ups read the captures of the
     /// previous frame, for passes that are declared before add_passes. Does nothing if all these
     /// mirrors are smooth, or if the shader has no captures.
-    void add_rough_lookup_to_shader(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
-                                    const SharedKnobs& knobs, render::MirrorShader& look,
-                                    bool before = false) const;
+    void add_lookup(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
+                    const SharedKnobs& knobs, render::MirrorShader& look,
+                    bool before = false) const;
 
     /// Declares the passes that compute the filtered levels of captures that changed since the
     /// previous frame: at most two passes for each way of filtering. Call it after the captures'
@@ -33,23 +33,23 @@ public:
 
 private:
     /// A way of filtering, and RoughKnobs::taps if that filters by the lobe.
-    struct LevelFilterKind {
+    struct LevelFilter {
         RoughKnobs::Lookup rough = RoughKnobs::Lookup::none;
         std::uint32_t taps = 0;
-        auto operator<=>(const LevelFilterKind&) const = default;
+        auto operator<=>(const LevelFilter&) const = default;
     };
     struct FilteredCaptures {
         std::vector<graph::ImageHandle> levels; ///< one image for each array of captures
         std::vector<bool> is_read; ///< for each mirror: whether a rough surface may look into the
                                    ///< mirror's capture
     };
-    static LevelFilterKind level_filter_from_knobs(const SharedKnobs& knobs);
-    void add_passes_of_level_filter(graph::Graph& graph, const LevelFilterKind& filter,
-                                    const FilteredCaptures& filtered) const;
+    static LevelFilter filter_of(const SharedKnobs& knobs);
+    void add_filter_passes(graph::Graph& graph, const LevelFilter& filter,
+                           const FilteredCaptures& filtered) const;
 
-    const render::FrameInputs& level_frame_inputs_;
+    const render::FrameInputs& inputs_;
     std::shared_ptr<const render::MirrorCaptures> captures_;
-    std::map<LevelFilterKind, FilteredCaptures> filtered_;
+    std::map<LevelFilter, FilteredCaptures> filtered_;
 };
 
 } // namespace catoptric::reflect

@@ -51,19 +51,18 @@ std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
 
 /// Returns the number of paths of a camera ray. Each has a direction of its own where something is
 /// drawn at random.
-std::uint32_t count_paths_of_camera_ray(const TracerSettings& tracer,
-                                        const render::GpuScene& scene) {
+std::uint32_t count_paths(const TracerSettings& tracer, const render::GpuScene& scene) {
     const EnvironmentRaySchedule environment = schedule_environment_rays(tracer, scene);
     const bool is_random = environment.rays > 0 || tracer.paths || scene.has_lobes_or_coats();
     return is_random ? std::max(tracer.rays, 1u) * environment.paths : 1;
 }
 
 /// Returns the number of work groups for this many pixels, or starts of paths.
-std::uint32_t count_work_groups(std::uint32_t pixels) {
+std::uint32_t count_groups(std::uint32_t pixels) {
     return (pixels + kPixelsPerWorkGroup - 1) / kPixelsPerWorkGroup;
 }
 
-void bind_path_starts(graph::PassCommands& commands, const PathStartBuffers& buffers) {
+void bind_path_starts(graph::PassCommands& commands, const PathStarts& buffers) {
     commands.bind("Starts", buffers.starts);
     commands.bind("StartList", buffers.list);
     commands.bind("StartArguments", buffers.arguments);
@@ -81,13 +80,13 @@ struct SampleTracing {
     shared::TraceParameters parameters; ///< of the next dispatch
     bool is_first = true;
 
-    void wait_for_last_dispatch() {
+    void wait_for_last() {
         if (!std::exchange(is_first, false)) commands.storage_barrier();
     }
 
     void dispatch_pixels(std::uint32_t first, std::uint32_t count) {
-        wait_for_last_dispatch();
-        if (!arguments) return dispatch_work_groups(commands, first, count, parameters);
+        wait_for_last();
+        if (!arguments) return dispatch_groups(commands, first, count, parameters);
         commands.add_rays(std::uint64_t{count} * kPixelsPerWorkGroup);
         parameters.first_group = 0;
         commands.push_constants(parameters);
@@ -106,10 +105,10 @@ struct SampleTracing {
 
     /// Traces one path from each start that the last dispatch has listed, for each path of a camera
     /// ray. `most`: most work groups of starts.
-    void resume_paths(const PathStartBuffers& starts, std::uint32_t most) {
+    void resume_paths(const PathStarts& starts, std::uint32_t most) {
         std::uint32_t count = 0;
         if (is_split)
-            count = count_work_groups(
+            count = count_groups(
                 commands.read_word(starts.arguments, offsetof(shared::PathStartArguments, count)));
         else
             commands.add_rays(std::uint64_t{most} * kPixelsPerWorkGroup * parameters.path_count);
@@ -118,9 +117,9 @@ struct SampleTracing {
         commands.bind_pipeline(resuming);
         parameters.first_group = 0;
         for (std::uint32_t i = 0; i < parameters.path_count; ++i, ++parameters.sample_index) {
-            wait_for_last_dispatch();
+            wait_for_last();
             if (is_split) {
-                dispatch_work_groups(commands, 0, count, parameters);
+                dispatch_groups(commands, 0, count, parameters);
             } else {
                 commands.push_constants(parameters);
                 commands.dispatch_indirect(starts.arguments);
@@ -129,7 +128,7 @@ struct SampleTracing {
     }
 
     /// Traces the camera rays of each sample, and then the paths of these rays.
-    void trace_shared_paths(const PathStartBuffers& starts) {
+    void trace_shared_paths(const PathStarts& starts) {
         bind_path_starts(commands, starts);
         parameters.path_count = static_cast<std::uint32_t>(parameters.sample_count /
                                                            offsets.size());
@@ -140,7 +139,7 @@ struct SampleTracing {
                 parameters.sample_offset = offset;
                 commands.bind_pipeline(state);
                 dispatch_pixels(first, count);
-                wait_for_last_dispatch();
+                wait_for_last();
                 commands.bind_pipeline(gpu::ComputeState{"starts_list.comp"});
                 if (arguments)
                     commands.dispatch_indirect(*arguments);
@@ -159,7 +158,7 @@ EnvironmentRaySchedule schedule_environment_rays(const TracerSettings& tracer,
                                                  const render::GpuScene& scene) {
     const std::uint32_t wanted = scene.environment_shadow_rays(), rays = std::max(tracer.rays, 1u);
     if (wanted == 0 || tracer.paths || tracer.lighting.probes ||
-        tracer.shadow == TracerSettings::TracedShadow::none)
+        tracer.shadow == TracerSettings::Shadow::none)
         return {};
     const auto divide_and_round_up = [](std::uint32_t a, std::uint32_t b) {
         return (a + b - 1) / b;
@@ -168,30 +167,23 @@ EnvironmentRaySchedule schedule_environment_rays(const TracerSettings& tracer,
     return {paths, divide_and_round_up(wanted, rays * paths)};
 }
 
-std::uint64_t count_most_rays(const TracerSettings& tracer, const render::GpuScene& scene,
-                              uvec2 size) {
-    const std::uint32_t paths = count_paths_of_camera_ray(tracer, scene);
+std::uint64_t most_rays(const TracerSettings& tracer, const render::GpuScene& scene, uvec2 size) {
+    const std::uint32_t paths = count_paths(tracer, scene);
     return std::uint64_t{size.x} * size.y * static_cast<std::uint32_t>(tracer.samples) *
            (paths == 1 ? 1 : 1 + paths);
 }
 
-std::uint32_t count_picture_work_groups(uvec2 size) {
-    return (size.x + 7) / 8 * ((size.y + 7) / 8);
-}
+std::uint32_t picture_groups(uvec2 size) { return (size.x + 7) / 8 * ((size.y + 7) / 8); }
 
-std::optional<PathStartBuffers> add_path_starts(graph::Graph& graph,
-                                                const render::FrameInputs& inputs,
-                                                const TracerSettings& tracer,
-                                                const std::string& suffix) {
+std::optional<PathStarts> add_path_starts(graph::Graph& graph, const render::FrameInputs& inputs,
+                                          const TracerSettings& tracer, const std::string& suffix) {
     // Points in double precision depend on rays that the starts do not hold. Where a raster pass
     // draws the first surfaces, paths share too little to pay for two more dispatches.
-    if (tracer.doubles || tracer.first_raster ||
-        count_paths_of_camera_ray(tracer, inputs.scene) == 1)
-        return {};
+    if (tracer.doubles || tracer.first_raster || count_paths(tracer, inputs.scene) == 1) return {};
     const std::string name = inputs.prefix + "starts" + suffix;
-    const std::uint64_t count = std::min(
-        count_picture_work_groups(inputs.size) * kPixelsPerWorkGroup, shared::kMaxPathStarts);
-    const PathStartBuffers buffers{
+    const std::uint64_t count = std::min(picture_groups(inputs.size) * kPixelsPerWorkGroup,
+                                         shared::kMaxPathStarts);
+    const PathStarts buffers{
         graph.add_buffer({name, count * sizeof(shared::PathStart)}),
         graph.add_buffer({name + "/list", count * sizeof(std::uint32_t)}),
         graph.add_buffer({name + "/arguments", sizeof(shared::PathStartArguments)})};
@@ -201,7 +193,7 @@ std::optional<PathStartBuffers> add_path_starts(graph::Graph& graph,
     return buffers;
 }
 
-void declare_path_starts(graph::PassBuilder& pass, const PathStartBuffers& buffers) {
+void declare_path_starts(graph::PassBuilder& pass, const PathStarts& buffers) {
     pass.writes(buffers.starts, ResourceUse::storage_write)
         .writes(buffers.list, ResourceUse::storage_write)
         .writes(buffers.arguments, ResourceUse::storage);
@@ -209,22 +201,22 @@ void declare_path_starts(graph::PassBuilder& pass, const PathStartBuffers& buffe
 
 void trace_samples(graph::PassCommands& commands, gpu::ComputeState state,
                    const TracerSettings& tracer, const render::FrameInputs& inputs,
-                   const PixelsToTraceList* list, const std::optional<PathStartBuffers>& starts) {
+                   const TraceList* list, const std::optional<PathStarts>& starts) {
     SampleTracing tracing{.commands = commands,
                           .state = std::move(state),
                           .offsets = make_sample_offsets(tracer.samples, inputs.facts.seed),
-                          .groups = count_picture_work_groups(inputs.size),
-                          .is_split = count_most_rays(tracer, inputs.scene, inputs.size) >
+                          .groups = picture_groups(inputs.size),
+                          .is_split = most_rays(tracer, inputs.scene, inputs.size) >
                                       commands.rays_per_piece(),
                           .parameters = {.size = inputs.size,
                                          .seed = make_lobe_seed(tracer, inputs.facts.seed),
                                          .path_count = 1}};
     tracing.parameters.sample_count = static_cast<std::uint32_t>(tracing.offsets.size()) *
-                                      count_paths_of_camera_ray(tracer, inputs.scene);
+                                      count_paths(tracer, inputs.scene);
     // The host learns the number of listed pixels only if it must divide them.
     const bool is_divided = starts && tracing.groups > kMaxSharingWorkGroups;
     if (list && (tracing.is_split || is_divided))
-        tracing.groups = count_work_groups(
+        tracing.groups = count_groups(
             commands.read_word(list->counters, offsetof(shared::Counters, listed)));
     else if (list)
         tracing.arguments = list->arguments;

@@ -22,11 +22,10 @@ EnvironmentRaySchedule schedule_environment_rays(const TracerSettings& tracer,
 
 /// Returns the most rays that this tracer sends from the pixels of a picture: camera rays, and the
 /// rays that leave the first surface where something is drawn at random.
-std::uint64_t count_most_rays(const TracerSettings& tracer, const render::GpuScene& scene,
-                              uvec2 size);
+std::uint64_t most_rays(const TracerSettings& tracer, const render::GpuScene& scene, uvec2 size);
 
 /// Returns the number of work groups of 8x8 pixels.
-std::uint32_t count_picture_work_groups(uvec2 size);
+std::uint32_t picture_groups(uvec2 size);
 
 /// Pixels of a work group: 8x8 of a picture, or 64 of a list (kPixelsPerListGroup in
 /// shaders/lib/trace_list.glsl).
@@ -35,8 +34,8 @@ inline constexpr std::uint32_t kPixelsPerWorkGroup = 64;
 /// Dispatches work groups [first, first + groups), one invocation for each pixel, in pieces of the
 /// frame if they are many. `parameters`: push constants.
 template <typename Parameters>
-void dispatch_work_groups(graph::PassCommands& commands, std::uint32_t first, std::uint32_t groups,
-                          Parameters parameters) {
+void dispatch_groups(graph::PassCommands& commands, std::uint32_t first, std::uint32_t groups,
+                     Parameters parameters) {
     commands.split_rays(groups, kPixelsPerWorkGroup, [&](std::uint32_t begin, uvec2 range) {
         parameters.first_group = first + begin;
         commands.push_constants(parameters);
@@ -45,18 +44,16 @@ void dispatch_work_groups(graph::PassCommands& commands, std::uint32_t first, st
 }
 
 /// Buffers of the starts of paths that share a camera ray.
-struct PathStartBuffers {
+struct PathStarts {
     graph::BufferHandle starts, list, arguments;
 };
 /// Declares these buffers, if each camera ray has several paths.
-std::optional<PathStartBuffers> add_path_starts(graph::Graph& graph,
-                                                const render::FrameInputs& inputs,
-                                                const TracerSettings& tracer,
-                                                const std::string& suffix);
-void declare_path_starts(graph::PassBuilder& pass, const PathStartBuffers& buffers);
+std::optional<PathStarts> add_path_starts(graph::Graph& graph, const render::FrameInputs& inputs,
+                                          const TracerSettings& tracer, const std::string& suffix);
+void declare_path_starts(graph::PassBuilder& pass, const PathStarts& buffers);
 
 /// The pixels to trace, the dispatch arguments in work groups, and counters.
-struct PixelsToTraceList {
+struct TraceList {
     graph::BufferHandle pixels, arguments, counters;
 };
 
@@ -64,6 +61,6 @@ struct PixelsToTraceList {
 /// `starts`: buffers of paths that share camera rays, if they do.
 void trace_samples(graph::PassCommands& commands, gpu::ComputeState state,
                    const TracerSettings& tracer, const render::FrameInputs& inputs,
-                   const PixelsToTraceList* list, const std::optional<PathStartBuffers>& starts);
+                   const TraceList* list, const std::optional<PathStarts>& starts);
 
 } // namespace catoptric::reflect

@@ -6,24 +6,23 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kSecantStepsKnob{.name = "steps",
-                                .help = "number of secant steps after the first; 0 equals parallax",
-                                .low = 0,
-                                .high = 8,
-                                .value = 2};
-constexpr auto kSecantKnobs = list_search_knobs(std::array{kSecantStepsKnob});
+constexpr Knob kSecantSteps{.name = "steps",
+                            .help = "number of secant steps after the first; 0 equals parallax",
+                            .low = 0,
+                            .high = 8,
+                            .value = 2};
+constexpr auto kSecantKnobs = search_knobs(std::array{kSecantSteps});
 
-MirrorShadingSetup make_secant_shading(graph::Graph&, const render::FrameInputs&,
-                                       const KnobSettings& settings,
-                                       const MirrorShadingInputs& around) {
-    const int steps = settings.integer(kSecantStepsKnob);
+MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
+                                  const KnobSettings& settings, const ShadingInputs& around) {
+    const int steps = settings.integer(kSecantSteps);
     if (steps == 0) { // `parallax` has no knobs of a search
-        MirrorShadingSetup look{
-            make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})), {}};
-        look.mirror.constants.emplace_back("refract_model", read_shared_knobs(settings).refract);
+        MirrorShading look{make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})),
+                           {}};
+        look.mirror.constants.emplace_back("refract_model", read_knobs(settings).refract);
         return look;
     }
-    MirrorShadingSetup look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
+    MirrorShading look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
     return look;
 }
@@ -38,7 +37,7 @@ constexpr Technique kSecantTechnique{
     .traits = {.captures = TechniqueTraits::Captures::shared},
     .knobs = kSecantKnobs,
     .compared = kSecantDefaultRows,
-    .scene_passes = count_capture_passes_with_feedback,
+    .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_secant_shading};

@@ -6,7 +6,7 @@
 
 namespace catoptric::reflect {
 
-render::ShadingLights FrameDeclaration::find_or_add_shadow_map(std::uint32_t edge) {
+render::ShadingLights FrameDeclaration::shadow_map(std::uint32_t edge) {
     const auto found = shadow_maps_.find(edge);
     if (found != shadow_maps_.end()) return found->second;
     const std::string suffix = shadow_maps_.empty() ? "" : "." + std::to_string(edge);
@@ -19,9 +19,9 @@ render::ShadingLights FrameDeclaration::find_or_add_shadow_map(std::uint32_t edg
     return shadow_maps_[edge] = made;
 }
 
-render::ShadingLights FrameDeclaration::light_with_shadow_map(const ShadowMapRequest& wanted) {
+render::ShadingLights FrameDeclaration::light_with(const ShadowMapRequest& wanted) {
     if (!wanted.edge) return {.probes = probes ? std::optional(probes->images) : std::nullopt};
-    render::ShadingLights made = find_or_add_shadow_map(*wanted.edge);
+    render::ShadingLights made = shadow_map(*wanted.edge);
     made.has_soft_shadows = wanted.is_soft && made.shadow_map && inputs.scene.has_lamp_extents();
     if (made.has_soft_shadows) inputs.requests.draw_soft_shadows();
     return made;
@@ -34,7 +34,7 @@ ShadowMapRequest choose_shadow_map(const ShadowKnobs& knobs) {
 
 namespace {
 
-bool does_tracer_complete_view(const std::vector<TechniqueChoice>& choices) {
+bool completes_view(const std::vector<TechniqueChoice>& choices) {
     const TechniqueChoice& choice = choices.front();
     return choices.size() == 1 && choice.technique->completes_view(choice.settings);
 }
@@ -42,7 +42,7 @@ bool does_tracer_complete_view(const std::vector<TechniqueChoice>& choices) {
 /// Returns the view's shadow map: the finest that a technique asks for, read softly if one
 /// technique asks for it. A view that is rasterised although its technique traces shadow rays needs
 /// a shadow map.
-ShadowMapRequest choose_shadow_map_for_view(const FrameDeclaration& frame) {
+ShadowMapRequest view_shadow_map(const FrameDeclaration& frame) {
     if (!frame.is_mixed() && !frame.completes_view)
         return choose_shadow_map(frame.choices().front().shared.shadow);
     ShadowMapRequest wanted;
@@ -60,8 +60,8 @@ constexpr FrameFeature kShadowFeature{
     .applies = [](const FrameDeclaration&) { return true; },
     .add =
         [](FrameDeclaration& frame) {
-            frame.completes_view = does_tracer_complete_view(frame.choices());
-            frame.lighting = frame.light_with_shadow_map(choose_shadow_map_for_view(frame));
+            frame.completes_view = completes_view(frame.choices());
+            frame.lighting = frame.light_with(view_shadow_map(frame));
             frame.view_lighting = frame.lighting;
         }};
 const RegisteredFeature kShadowRegistration{kShadowFeature};

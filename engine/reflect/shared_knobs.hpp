@@ -35,7 +35,7 @@ struct SearchKnobs {
     bool asks_all = false;           ///< captures=all
     bool leaves_out_spheres = false; ///< mirrors=left_out
     /// Returns whether a search may read captures of other mirrors.
-    bool reads_other_captures() const { return continues > 0 || asks_all; }
+    bool reads_others() const { return continues > 0 || asks_all; }
 };
 
 /// How rough surfaces are looked up.
@@ -49,7 +49,7 @@ struct RoughKnobs {
     std::uint32_t taps = 0; ///< samples of each texel for prefilter, and for wide lobes of fast
     std::uint32_t rays = 1; ///< directions of each rough pixel
     /// Returns whether rough surfaces are looked up in filtered levels of captures.
-    bool uses_filtered_levels() const { return lookup == Lookup::mips || filters_by_lobe(); }
+    bool uses_levels() const { return lookup == Lookup::mips || filters_by_lobe(); }
     /// Returns whether the filtered levels are filtered by the GGX lobe, and not by boxes.
     bool filters_by_lobe() const { return lookup == Lookup::prefilter || lookup == Lookup::fast; }
 };
@@ -65,10 +65,8 @@ struct LightKnobs {
     Occlusion occlusion = Occlusion::none;
     std::uint32_t most_probes = 0; ///< of the grid, if there is one
     /// Returns whether light probes hold the light between surfaces.
-    bool lights_between_surfaces() const { return indirect == Indirect::captures; }
-    bool uses_probes() const {
-        return lights_between_surfaces() || occlusion == Occlusion::captures;
-    }
+    bool has_probe_light() const { return indirect == Indirect::captures; }
+    bool uses_probes() const { return has_probe_light() || occlusion == Occlusion::captures; }
 };
 
 /// How mirrors of other techniques show a mirror.
@@ -89,6 +87,6 @@ struct SharedKnobs {
     std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
 };
 
-SharedKnobs read_shared_knobs(const KnobSettings& settings);
+SharedKnobs read_knobs(const KnobSettings& settings);
 
 } // namespace catoptric::reflect

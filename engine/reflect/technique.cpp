@@ -24,14 +24,14 @@ RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
     table_rows<const Technique*>().push_back(&technique);
 }
 
-std::vector<const Technique*> list_techniques() {
+std::vector<const Technique*> techniques() {
     return sorted_rows<const Technique*>(
         [](const Technique* row) { return std::pair(row->order, row->name); });
 }
 
 const Technique& find_technique(std::string_view name) {
     std::vector<std::string> names;
-    for (const Technique* row : list_techniques()) {
+    for (const Technique* row : techniques()) {
         if (row->name == name) return *row;
         names.emplace_back(row->name);
     }
@@ -49,14 +49,14 @@ std::string TechniqueChoice::file_name() const {
     return name;
 }
 
-void TechniqueChoice::update_shared_knobs_from_settings() {
-    shared = read_shared_knobs(settings);
+void TechniqueChoice::update_shared() {
+    shared = read_knobs(settings);
     rest = technique->rest ? std::make_shared<const TechniqueChoice>(
-                                 parse_technique_choice(settings.choice_name(*technique->rest)))
+                                 parse_choice(settings.choice_name(*technique->rest)))
                            : nullptr;
 }
 
-TechniqueChoice parse_technique_choice(std::string_view text) {
+TechniqueChoice parse_choice(std::string_view text) {
     const auto colon = text.find(':');
     const Technique& technique = find_technique(text.substr(0, colon));
     TechniqueChoice choice{&technique, KnobSettings(technique.knobs), std::string(text)};
@@ -73,8 +73,8 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
     }
     const std::string conflict = technique.conflict(choice.settings);
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
-    choice.update_shared_knobs_from_settings();
-    check(!choice.shared.light.lights_between_surfaces() ||
+    choice.update_shared();
+    check(!choice.shared.light.has_probe_light() ||
               choice.shared.light.occlusion != LightKnobs::Occlusion::captures,
           Failure::usage, "technique '", text,
           "': wanted ao=none or ao=screen beside indirect=captures, because the light probes of "

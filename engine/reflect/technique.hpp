@@ -45,7 +45,7 @@ struct TechniqueOutputs {
 };
 
 /// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.
-struct MirrorShadingInputs {
+struct ShadingInputs {
     /// Captures of all mirrors; null if no technique asks for captures.
     std::shared_ptr<const render::MirrorCaptures> captures;
     render::ShadingLights lighting;     ///< lights and shadows as the settings ask for
@@ -54,7 +54,7 @@ struct MirrorShadingInputs {
 };
 
 /// Shaders and resources with which the view draws mirrors.
-struct MirrorShadingSetup {
+struct MirrorShading {
     render::MirrorShader mirror;
     std::optional<TracerSettings>
         tracer; ///< traces the pixels that the mirror's shader leaves to rays
@@ -63,11 +63,11 @@ struct MirrorShadingSetup {
 /// How a technique with mirrored views draws flat mirrors (reflect/mirrored.cpp).
 struct MirroredViewOptions {
     int bounces = 0; ///< number of flat mirrors one behind the other that a mirrored view shows
-    /// How rough mirrors show their view: RoughMirrorLookup::none, mips or prefilter.
+    /// How rough mirrors show their view: RoughLookup::none, mips or prefilter.
     RoughKnobs::Lookup rough = RoughKnobs::Lookup::none;
     /// How the blur depends on the distance of what the view shows: DistanceLaw::none or cone.
     RoughKnobs::Law law = RoughKnobs::Law::none;
-    std::uint32_t taps = 1; ///< look-ups of a pixel with RoughMirrorLookup::prefilter
+    std::uint32_t taps = 1; ///< look-ups of a pixel with RoughLookup::prefilter
 };
 
 struct Technique {
@@ -91,9 +91,8 @@ struct Technique {
     /// (reflect/captures.hpp, make_search_shader).
     const char* search = nullptr;
     /// Returns how the technique draws its mirrors, and declares the passes that this needs.
-    MirrorShadingSetup (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
-                               const KnobSettings& settings,
-                               const MirrorShadingInputs& around) = nullptr;
+    MirrorShading (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
+                          const KnobSettings& settings, const ShadingInputs& around) = nullptr;
     /// Returns how flat mirrors show mirrored views, if the technique draws some
     /// (reflect/mirrored.cpp).
     MirroredViewOptions (*mirrored_views)(const KnobSettings& settings) = nullptr;
@@ -129,7 +128,7 @@ struct RegisteredTechnique {
 };
 
 /// Returns all techniques, sorted by `order`.
-std::vector<const Technique*> list_techniques();
+std::vector<const Technique*> techniques();
 /// Returns the technique of this name. Throws `Failure::usage` with the nearest name.
 const Technique& find_technique(std::string_view name);
 
@@ -143,18 +142,18 @@ struct TechniqueChoice {
         rest; ///< draws the mirrors that are unfit; null: none are
 
     /// Reads `shared` and `rest` again, after a change of `settings`.
-    void update_shared_knobs_from_settings();
+    void update_shared();
     /// Returns the label as a file name: "naive-bounces3".
     std::string file_name() const;
     /// Returns whether technique and knob values are the same. The spelling of the labels does not
     /// matter.
-    bool is_same_choice_as(const TechniqueChoice& other) const {
+    bool is_same(const TechniqueChoice& other) const {
         return technique == other.technique && settings == other.settings;
     }
 };
 
 /// Reads "name[:knob=value,...]". Throws `Failure::usage` with the faulty part and the nearest
 /// name.
-TechniqueChoice parse_technique_choice(std::string_view text);
+TechniqueChoice parse_choice(std::string_view text);
 
 } // namespace catoptric::reflect

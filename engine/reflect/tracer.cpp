@@ -13,31 +13,30 @@ namespace {
 using graph::ResourceUse;
 
 /// Offset of a ray's origin in the seed report, in world units.
-constexpr double kSeedReportRayOffset = 1e-3;
+constexpr double kSeedRayOffset = 1e-3;
 
-render::SphereMode sphere_mode_of_tracer(const TracerSettings& tracer) {
+render::SphereMode sphere_mode(const TracerSettings& tracer) {
     return tracer.exact_spheres ? render::SphereMode::exact : render::SphereMode::mesh;
 }
 
 /// Returns whether rays may aim at lamps. Exact spheres and points in double precision differ from
 /// the triangles on which points are drawn.
-bool may_sample_lamp_points(const TracerSettings& tracer) {
+bool may_sample_lamps(const TracerSettings& tracer) {
     return tracer.samples_lamps && tracer.rays > 0 && !tracer.exact_spheres && !tracer.doubles;
 }
 
 /// Asks for what a tracing pass reads of the scene.
-void request_ray_tracing_data(render::FrameRequests& requests, const TracerSettings& tracer) {
-    requests.trace_rays(sphere_mode_of_tracer(tracer), tracer.first_raster);
-    if (may_sample_lamp_points(tracer)) requests.sample_lamps();
+void request_tracing(render::FrameRequests& requests, const TracerSettings& tracer) {
+    requests.trace_rays(sphere_mode(tracer), tracer.first_raster);
+    if (may_sample_lamps(tracer)) requests.sample_lamps();
 }
 
-bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
-    return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
+bool reads_shadow_map(const TracerSettings& tracer) {
+    return tracer.shadow != TracerSettings::Shadow::none && tracer.lighting.shadow_map;
 }
 
 /// Declares the pass that sets a tracer's counters to 0. `pass`: name of the tracing pass.
-graph::BufferHandle add_counters_with_reset(graph::Graph& graph, std::string name,
-                                            const std::string& pass) {
+graph::BufferHandle add_counters(graph::Graph& graph, std::string name, const std::string& pass) {
     const graph::BufferHandle counters = graph.add_buffer(
         {std::move(name), sizeof(shared::Counters)});
     graph.add_pass(pass + "/reset")
@@ -63,47 +62,45 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
         "raytrace.comp" + build,
         {{"max_depth", tracer.depth},
          {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
-         {"has_shadow_map", does_ray_tracer_read_shadow_map(tracer) ? 1u : 0u},
+         {"has_shadow_map", reads_shadow_map(tracer) ? 1u : 0u},
          {"light_probe_content", tracer.lighting.probes ? tracer.lighting.probes->content : 0u},
          {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
          {"first_raster", tracer.first_raster ? 1u : 0u},
          {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
-         {"samples_lamps", may_sample_lamp_points(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
+         {"samples_lamps", may_sample_lamps(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
          {"traces_paths", tracer.paths ? 1u : 0u},
          {"environment_shadows", schedule_environment_rays(tracer, scene).rays},
          {"without", tracer.without},
-         {"fixed_offset", scene.scene_units().to_scene_length(kSeedReportRayOffset)}},
-        scene.tracing_constants(sphere_mode_of_tracer(tracer))};
+         {"fixed_offset", scene.scene_units().to_scene_length(kSeedRayOffset)}},
+        scene.tracing_constants(sphere_mode(tracer))};
     if (reads_ambient_occlusion(tracer, listed))
         state.constants.emplace_back("has_ambient_occlusion", 1u);
     return state;
 }
 
 /// Binds the resources of a tracing pass.
-void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene& scene,
-                           const TracerSettings& tracer) {
+void bind_tracer(graph::PassCommands& commands, const render::GpuScene& scene,
+                 const TracerSettings& tracer) {
     scene.bind(commands);
-    scene.bind_tracing(commands, sphere_mode_of_tracer(tracer));
+    scene.bind_tracing(commands, sphere_mode(tracer));
     render::ShadingLights read = tracer.lighting;
-    if (!does_ray_tracer_read_shadow_map(tracer)) read.shadow_map.reset();
+    if (!reads_shadow_map(tracer)) read.shadow_map.reset();
     render::bind_lighting(commands, read);
 }
 
-/// Declares the reads of the images that bind_tracer_resources binds.
+/// Declares the reads of the images that bind_tracer binds.
 void declare_lighting_reads(graph::PassBuilder& pass, const TracerSettings& tracer) {
     render::ShadingLights read = tracer.lighting;
-    if (!does_ray_tracer_read_shadow_map(tracer)) read.shadow_map.reset();
+    if (!reads_shadow_map(tracer)) read.shadow_map.reset();
     render::declare_shader_reads(pass, read, {});
 }
 
-PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
-                                                   const render::FrameInputs& inputs,
-                                                   const std::string& suffix, std::uint32_t number,
-                                                   bool first_raster,
-                                                   const render::CameraOutputs& view) {
+TraceList add_list_pass(graph::Graph& graph, const render::FrameInputs& inputs,
+                        const std::string& suffix, std::uint32_t number, bool first_raster,
+                        const render::CameraOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
-    PixelsToTraceList list;
+    TraceList list;
     // shaders/lib/trace_list.glsl describes the words of an entry.
     const std::uint32_t words = first_raster ? 3 : 1;
     list.pixels = graph.add_buffer({name, words * sizeof(std::uint32_t) * size.x * size.y});
@@ -151,17 +148,17 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     const uvec2 size = inputs.size;
     const TracedPicture traced{
         graph.add_image({inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y}),
-        add_counters_with_reset(graph, inputs.prefix + "counters", inputs.prefix + "raytrace")};
-    request_ray_tracing_data(inputs.requests, tracer);
-    const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, "");
+        add_counters(graph, inputs.prefix + "counters", inputs.prefix + "raytrace")};
+    request_tracing(inputs.requests, tracer);
+    const std::optional<PathStarts> starts = add_path_starts(graph, inputs, tracer, "");
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
     declare_lighting_reads(pass, tracer);
     if (starts) declare_path_starts(pass, *starts);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
-        .most_rays(count_most_rays(tracer, inputs.scene, size))
+        .most_rays(most_rays(tracer, inputs.scene, size))
         .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
-            bind_tracer_resources(commands, scene, tracer);
+            bind_tracer(commands, scene, tracer);
             commands.bind("picture", traced.hdr);
             commands.bind("counters", traced.counters);
             trace_samples(commands, make_tracer_state(tracer, scene, false, starts.has_value()),
@@ -170,48 +167,45 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     return traced;
 }
 
-FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
-                                             const render::FrameInputs& inputs) {
+FirstSurfaceImages add_first_surface(graph::Graph& graph, const render::FrameInputs& inputs) {
     const uvec2 size = inputs.size;
     const auto add_image = [&](const char* name) {
         return graph.add_image({inputs.prefix + name, TexelFormat::rgba32f, size.x, size.y});
     };
-    const FirstSurfaceImages images{
-        add_image("normals_and_distances"), add_image("objects_and_roughness"),
-        add_counters_with_reset(graph, inputs.prefix + "first_surface/counters",
-                                inputs.prefix + "first_surface")};
+    const FirstSurfaceImages images{add_image("normals_and_distances"),
+                                    add_image("objects_and_roughness"),
+                                    add_counters(graph, inputs.prefix + "first_surface/counters",
+                                                 inputs.prefix + "first_surface")};
     const TracerSettings tracer;
-    request_ray_tracing_data(inputs.requests, tracer);
+    request_tracing(inputs.requests, tracer);
     graph.add_pass(inputs.prefix + "first_surface")
         .writes(images.normals_and_distances, ResourceUse::storage_write)
         .writes(images.objects_and_roughness, ResourceUse::storage_write)
         .writes(images.counters, ResourceUse::storage)
         .most_rays(std::uint64_t{size.x} * size.y)
         .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
-            bind_tracer_resources(commands, scene, tracer);
+            bind_tracer(commands, scene, tracer);
             commands.bind("normals_and_distances", images.normals_and_distances);
             commands.bind("objects_and_roughness", images.objects_and_roughness);
             commands.bind("counters", images.counters);
             commands.bind_pipeline(gpu::ComputeState{
-                "first_surface.comp", {}, scene.tracing_constants(sphere_mode_of_tracer(tracer))});
+                "first_surface.comp", {}, scene.tracing_constants(sphere_mode(tracer))});
             struct {
                 uvec2 size;
                 std::uint32_t first_group;
             } parameters{size, 0};
-            dispatch_work_groups(commands, 0, count_picture_work_groups(size), parameters);
+            dispatch_groups(commands, 0, picture_groups(size), parameters);
         });
     return images;
 }
 
-graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
-                                              const render::FrameInputs& inputs,
-                                              const TracerSettings& tracer, std::uint32_t number,
-                                              const render::CameraOutputs& view) {
+graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
+                                     const TracerSettings& tracer, std::uint32_t number,
+                                     const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
-    const PixelsToTraceList list = add_pass_listing_pixels_to_trace(graph, inputs, suffix, number,
-                                                                    tracer.first_raster, view);
-    request_ray_tracing_data(inputs.requests, tracer);
-    const std::optional<PathStartBuffers> starts = add_path_starts(graph, inputs, tracer, suffix);
+    const TraceList list = add_list_pass(graph, inputs, suffix, number, tracer.first_raster, view);
+    request_tracing(inputs.requests, tracer);
+    const std::optional<PathStarts> starts = add_path_starts(graph, inputs, tracer, suffix);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
     declare_lighting_reads(pass, tracer);
     if (starts) declare_path_starts(pass, *starts);
@@ -219,9 +213,9 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
         .reads(list.pixels, ResourceUse::storage_read)
         .writes(list.counters, ResourceUse::storage)
         .writes(view.hdr, ResourceUse::storage)
-        .most_rays(count_most_rays(tracer, inputs.scene, inputs.size))
+        .most_rays(most_rays(tracer, inputs.scene, inputs.size))
         .record([=, &scene = inputs.scene, hdr = view.hdr](graph::PassCommands& commands) {
-            bind_tracer_resources(commands, scene, tracer);
+            bind_tracer(commands, scene, tracer);
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);

@@ -7,7 +7,7 @@ namespace catoptric::reflect {
 
 struct TracerSettings {
     /// Methods of shadows, numbered as in shaders/lib/bindings.glsl.
-    enum class TracedShadow : std::uint32_t { none, map, ray };
+    enum class Shadow : std::uint32_t { none, map, ray };
 
     std::uint32_t depth = render::kReferenceBounces; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified
@@ -22,7 +22,7 @@ struct TracerSettings {
     bool paths = false;
     /// Seed of these directions, in addition to FrameInputs::seed.
     std::uint32_t seed = 0;
-    TracedShadow shadow = TracedShadow::ray;
+    Shadow shadow = Shadow::ray;
     /// Has a shadow map if `shadow` is `map`. With `first_raster` and `ray`, a shadow map here
     /// spares the shadow rays where it can tell alone.
     render::ShadingLights lighting;
@@ -52,14 +52,12 @@ struct FirstSurfaceImages {
     graph::BufferHandle counters; ///< shared::Counters
 };
 /// Declares the pass that traces these rays. All spheres are triangles, as in the rasteriser.
-FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
-                                             const render::FrameInputs& inputs);
+FirstSurfaceImages add_first_surface(graph::Graph& graph, const render::FrameInputs& inputs);
 
 /// Lists the pixels of the view that are marked for tracer `number`, from 1, and traces them into
 /// `view.hdr`. Returns the shared::Counters of the tracing.
-graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
-                                              const render::FrameInputs& inputs,
-                                              const TracerSettings& tracer, std::uint32_t number,
-                                              const render::CameraOutputs& view);
+graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
+                                     const TracerSettings& tracer, std::uint32_t number,
+                                     const render::CameraOutputs& view);
 
 } // namespace catoptric::reflect

@@ -30,7 +30,7 @@ void add_rasterised_view(FrameDeclaration& frame) {
     std::optional<render::GlassOverPicture> glass;
     if (frame.opaque) {
         glass = {*frame.opaque, frame.looks};
-        std::ranges::for_each(glass->opaque_looks.looks, remove_images_of_camera_view);
+        std::ranges::for_each(glass->opaque_looks.looks, remove_view_images);
     }
     const bool completes = frame.completes_view;
     frame.view = render::add_camera_view(
@@ -59,7 +59,7 @@ constexpr FrameFeature kTracerFeature{
     .add =
         [](FrameDeclaration& frame) {
             for (std::uint32_t i = 0; i < frame.tracers.size(); ++i)
-                frame.outputs.counters.push_back(add_tracing_of_pixel_list(
+                frame.outputs.counters.push_back(add_list_tracing(
                     frame.graph, frame.inputs, frame.tracers[i], i + 1, *frame.view));
         }};
 const RegisteredFeature kTracerRegistration{kTracerFeature};

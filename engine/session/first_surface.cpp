@@ -76,7 +76,7 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     const render::GpuScene& resident = *self.resident;
     graph::Graph graph;
     render::FrameRequests requests(self.resident->next_view());
-    const reflect::FirstSurfaceImages images = reflect::add_first_surface_tracing(
+    const reflect::FirstSurfaceImages images = reflect::add_first_surface(
         graph, {.scene = resident, .requests = requests, .size = spec.size, .facts = facts});
     graph.output(images.normals_and_distances);
     graph.output(images.objects_and_roughness);
@@ -125,7 +125,7 @@ ReflectionTiers Access::read_reflection_tiers(const Frame& frame, std::size_t pa
     self.check_is_last_frame();
     const TechniqueGraphPart& declared = self.technique_part_at_index(part);
     const reflect::TechniqueOutputs& outputs = declared.outputs;
-    const reflect::TechniqueOfEachMirror& assignment = declared.assignment;
+    const reflect::Assignment& assignment = declared.assignment;
     ReflectionTiers tiers;
     for (const std::uint32_t choice : assignment.of_mirror) {
         const bool is_mirrored = assignment.choices[choice].technique->traits.draws_mirrored_views;

@@ -83,7 +83,7 @@ void add_ray_counters(const std::vector<std::byte>& bytes, TechniqueResult& part
 
 /// Returns the outcome of captures that are kept under a limit.
 std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs& outputs,
-                                                 const reflect::PreviousCaptureHistory& keeping) {
+                                                 const reflect::CaptureHistory& keeping) {
     if (!outputs.kept || keeping.most == 0) return std::nullopt;
     const render::CaptureCache& kept = *outputs.kept;
     CaptureBudget capture_budget;
@@ -128,7 +128,7 @@ parse_technique_plans(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         plans.push_back(read_technique_plan(text));
         for (std::size_t i = 0; i + 1 < plans.size(); ++i)
-            check(!plans[i].is_same_plan_as(plans.back()), Failure::usage, "technique '", text,
+            check(!plans[i].is_same(plans.back()), Failure::usage, "technique '", text,
                   "' is asked for twice");
     }
     return plans;
@@ -139,11 +139,11 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                const std::vector<reflect::TechniquePlan>& plans,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,
-                               const std::vector<reflect::PreviousCaptureHistory>& keeping) {
+                               const std::vector<reflect::CaptureHistory>& keeping) {
     FrameGraph frame{
         graph::Graph(std::move(history)), render::FrameRequests(scene.next_view()), {}};
     for (const reflect::TechniquePlan& plan : plans) {
-        const reflect::PreviousCaptureHistory& kept = keeping[frame.parts.size()];
+        const reflect::CaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{.scene = scene,
                                          .requests = frame.requests,
@@ -153,10 +153,8 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                          .with_lookup = spec.with_lookup,
                                          .facts = facts,
                                          .exposure = spec.exposure};
-        const reflect::TechniqueOfEachMirror assignment =
-            reflect::replace_techniques_unfit_for_mirror(
-                reflect::assign_techniques_to_mirrors(plan, mirrors), scene.flat_faces(),
-                scene.flat_tolerance());
+        const reflect::Assignment assignment = reflect::replace_unfit(
+            reflect::assign_techniques(plan, mirrors), scene.flat_faces(), scene.flat_tolerance());
         reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
                                                                       assignment, kept);
         frame.graph.output(outputs.hdr);

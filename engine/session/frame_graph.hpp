@@ -15,7 +15,7 @@ namespace catoptric::session {
 /// The part of a frame's graph that belongs to one technique.
 struct TechniqueGraphPart {
     reflect::TechniquePlan plan;
-    reflect::TechniqueOfEachMirror assignment;
+    reflect::Assignment assignment;
     std::string prefix;
     reflect::TechniqueOutputs outputs;
     std::optional<CaptureBudget> capture_budget; ///< see Frame::capture_budget
@@ -41,7 +41,7 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                const std::vector<reflect::TechniquePlan>& plans,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,
-                               const std::vector<reflect::PreviousCaptureHistory>& keeping);
+                               const std::vector<reflect::CaptureHistory>& keeping);
 
 /// Returns whether a technique keeps captures, or one of its passes reads data of the previous
 /// frame.

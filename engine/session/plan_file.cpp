@@ -55,7 +55,7 @@ bool is_auto_for_all_mirrors(const PlanJson& rules) {
            rules[0].value("technique", PlanJson()) == reflect::kAutoPlanName;
 }
 
-reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
+reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
     check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
           format_json_value(rule));
     for (const auto& [key, value] : rule.items())
@@ -64,7 +64,7 @@ reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::strin
               Failure::bad_data, place, ": wanted mirror, technique and settings, found '", key,
               "'");
     std::string pattern = read_text(rule, "mirror", place, true);
-    reflect::TechniqueChoice choice = reflect::parse_technique_choice(
+    reflect::TechniqueChoice choice = reflect::parse_choice(
         read_text(rule, "technique", place, false));
     const PlanJson settings = rule.value("settings", PlanJson::object());
     check(settings.is_object(), Failure::bad_data, place, ".settings: wanted an object, found ",
@@ -75,7 +75,7 @@ reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::strin
         choice.settings.set(choice.technique->name, knob,
                             value.is_string() ? value.get<std::string>() : value.dump());
     }
-    choice.update_shared_knobs_from_settings();
+    choice.update_shared();
     return {std::move(pattern), std::move(choice)};
 }
 

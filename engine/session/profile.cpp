@@ -35,8 +35,8 @@ std::size_t find_variant_index(std::string_view name, Failure failure, const std
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
-std::uint8_t find_choice_index(const gpu::ShaderVariant& variant, const Json& choice,
-                               Failure failure, const std::string& place) {
+std::uint8_t find_or_add(const gpu::ShaderVariant& variant, const Json& choice, Failure failure,
+                         const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
     fail(failure, place, ".", variant.name, ": wanted ", quote(variant.choices[0]), " or ",
@@ -131,7 +131,7 @@ gpu::VariantChoices parse_device_profile(const std::string& text, const std::str
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
         const std::size_t i = find_variant_index(name, Failure::bad_data, place);
-        choices[i] = find_choice_index(gpu::shader_variants()[i], choice, Failure::bad_data, place);
+        choices[i] = find_or_add(gpu::shader_variants()[i], choice, Failure::bad_data, place);
     }
     return choices;
 }
@@ -149,8 +149,7 @@ gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const De
     gpu::VariantChoices choices = choose_default_variants(device);
     for (const auto& [name, choice] : variants) {
         const std::size_t i = find_variant_index(name, Failure::usage, "variants");
-        choices[i] = find_choice_index(gpu::shader_variants()[i], choice, Failure::usage,
-                                       "variants");
+        choices[i] = find_or_add(gpu::shader_variants()[i], choice, Failure::usage, "variants");
     }
     return choices;
 }

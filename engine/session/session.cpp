@@ -29,8 +29,7 @@ render::ShownInstant make_shown_instant(const FrameSpec& spec) {
 
 bool have_equal_plans(const std::vector<reflect::TechniquePlan>& a,
                       const std::vector<reflect::TechniquePlan>& b) {
-    return std::ranges::equal(a, b,
-                              [](const auto& x, const auto& y) { return x.is_same_plan_as(y); });
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.is_same(y); });
 }
 
 std::shared_ptr<const std::vector<dmat4>> list_transforms(const scene::Scene& scene) {
@@ -147,7 +146,7 @@ Session::Impl::find_required_work_model(const std::vector<reflect::TechniquePlan
     std::shared_ptr<const require::WorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
     require::WorkModelInput question{scene_at_current_instant(), shown->camera, shown->size};
-    reflect::add_capture_needs_of_plan(question, plans);
+    reflect::add_capture_needs(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // look-ups with removed causes read faces that a search
                                        // would never read
@@ -300,8 +299,8 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
     facts.transforms = self.transforms;
     const std::shared_ptr<const require::WorkModel> model = self.find_required_work_model(
         plans, spec.model, false);
-    std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
-                                                         {*model, nullptr, &self.comparisons});
+    std::vector<reflect::CaptureHistory> keeping(plans.size(),
+                                                 {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident, {},
                                            keeping);
     // If captures are kept, the second frame compares them with those of the first. The returned

@@ -37,10 +37,10 @@ void check_capture_limit(const FrameSpec& spec) {
           spec.budget_ms);
 }
 
-std::vector<reflect::PreviousCaptureHistory>
+std::vector<reflect::CaptureHistory>
 Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_count,
                                       const require::WorkModel& model, bool follows) {
-    std::vector<reflect::PreviousCaptureHistory> keeping(
+    std::vector<reflect::CaptureHistory> keeping(
         plan_count, {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
     for (std::size_t i = 0; i < keeping.size(); ++i)
         keeping[i].most = most_captures(spec, i, model);

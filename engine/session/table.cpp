@@ -9,7 +9,7 @@ namespace catoptric::session {
 
 std::vector<TechniqueInfo> techniques() {
     std::vector<TechniqueInfo> infos;
-    for (const reflect::Technique* row : reflect::list_techniques()) {
+    for (const reflect::Technique* row : reflect::techniques()) {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
         const KnobSettings defaults(row->knobs);
         for (const catoptric::Knob& knob : row->knobs) {

@@ -33,7 +33,7 @@ bool is_technique_word(const std::string& name) {
 void check_search_definition(const Search& search) {
     check(is_technique_word(search.name), Failure::usage, "technique '", search.name,
           "': wanted a name of small letters, digits and '_'");
-    for (const reflect::Technique* row : reflect::list_techniques())
+    for (const reflect::Technique* row : reflect::techniques())
         check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
               "' already");
     check(search.name != reflect::kAutoPlanName, Failure::usage, "'", search.name,
@@ -60,7 +60,7 @@ void check_search_definition(const Search& search) {
 
 /// Returns the search's own knobs, followed by the knobs of all searches. Knobs of continuing
 /// searches are included only if the search continues.
-std::vector<Knob> list_search_knobs(const Search& search) {
+std::vector<Knob> search_knobs(const Search& search) {
     constexpr std::array<std::string_view, 3> kContinueKnobNames{"continue", "captures", "mirrors"};
     std::vector<Knob> knobs;
     const auto check_new = [&](std::string_view name) {
@@ -76,7 +76,7 @@ std::vector<Knob> list_search_knobs(const Search& search) {
                          .value = own.value,
                          .is_real = own.is_real});
     }
-    for (const Knob& knob : reflect::kCommonSearchKnobs) {
+    for (const Knob& knob : reflect::kSearchKnobs) {
         // The name is refused even if the technique lacks this knob, because shared code would read
         // the name as the shared knob.
         check_new(knob.name);
@@ -96,10 +96,10 @@ RegisteredShaders::RegisteredShaders(std::span<const Shader> builds) {
 void add_search(Search search) {
     static std::deque<TechniqueRowStorage> all; // a deque, because rows must not move in memory
     check_search_definition(search);
-    static_cast<void>(list_search_knobs(search)); // throws before anything is stored
+    static_cast<void>(search_knobs(search)); // throws before anything is stored
     TechniqueRowStorage& row = all.emplace_back();
     row.search = std::move(search);
-    row.knobs = list_search_knobs(row.search);
+    row.knobs = search_knobs(row.search);
     if (row.search.compared.empty()) row.search.compared.push_back(row.search.name);
     row.compared.assign(row.search.compared.begin(), row.search.compared.end());
     row.row = {.name = row.search.name,
@@ -108,7 +108,7 @@ void add_search(Search search) {
                .traits = {.captures = TechniqueTraits::Captures::shared},
                .knobs = row.knobs,
                .compared = row.compared,
-               .scene_passes = reflect::count_capture_passes_with_feedback,
+               .scene_passes = reflect::count_capture_passes,
                .capture = reflect::make_capture_options,
                .in_captures = "reflect/parallax.frag",
                .reads_whole_cubes = true, // the search may look anywhere in the capture

@@ -295,7 +295,7 @@ void check_light_is_ambient(const CompareRequest& request) {
           request.base.scene.environment_shadows,
           "; the rays that replace removed causes are lit by the whole environment");
     for (const std::string& text : request.base.techniques) {
-        check(!read_technique_plan(text).has_light_between_surfaces(), Failure::usage,
+        check(!read_technique_plan(text).has_probe_light(), Failure::usage,
               "--causes: wanted rows without light probes, found '", text,
               "'; causes of error in their light are not known");
         check(!read_technique_plan(text).occludes_environment(), Failure::usage,

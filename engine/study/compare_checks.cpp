@@ -28,7 +28,7 @@ std::vector<std::string> list_default_techniques(const Request& base) {
         flats.push_back(scene::find_flat_faces(now, now.objects[object]));
     const double tolerance = scene::flat_tolerance(base.camera, base.size);
     std::vector<std::string> rows;
-    for (const reflect::Technique* technique : reflect::list_techniques())
+    for (const reflect::Technique* technique : reflect::techniques())
         if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {
                 return technique->unfit(flat, tolerance, KnobSettings(technique->knobs)).empty();
             }))
@@ -58,7 +58,7 @@ void check_row_techniques(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         reflect::TechniquePlan plan = read_technique_plan(text);
         for (const reflect::TechniquePlan& other : plans)
-            check(!plan.is_same_plan_as(other), Failure::usage, "technique '", text,
+            check(!plan.is_same(other), Failure::usage, "technique '", text,
                   "' is asked for twice");
         plans.push_back(std::move(plan));
     }
@@ -69,7 +69,7 @@ void check_compare_request(const CompareRequest& request) {
     check_row_techniques(request.base.techniques);
     for (const std::string& text : request.base.techniques)
         if (const reflect::TechniquePlan plan = read_technique_plan(text); !plan.is_auto)
-            reflect::assign_techniques_to_mirrors(plan, list_mirror_names(request.base.scene));
+            reflect::assign_techniques(plan, list_mirror_names(request.base.scene));
     check_picture_rows(request);
     check_has_mirror(request.base.scene);
     check_round_limit(request.rounds);

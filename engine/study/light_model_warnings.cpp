@@ -12,7 +12,7 @@ namespace {
 
 /// Returns whether the rasteriser lights some pixels of the plan's pictures.
 bool is_lit_by_rasteriser(const reflect::TechniquePlan& plan) {
-    return std::ranges::any_of(plan.rules, [](const reflect::TechniquePlanRule& rule) {
+    return std::ranges::any_of(plan.rules, [](const reflect::PlanRule& rule) {
         return !rule.choice.technique->traits.is_ray_traced();
     });
 }
@@ -38,11 +38,11 @@ std::vector<std::string> list_warnings_of_light_models(const CompareRequest& req
         std::ranges::any_of(scene::list_lights(scene), &scene::PointLight::is_lamp))
         warn("its soft shadows count as an error beside this reference, whose lamps are points; "
              "--truth paths has lamps as areas");
-    if (plan.occludes_environment() && !plan.has_light_between_surfaces() && !hides_environment &&
+    if (plan.occludes_environment() && !plan.has_probe_light() && !hides_environment &&
         (scene.environment || request.base.ambient > 0))
         warn("its shadow of the environment counts as an error beside this reference; --truth "
              "paths has that shadow");
-    if (plan.has_light_between_surfaces())
+    if (plan.has_probe_light())
         warn("its light between surfaces counts as an error beside this reference; --truth paths "
              "has that light");
     else if (hides_environment && !plan.occludes_environment() && is_lit_by_rasteriser(plan))

@@ -287,7 +287,7 @@ bool RunningPlanAudit::shows_audited_plan(const FrameSpec& spec) {
     if (shown == plan()) return true;
     if (shown != compared_plans_.shown || plan() != compared_plans_.audited)
         compared_plans_ = {shown, plan(),
-                           read_technique_plan(shown).is_same_plan_as(read_technique_plan(plan()))};
+                           read_technique_plan(shown).is_same(read_technique_plan(plan()))};
     return compared_plans_.are_same;
 }
 

@@ -10,7 +10,7 @@ namespace catoptric::study {
 namespace {
 
 /// Returns the value of a knob that holds whole numbers, or 0 if the technique lacks the knob.
-double find_knob_number(const ParsedTechnique& choice, std::string_view knob) {
+double find_number(const ParsedTechnique& choice, std::string_view knob) {
     const auto setting = std::ranges::find(choice.settings, knob, &Setting::name);
     return setting == choice.settings.end() ? 0 : setting->number.value_or(0);
 }
@@ -37,7 +37,7 @@ std::string set_knob_number(const ParsedTechnique& choice, std::string_view knob
 std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     std::set<int> seeds{0};
     for (const std::string& row : rows)
-        for (const reflect::TechniquePlanRule& rule : read_technique_plan(row).rules)
+        for (const reflect::PlanRule& rule : read_technique_plan(row).rules)
             for (const Knob& knob : rule.choice.settings.knobs())
                 if (knob.name == rule.choice.technique->traits.seed)
                     seeds.insert(rule.choice.settings.integer(knob));
@@ -59,7 +59,7 @@ bool traces_paths(const std::string& technique) {
 bool draws_rays_from_lobes(const std::string& technique) {
     const ParsedTechnique choice = parse_technique(technique);
     return choice.traits().has_drawable_noise() &&
-           (find_knob_number(choice, choice.traits().rays) > 0 || traces_paths(technique));
+           (find_number(choice, choice.traits().rays) > 0 || traces_paths(technique));
 }
 
 bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene) {
@@ -75,7 +75,7 @@ std::string set_lobe_seed(const std::string& technique, int seed) {
 
 int find_lobe_rays(const std::string& technique) {
     const ParsedTechnique choice = parse_technique(technique);
-    return static_cast<int>(find_knob_number(choice, choice.traits().rays));
+    return static_cast<int>(find_number(choice, choice.traits().rays));
 }
 
 std::string set_lobe_rays(const std::string& technique, int rays) {

@@ -23,7 +23,7 @@ protected:
     /// Renders a frame and returns the names of its passes, except `view` and `compose`.
     Names render_and_list_passes(const std::string& technique = "parallax:face=8") {
         graph::Graph graph(runner_.make_history());
-        const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
+        const reflect::Assignment assignment = reflect::assign_techniques(
             reflect::parse_plan(technique), std::vector<std::string>(3, "ball"));
         render::FrameRequests requests(shown_->next_view());
         outputs_ = reflect::add_frame_passes(graph, {*shown_, requests, kCachedPictureSize, ""},

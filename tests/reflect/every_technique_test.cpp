@@ -119,9 +119,9 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                 // which technique draws balls.
                 const std::size_t balls = static_cast<std::size_t>(mirrors);
                 const reflect::TechniqueChoice choice =
-                    reflect::replace_techniques_unfit_for_mirror(
-                        reflect::assign_techniques_to_mirrors(
-                            reflect::parse_plan(text), std::vector<std::string>(balls, "ball")),
+                    reflect::replace_unfit(
+                        reflect::assign_techniques(reflect::parse_plan(text),
+                                                   std::vector<std::string>(balls, "ball")),
                         std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
                 asked.techniques = {text};
@@ -249,7 +249,7 @@ TEST(Table, EveryTechniqueInTheSourceFolderIsRegistered) {
     }
     const auto techniques = session::techniques(); // with those of tests, whose order is above 1000
     EXPECT_EQ(
-        std::ranges::count_if(reflect::list_techniques(),
+        std::ranges::count_if(reflect::techniques(),
                               [](const reflect::Technique* row) { return row->order < 1000; }),
         static_cast<std::ptrdiff_t>(rows));
     EXPECT_GE(techniques.size(), rows);

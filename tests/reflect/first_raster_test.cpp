@@ -161,7 +161,7 @@ TEST(FirstRaster, TracedPixelsOfOtherTechniquesStartAtTheirTriangle) {
 
 TEST(FirstRaster, SettingsThatNeedOtherCameraRaysAreRefused) {
     const auto parse = [](const char* text) {
-        return [text] { (void)reflect::parse_technique_choice(text); };
+        return [text] { (void)reflect::parse_choice(text); };
     };
     test::expect_error(parse("raytrace:samples=4,first=raster"), Failure::usage,
                        {"first=raster", "wanted samples=1, found samples=4"});

@@ -60,7 +60,7 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
     graph::Graph graph;
     render::FrameRequests requests(gpu_scene.next_view());
     const render::FrameInputs inputs{gpu_scene, requests, {16, 16}, ""};
-    const reflect::TechniqueChoice choice = reflect::parse_technique_choice(technique);
+    const reflect::TechniqueChoice choice = reflect::parse_choice(technique);
     test::add_technique(graph, inputs, technique);
     const graph::ImageHandle pyramid = find_image_by_name(graph, "pyramid"),
                              colour = find_image_by_name(graph, "capture/cubes.colour");

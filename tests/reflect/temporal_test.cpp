@@ -40,7 +40,7 @@ reflect::TechniqueOutputs add_temporal_picture(graph::Graph& graph,
          .rays = 1,
          .seed = static_cast<std::uint32_t>(inputs.facts.number),
          .lighting = lighting});
-    const reflect::FirstSurfaceImages first = reflect::add_first_surface_tracing(graph, inputs);
+    const reflect::FirstSurfaceImages first = reflect::add_first_surface(graph, inputs);
     const graph::ImageHandle mean = graph.add_image(
         {inputs.prefix + "mean", TexelFormat::rgba32f, inputs.size.x, inputs.size.y});
     const graph::ImageHandle history = graph.previous(mean);
@@ -75,7 +75,7 @@ constexpr reflect::Technique kTemporalTechnique{
                .noise = TechniqueTraits::Noise::history},
     .scene_passes = [](int, int, const KnobSettings&) { return 0; },
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
-               const reflect::MirrorShadingInputs&) { return reflect::MirrorShadingSetup{}; },
+               const reflect::ShadingInputs&) { return reflect::MirrorShading{}; },
     .picture = add_temporal_picture};
 const reflect::RegisteredTechnique kTemporalTechniqueEntry{kTemporalTechnique};
 

@@ -9,19 +9,19 @@ using namespace catoptric;
 
 constexpr Knob kSecondShareKnob{
     .name = "share", .help = "share of the second capture", .value = .5, .is_real = true};
-constexpr Knob kTwoCapturesKnobs[] = {kSecondShareKnob, reflect::kCaptureFaceKnob,
-                                      reflect::kShadowKnob, reflect::kShadowMapEdgeKnob};
+constexpr Knob kTwoCapturesKnobs[] = {kSecondShareKnob, reflect::kFace, reflect::kShadow,
+                                      reflect::kShadowMap};
 
-reflect::MirrorShadingSetup make_two_captures_shading(graph::Graph& graph,
-                                                      const render::FrameInputs& inputs,
-                                                      const KnobSettings& settings,
-                                                      const reflect::MirrorShadingInputs& around) {
+reflect::MirrorShading make_two_captures_shading(graph::Graph& graph,
+                                                 const render::FrameInputs& inputs,
+                                                 const KnobSettings& settings,
+                                                 const reflect::ShadingInputs& around) {
     std::vector<render::CaptureOptions> options = around.captures->options;
     for (render::CaptureOptions& of_mirror : options) of_mirror.lighting = around.lighting;
     const render::MirrorCaptures second = render::declare_capture_images(graph, inputs, "second",
                                                                          std::move(options));
     render::add_captures(graph, inputs, second, render::use_same_shader(inputs.scene, {}));
-    reflect::MirrorShadingSetup look{
+    reflect::MirrorShading look{
         reflect::make_capture_shader(around, "tests/two_captures.frag", settings), {}};
     std::vector<graph::ImageHandle> colours;
     for (const render::CubeCaptureArray& cubes : second.arrays) colours.push_back(cubes.colour);
@@ -39,7 +39,7 @@ constexpr reflect::Technique kTwoCapturesTechnique{
     .knobs = kTwoCapturesKnobs,
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
-            return reflect::count_capture_passes_with_feedback(2 * mirrors, lights, settings);
+            return reflect::count_capture_passes(2 * mirrors, lights, settings);
         },
     .capture = reflect::make_capture_options,
     .in_captures = "reflect/naive.frag",

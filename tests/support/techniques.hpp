@@ -15,7 +15,7 @@ inline reflect::TechniqueOutputs add_technique(graph::Graph& graph,
                                                const std::string& technique) {
     return reflect::add_frame_passes(
         graph, inputs,
-        reflect::assign_techniques_to_mirrors(
+        reflect::assign_techniques(
             reflect::parse_plan(technique),
             std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
 }

@@ -122,7 +122,7 @@ measure::Row make_costed_row(const std::string& technique, double flip, std::uin
                              std::uint64_t fragments) {
     measure::Row row;
     row.technique = row.label = technique;
-    for (const reflect::Technique* known : reflect::list_techniques())
+    for (const reflect::Technique* known : reflect::techniques())
         if (known->name == technique) row.traits = &known->traits;
     row.error.pixels = 10, row.error.flip = flip, row.error.rmse = flip;
     measure::set_row_work(row, {{"pass", make_work_counts(rays, fragments, 1)}});

@@ -23,8 +23,8 @@ const std::vector<std::string> kMirrorNames{"left ball", "front", "back", "far b
 std::vector<std::string>
 list_technique_labels(const std::string& text,
                       const std::vector<std::string>& names = kMirrorNames) {
-    const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
-        reflect::parse_plan(text), names);
+    const reflect::Assignment assignment = reflect::assign_techniques(reflect::parse_plan(text),
+                                                                      names);
     std::vector<std::string> result;
     for (const std::uint32_t choice : assignment.of_mirror)
         result.push_back(assignment.choices[choice].label);
@@ -35,8 +35,7 @@ TEST(PlanText, SingleTechniqueAppliesToAnyNumberOfMirrors) {
     EXPECT_THAT(
         list_technique_labels("secant:face=64"),
         ElementsAre("secant:face=64", "secant:face=64", "secant:face=64", "secant:face=64"));
-    EXPECT_EQ(
-        reflect::assign_techniques_to_mirrors(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
+    EXPECT_EQ(reflect::assign_techniques(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
 }
 
 TEST(PlanText, NumberWinsOverNameAndNameOverStar) {
@@ -72,7 +71,7 @@ TEST(PlanText, NumberSelectsAMirrorByPositionNotByName) {
 }
 
 TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
-    const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
+    const reflect::Assignment assignment = reflect::assign_techniques(
         reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrorNames);
     EXPECT_EQ(assignment.choices.size(), 2u);
     EXPECT_THAT(assignment.of_mirror, ElementsAre(0, 1, 0, 0));
@@ -82,9 +81,7 @@ TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
 void expect_plan_refused(const std::string& text, const std::vector<std::string>& words,
                          Failure failure = Failure::usage) {
     test::expect_error(
-        [&] {
-            reflect::assign_techniques_to_mirrors(session::read_technique_plan(text), kMirrorNames);
-        },
+        [&] { reflect::assign_techniques(session::read_technique_plan(text), kMirrorNames); },
         failure, words);
 }
 
@@ -130,7 +127,7 @@ TEST(PlanText, DrawnWordsAreRefusedAsUsage) {
 
 TEST(PlanText, DrawnKnobsAndValuesAreRefusedWithTheNearestOrAllNames) {
     std::mt19937 random(2);
-    for (const reflect::Technique* technique : reflect::list_techniques()) {
+    for (const reflect::Technique* technique : reflect::techniques()) {
         const std::string name(technique->name);
         const auto refusal = [&](const std::string& knob, const std::string& value) -> std::string {
             KnobSettings settings(technique->knobs);
@@ -190,19 +187,19 @@ TEST_F(PlanFileTest, PlanFileMeansTheSameAsThePlanText) {
                     write_plan_file(R"([{"mirror": 1, "technique": "reuse:face=64"},
                                         {"mirror": "2,back", "technique": "hybrid"},
                                         {"mirror": "*", "technique": "march"}])"))
-                    .is_same_plan_as(text));
+                    .is_same(text));
     // A row of a report stores the same plan as an object with more fields.
     const reflect::TechniquePlan row = session::read_technique_plan(
         write_plan_file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
                            "settings": {"face": 64, "colour": "half"}, "why": "rule '1'"},
                           {"mirror": "2,back", "technique": "hybrid", "settings": {}},
                           {"mirror": "*", "technique": "march"}]})"));
-    EXPECT_TRUE(row.is_same_plan_as(text));
+    EXPECT_TRUE(row.is_same(text));
     EXPECT_TRUE(row.label.starts_with("plan:"));
     EXPECT_TRUE(
         session::read_technique_plan(write_plan_file(R"([{"mirror": "*", "technique": "reuse",
                                          "settings": {"face": "auto"}}])"))
-            .is_same_plan_as(reflect::parse_plan("*=reuse:face=auto")));
+            .is_same(reflect::parse_plan("*=reuse:face=auto")));
 }
 
 TEST_F(PlanFileTest, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {

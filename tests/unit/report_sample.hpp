@@ -44,7 +44,7 @@ inline Row make_row(const std::string& label, double ms, double rmse, double fli
     Row made;
     made.label = label;
     made.technique = label.substr(0, label.find(':'));
-    for (const reflect::Technique* technique : reflect::list_techniques())
+    for (const reflect::Technique* technique : reflect::techniques())
         if (technique->name == made.technique) made.traits = &technique->traits;
     made.settings = std::move(more);
     made.scene_passes = 6;

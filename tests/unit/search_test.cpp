@@ -76,7 +76,7 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
 bool does_technique_read_all_captures(const std::string& technique) {
     const scene::Scene room = scene::make_cornell();
     require::WorkModelInput question{.now = room, .camera = room.cameras.front()};
-    reflect::add_capture_needs_of_plan(question, {reflect::parse_plan(technique)});
+    reflect::add_capture_needs(question, {reflect::parse_plan(technique)});
     return question.asks_all;
 }
 
