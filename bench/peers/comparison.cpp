@@ -9,8 +9,8 @@
 namespace peers {
 
 using namespace catoptric;
-using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
+using measure::CostKind;
 
 std::string engine_benchmark_name(const std::string& pair) { return "ours/" + pair; }
 std::string embree_benchmark_name(const std::string& pair, int width) {
@@ -68,28 +68,22 @@ EngineAndEmbreeBenchmarks trace_pair_and_print_differences(
 }
 
 void print_benchmark(const BenchmarkResult& benchmark, const char* what, double millions) {
-    const double ms = measure::compute_percentile(
-        list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time), .5);
+    const double ms = measure::percentile(round_costs(benchmark, CostKind::real_time), .5);
     std::printf("%-23s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
-                measure::compute_percentile(
-                    list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time), .5));
+                measure::percentile(round_costs(benchmark, CostKind::cpu_time), .5));
     if (benchmark.rounds.front().cycles)
         std::printf(" %9.1f Mcycles",
-                    measure::compute_percentile(
-                        list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cycles), .5) /
-                        1e6);
+                    measure::percentile(round_costs(benchmark, CostKind::cycles), .5) / 1e6);
     if (millions > 0) std::printf(" %8.2f M%s/s", 1e3 * millions / ms, what);
     std::printf("\n");
 }
 
 void print_cost_ratio(const BenchmarkResult& a, const BenchmarkResult& b) {
-    const BenchmarkCostKind cost = a.rounds.front().cycles ? BenchmarkCostKind::cycles
-                                                           : BenchmarkCostKind::cpu_time;
-    const measure::BenchmarkCostRatio ratio = measure::compute_cost_ratio(
-        list_benchmark_cost_per_round(a, cost), list_benchmark_cost_per_round(b, cost));
-    const measure::BenchmarkCostRatio real = measure::compute_cost_ratio(
-        list_benchmark_cost_per_round(a, BenchmarkCostKind::real_time),
-        list_benchmark_cost_per_round(b, BenchmarkCostKind::real_time));
+    const CostKind cost = a.rounds.front().cycles ? CostKind::cycles : CostKind::cpu_time;
+    const measure::CostRatio ratio = measure::cost_ratio(round_costs(a, cost),
+                                                         round_costs(b, cost));
+    const measure::CostRatio real = measure::cost_ratio(round_costs(a, CostKind::real_time),
+                                                        round_costs(b, CostKind::real_time));
     std::printf("%-19s / %-23s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
                 a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
                 measure::cost_kind_name(cost).c_str(), real.median, real.ci95.low, real.ci95.high);

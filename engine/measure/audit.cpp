@@ -11,7 +11,7 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the middle of the i-th of `count` equal parts of the interval from 0 to 1.
-double middle_of_interval_part(std::size_t i, std::size_t count) {
+double midpoint(std::size_t i, std::size_t count) {
     return (static_cast<double>(i) + .5) / static_cast<double>(count);
 }
 
@@ -30,7 +30,7 @@ void Audit::count_frame(bool passed) {
     failures_ += passed ? 0 : 1;
     const double start = static_cast<double>(frames_), bad = 1 - tested_.share;
     for (std::size_t i = 0; i < kAlternatives; ++i) {
-        const double u = bad + tested_.share * middle_of_interval_part(i, kAlternatives);
+        const double u = bad + tested_.share * midpoint(i, kAlternatives);
         const double ratio = passed ? (1 - u) / tested_.share : u / bad;
         constexpr double kLargest = 1e100; // far above any threshold; a sum that is cut off here
                                            // stays valid
@@ -51,7 +51,7 @@ double Audit::assurance_against(double failing_share) const {
     const double bad = 1 - tested_.share;
     double sum = 0;
     for (std::size_t i = 0; i < kAlternatives; ++i) {
-        const double t = middle_of_interval_part(i, kAlternatives);
+        const double t = midpoint(i, kAlternatives);
         const double w = t * (1 - bad) / (1 - t * bad);
         sum += std::exp(k * std::log(w) - n * std::log1p(failing_share * (w - 1)));
     }

@@ -41,7 +41,7 @@ public:
     void count_frame(bool passed);
 
     std::size_t frame_count() const { return frames_; }
-    std::size_t failure_count() const { return failures_; }
+    std::size_t failures() const { return failures_; }
     /// Returns E(a), the evidence that the frames' mean probability of failing is below a.
     /// `failing_share`: a, from 0 to 1. The result does not depend on the order of the frames. The
     /// mixture over t is the one for the tested q, whatever a is.

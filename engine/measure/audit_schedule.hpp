@@ -30,10 +30,10 @@ public:
     /// the program has paused.
     bool count_frame(double frame_ms);
     /// Adds the time of an audit to the audits' time of the run.
-    void add_audit_time(double ms);
+    void add_audit(double ms);
     /// Reports how long an audit takes, before the first frame. This time helps to choose the
     /// length of blocks, but is not part of the run.
-    void expect_audit_time(double ms);
+    void expect_audit(double ms);
 
     /// Returns the number of frames of the present block; 0 before the first.
     std::size_t block_length() const { return block_; }
@@ -41,7 +41,7 @@ public:
     double audits_ms() const { return audits_ms_; } ///< time of all audits
 
 private:
-    double median_frame_ms() const;
+    double median_ms() const;
     void begin_block();
 
     AuditPace pace_;
@@ -64,7 +64,7 @@ public:
     std::size_t place() const { return place_; } ///< index of the present plan
     /// Moves to the next plan with less error. Returns false if there is none, or within half a
     /// second of the last step. `seconds`: time since any fixed beginning; it must never fall.
-    bool step_to_plan_with_less_error(double seconds);
+    bool step(double seconds);
 
 private:
     std::size_t place_;

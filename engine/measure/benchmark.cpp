@@ -11,38 +11,37 @@ namespace catoptric::measure {
 
 namespace {
 
-bool has_count_in_all_rounds(const BenchmarkResult& benchmark,
-                             std::optional<double> BenchmarkRound::*count) {
+bool all_rounds_have(const BenchmarkResult& benchmark,
+                     std::optional<double> BenchmarkRound::*count) {
     return std::ranges::all_of(benchmark.rounds, [count](const BenchmarkRound& round) {
         return (round.*count).has_value();
     });
 }
 
-BenchmarkCostKind choose_benchmark_cost_kind(const BenchmarkResult& before,
-                                             const BenchmarkResult& after, bool on_processors) {
+CostKind choose_cost(const BenchmarkResult& before, const BenchmarkResult& after,
+                     bool on_processors) {
     const auto both_have = [&](std::optional<double> BenchmarkRound::*count) {
-        return has_count_in_all_rounds(before, count) && has_count_in_all_rounds(after, count);
+        return all_rounds_have(before, count) && all_rounds_have(after, count);
     };
-    if (!on_processors) return BenchmarkCostKind::real_time;
-    if (both_have(&BenchmarkRound::cycles)) return BenchmarkCostKind::cycles;
-    return both_have(&BenchmarkRound::instructions) ? BenchmarkCostKind::instructions
-                                                    : BenchmarkCostKind::cpu_time;
+    if (!on_processors) return CostKind::real_time;
+    if (both_have(&BenchmarkRound::cycles)) return CostKind::cycles;
+    return both_have(&BenchmarkRound::instructions) ? CostKind::instructions : CostKind::cpu_time;
 }
 
 /// Compares the counts of work that both runs have. All rounds of a benchmark have the same counts.
-void compare_counted_work(const BenchmarkResult& before, const BenchmarkResult& after,
-                          BenchmarkChange& change) {
+void compare_work(const BenchmarkResult& before, const BenchmarkResult& after,
+                  BenchmarkChange& change) {
     if (before.rounds.empty() || after.rounds.empty()) return;
     const std::map<std::string, double>& old_counts = before.rounds.back().counters;
     for (const auto& [name, count] : after.rounds.back().counters) {
         const auto old = old_counts.find(name);
-        if (!name.starts_with(kWorkCounterPrefix) || old == old_counts.end()) continue;
+        if (!name.starts_with(kWorkPrefix) || old == old_counts.end()) continue;
         ++change.compared_counts;
         if (old->second != count) change.counts.push_back({name, old->second, count});
     }
 }
 
-bool is_cpu_device_run(const BenchmarkRun& run) {
+bool is_cpu_run(const BenchmarkRun& run) {
     return run.device.type.empty() || run.device.type == "cpu";
 }
 
@@ -51,87 +50,80 @@ const BenchmarkResult* find_benchmark(const BenchmarkRun& run, const std::string
     return found == run.benchmarks.end() ? nullptr : &*found;
 }
 
-BenchmarkChange compute_benchmark_change(const BenchmarkResult& before,
-                                         const BenchmarkResult& after, bool on_processors) {
+BenchmarkChange find_change(const BenchmarkResult& before, const BenchmarkResult& after,
+                            bool on_processors) {
     BenchmarkChange change;
     change.name = after.name;
-    change.cost = choose_benchmark_cost_kind(before, after, on_processors);
-    compare_counted_work(before, after, change);
-    const std::vector<double> old_costs = list_benchmark_cost_per_round(before, change.cost);
-    const std::vector<double> new_costs = list_benchmark_cost_per_round(after, change.cost);
-    change.medians = {compute_percentile(old_costs, .5), compute_percentile(new_costs, .5)};
-    change.ratio = compute_cost_ratio(new_costs, old_costs);
-    change.real_ratio = compute_cost_ratio(
-        list_benchmark_cost_per_round(after, BenchmarkCostKind::real_time),
-        list_benchmark_cost_per_round(before, BenchmarkCostKind::real_time));
+    change.cost = choose_cost(before, after, on_processors);
+    compare_work(before, after, change);
+    const std::vector<double> old_costs = round_costs(before, change.cost);
+    const std::vector<double> new_costs = round_costs(after, change.cost);
+    change.medians = {percentile(old_costs, .5), percentile(new_costs, .5)};
+    change.ratio = cost_ratio(new_costs, old_costs);
+    change.real_ratio = cost_ratio(round_costs(after, CostKind::real_time),
+                                   round_costs(before, CostKind::real_time));
     return change;
 }
 
 } // namespace
 
-std::string cost_kind_name(BenchmarkCostKind cost) {
+std::string cost_kind_name(CostKind cost) {
     switch (cost) {
-    case BenchmarkCostKind::cycles: return "cycles";
-    case BenchmarkCostKind::instructions: return "instructions";
-    case BenchmarkCostKind::cpu_time: return "processor time";
-    case BenchmarkCostKind::real_time: break;
+    case CostKind::cycles: return "cycles";
+    case CostKind::instructions: return "instructions";
+    case CostKind::cpu_time: return "processor time";
+    case CostKind::real_time: break;
     }
     return "time";
 }
 
-double benchmark_cost_of_round(const BenchmarkRound& round, BenchmarkCostKind cost) {
+double cost_of(const BenchmarkRound& round, CostKind cost) {
     constexpr double kUnknownBenchmarkCost = std::numeric_limits<double>::quiet_NaN();
     switch (cost) {
-    case BenchmarkCostKind::cycles: return round.cycles.value_or(kUnknownBenchmarkCost);
-    case BenchmarkCostKind::instructions: return round.instructions.value_or(kUnknownBenchmarkCost);
-    case BenchmarkCostKind::cpu_time: return round.cpu_ms;
-    case BenchmarkCostKind::real_time: break;
+    case CostKind::cycles: return round.cycles.value_or(kUnknownBenchmarkCost);
+    case CostKind::instructions: return round.instructions.value_or(kUnknownBenchmarkCost);
+    case CostKind::cpu_time: return round.cpu_ms;
+    case CostKind::real_time: break;
     }
     return round.real_ms;
 }
 
-std::vector<double> list_benchmark_cost_per_round(const BenchmarkResult& benchmark,
-                                                  BenchmarkCostKind cost) {
+std::vector<double> round_costs(const BenchmarkResult& benchmark, CostKind cost) {
     std::vector<double> costs;
-    for (const BenchmarkRound& round : benchmark.rounds)
-        costs.push_back(benchmark_cost_of_round(round, cost));
+    for (const BenchmarkRound& round : benchmark.rounds) costs.push_back(cost_of(round, cost));
     return costs;
 }
 
-BenchmarkCostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b) {
+CostRatio cost_ratio(const std::vector<double>& a, const std::vector<double>& b) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) ratios.push_back(a[i] / b[i]);
-    return {compute_percentile(ratios, .5), median_ratio_interval(a, b)};
+    return {percentile(ratios, .5), median_ratio_interval(a, b)};
 }
 
-BenchmarkChange::BenchmarkChangeOutcome BenchmarkChange::outcome() const {
-    if (!ratio.ci95.is_known()) return BenchmarkChangeOutcome::unknown;
-    if (ratio.is_interval_above_one())
-        return real_ratio.is_interval_below_one() ? BenchmarkChangeOutcome::mixed
-                                                  : BenchmarkChangeOutcome::slower;
-    if (ratio.is_interval_below_one())
-        return real_ratio.is_interval_above_one() ? BenchmarkChangeOutcome::mixed
-                                                  : BenchmarkChangeOutcome::faster;
-    return BenchmarkChangeOutcome::same;
+BenchmarkChange::Outcome BenchmarkChange::outcome() const {
+    if (!ratio.ci95.is_known()) return Outcome::unknown;
+    if (ratio.is_above_one()) return real_ratio.is_below_one() ? Outcome::mixed : Outcome::slower;
+    if (ratio.is_below_one()) return real_ratio.is_above_one() ? Outcome::mixed : Outcome::faster;
+    return Outcome::same;
 }
 
-std::string benchmark_outcome_name(BenchmarkChange::BenchmarkChangeOutcome outcome) {
+std::string outcome_name(BenchmarkChange::Outcome outcome) {
     switch (outcome) {
-    case BenchmarkChange::BenchmarkChangeOutcome::slower: return "slower";
-    case BenchmarkChange::BenchmarkChangeOutcome::faster: return "faster";
-    case BenchmarkChange::BenchmarkChangeOutcome::mixed: return "mixed";
-    case BenchmarkChange::BenchmarkChangeOutcome::same: return "same";
-    case BenchmarkChange::BenchmarkChangeOutcome::unknown: break;
+    case BenchmarkChange::Outcome::slower: return "slower";
+    case BenchmarkChange::Outcome::faster: return "faster";
+    case BenchmarkChange::Outcome::mixed: return "mixed";
+    case BenchmarkChange::Outcome::same: return "same";
+    case BenchmarkChange::Outcome::unknown: break;
     }
     return "unknown";
 }
 
-BenchmarkChanges compare_benchmark_runs(const BenchmarkRun& before, const BenchmarkRun& after) {
-    const bool on_processors = is_cpu_device_run(before) && is_cpu_device_run(after);
+BenchmarkChanges compare_runs(const BenchmarkRun& before, const BenchmarkRun& after) {
+    const bool on_processors = is_cpu_run(before) && is_cpu_run(after);
     BenchmarkChanges changes;
     for (const BenchmarkResult& benchmark : after.benchmarks) {
         if (const BenchmarkResult* old = find_benchmark(before, benchmark.name))
-            changes.list.push_back(compute_benchmark_change(*old, benchmark, on_processors));
+            changes.list.push_back(find_change(*old, benchmark, on_processors));
         else
             changes.only_after.push_back(benchmark.name);
     }
@@ -140,7 +132,7 @@ BenchmarkChanges compare_benchmark_runs(const BenchmarkRun& before, const Benchm
     return changes;
 }
 
-BenchmarkRun join_benchmark_runs(BenchmarkRun first, const BenchmarkRun& more) {
+BenchmarkRun join_runs(BenchmarkRun first, const BenchmarkRun& more) {
     std::erase_if(first.benchmarks, [&](const BenchmarkResult& benchmark) {
         return !find_benchmark(more, benchmark.name);
     });

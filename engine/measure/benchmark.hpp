@@ -42,39 +42,38 @@ struct BenchmarkRun {
 };
 
 /// The cost by which benchmarks are compared.
-enum class BenchmarkCostKind { cycles, instructions, cpu_time, real_time };
+enum class CostKind { cycles, instructions, cpu_time, real_time };
 /// Returns "cycles", "instructions", "processor time" or "time".
-std::string cost_kind_name(BenchmarkCostKind cost);
+std::string cost_kind_name(CostKind cost);
 
 /// Returns a round's cost in cycles, instructions or milliseconds. Returns NaN if the round has no
 /// cycles or no instructions.
-double benchmark_cost_of_round(const BenchmarkRound& round, BenchmarkCostKind cost);
+double cost_of(const BenchmarkRound& round, CostKind cost);
 /// Returns the costs of all rounds, in order.
-std::vector<double> list_benchmark_cost_per_round(const BenchmarkResult& benchmark,
-                                                  BenchmarkCostKind cost);
+std::vector<double> round_costs(const BenchmarkResult& benchmark, CostKind cost);
 
 /// Ratio of costs that were measured in rounds: the median of the rounds' ratios, and its
 /// confidence interval.
-struct BenchmarkCostRatio {
+struct CostRatio {
     double median = 0;
     Interval ci95; ///< 95 % confidence; unknown for fewer than `kMinIntervalSamples` rounds
-    bool is_interval_above_one() const { return ci95.low > 1; }
-    bool is_interval_below_one() const { return ci95.high < 1; }
+    bool is_above_one() const { return ci95.low > 1; }
+    bool is_below_one() const { return ci95.high < 1; }
 };
 /// Returns the ratio a[i] / b[i] over as many pairs as the shorter list has. Throws `internal`
 /// without a pair.
-BenchmarkCostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
+CostRatio cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Beginning of the names of counters that hold counted work (core/work.hpp), such as "work/nodes".
-inline constexpr const char* kWorkCounterPrefix = "work/";
+inline constexpr const char* kWorkPrefix = "work/";
 
 /// Counted work of a benchmark that differs before and after a change.
-struct CountedWorkChange {
+struct WorkChange {
     std::string name; ///< name of the counter
     double before = 0, after = 0;
     /// Returns whether the work has grown by more than a hundredth. Counts have no noise, so no
     /// clock is needed to tell.
-    bool is_work_growth() const { return after > 1.01 * before; }
+    bool has_grown() const { return after > 1.01 * before; }
 };
 
 /// Costs of one benchmark before and after a change.
@@ -82,18 +81,18 @@ struct BenchmarkChange {
     /// Result of the comparison. `slower` and `faster`: the cost says so and the elapsed time does
     /// not say the opposite. `mixed`: the elapsed time says the opposite. `same`: the two cannot be
     /// told apart. `unknown`: there are too few rounds.
-    enum class BenchmarkChangeOutcome { slower, faster, mixed, same, unknown };
+    enum class Outcome { slower, faster, mixed, same, unknown };
     std::string name;
-    BenchmarkCostKind cost = BenchmarkCostKind::real_time;
-    std::array<double, 2> medians{};       ///< medians of the cost, before and after
-    BenchmarkCostRatio ratio;              ///< cost after, divided by cost before
-    BenchmarkCostRatio real_ratio;         ///< ratio of the elapsed times
-    std::size_t compared_counts = 0;       ///< number of counts of work that both runs have
-    std::vector<CountedWorkChange> counts; ///< counts that differ
-    BenchmarkChangeOutcome outcome() const;
+    CostKind cost = CostKind::real_time;
+    std::array<double, 2> medians{}; ///< medians of the cost, before and after
+    CostRatio ratio;                 ///< cost after, divided by cost before
+    CostRatio real_ratio;            ///< ratio of the elapsed times
+    std::size_t compared_counts = 0; ///< number of counts of work that both runs have
+    std::vector<WorkChange> counts;  ///< counts that differ
+    Outcome outcome() const;
 };
 /// Returns "slower", "faster", "mixed", "same" or "unknown".
-std::string benchmark_outcome_name(BenchmarkChange::BenchmarkChangeOutcome outcome);
+std::string outcome_name(BenchmarkChange::Outcome outcome);
 
 struct BenchmarkChanges {
     std::vector<BenchmarkChange>
@@ -104,10 +103,10 @@ struct BenchmarkChanges {
 /// or else instructions if both counted those. Otherwise the cost is processor time, because it
 /// repeats even if other programs run at the same time. Counted work is compared in any case. If a
 /// run's device is not a processor, the cost is elapsed time.
-BenchmarkChanges compare_benchmark_runs(const BenchmarkRun& before, const BenchmarkRun& after);
+BenchmarkChanges compare_runs(const BenchmarkRun& before, const BenchmarkRun& after);
 
 /// Returns one run with the rounds of `first` followed by those of `more`. Benchmarks that `more`
 /// lacks are left out. The circumstances are those of `first`, but noise in either run is kept.
-BenchmarkRun join_benchmark_runs(BenchmarkRun first, const BenchmarkRun& more);
+BenchmarkRun join_runs(BenchmarkRun first, const BenchmarkRun& more);
 
 } // namespace catoptric::measure

@@ -16,12 +16,12 @@ bool has_error_budget(const Comparison& comparison);
 /// Returns whether the row's time is less than Comparison::max_ms, or more, by the whole 95 %
 /// interval of its median. `unknown` if the interval contains the limit or is not known. `less`
 /// without such a budget.
-Order compare_to_time_budget(const Comparison& comparison, const Row& row);
+Order compare_to_budget(const Comparison& comparison, const Row& row);
 /// Returns whether FLIP and rmse over the mirrors are at most Comparison::max_flip and max_rmse.
-bool is_within_error_budget(const Comparison& comparison, const Row& row);
+bool keeps_error_budget(const Comparison& comparison, const Row& row);
 
-/// Answer to a budget of time or error. Only judged rows take part (is_judged_row).
-struct BestRowsWithinBudget {
+/// Answer to a budget of time or error. Only judged rows take part (is_judged).
+struct BestRows {
     /// The row to choose. With a budget of time alone, it has the least FLIP of the rows within the
     /// budget, and otherwise the least median time. Null if no row keeps the budgets.
     const Row* row = nullptr;
@@ -35,6 +35,6 @@ struct BestRowsWithinBudget {
     /// if no row could be judged.
     const Row* nearest = nullptr;
 };
-BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison);
+BestRows find_best_rows(const Comparison& comparison);
 
 } // namespace catoptric::measure

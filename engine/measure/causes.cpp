@@ -11,14 +11,14 @@ namespace catoptric::measure {
 namespace {
 
 template <double Causes::*Figure>
-MetricValue error_cause_metric_value(const Row& row) {
+MetricValue cause_value(const Row& row) {
     return row.causes ? (*row.causes).*Figure : NAN;
 }
 
-MetricValue list_cause_shares(const Row& row) {
-    std::vector<NamedMetricValueParts> list;
+MetricValue cause_shares(const Row& row) {
+    std::vector<MetricParts> list;
     if (!row.causes) return list;
-    for (const ErrorCauseShare& cause : row.causes->list)
+    for (const CauseShare& cause : row.causes->list)
         list.push_back({"cause",
                         cause.name,
                         {{"share", cause.share},
@@ -37,7 +37,7 @@ const RegisteredMetric kSquaredErrorMetric{
      .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 270,
-     .get = error_cause_metric_value<&Causes::squared_error>}};
+     .get = cause_value<&Causes::squared_error>}};
 const RegisteredMetric kErrorPerMirrorMetric{
     {.name = "causes/squared_error_per_mirror",
      .help = "mean square difference over the pixels of each mirror",
@@ -52,7 +52,7 @@ const RegisteredMetric kUnexplainedErrorMetric{
      .help = "rmse when all causes are removed: near 0 if no cause is missing",
      .mask = kMirrorMaskName,
      .order = 272,
-     .get = error_cause_metric_value<&Causes::rest_rmse>}};
+     .get = cause_value<&Causes::rest_rmse>}};
 const RegisteredMetric kErrorAtLightEdgesMetric{
     {.name = "causes/at_light_edges",
      .help = "share of the squared error in pixels that looked within a texel of a light's outline",
@@ -68,7 +68,7 @@ const RegisteredMetric kCauseSharesMetric{
          "the decrease of the error when only this cause is removed",
      .mask = kMirrorMaskName,
      .order = 274,
-     .get = list_cause_shares}};
+     .get = cause_shares}};
 
 } // namespace
 

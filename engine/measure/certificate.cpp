@@ -20,8 +20,7 @@ double binomial_cumulative(std::size_t most, std::size_t count, double p) {
     return std::min(sum, 1.0);
 }
 
-double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views,
-                                         double confidence) {
+double passing_share_bound(std::size_t failures, std::size_t views, double confidence) {
     if (views == 0 || failures >= views) return 0;
     constexpr int kSteps = 60; // halvings of an interval of length 1
     double low = 0, high = 1;  // share of failures
@@ -32,8 +31,7 @@ double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views
     return 1 - high;
 }
 
-std::size_t count_views_needed_for_certificate(double share, double confidence,
-                                               std::size_t failures) {
+std::size_t needed_views(double share, double confidence, std::size_t failures) {
     std::size_t low = failures, high = failures + 1; // `low` views are too few
     const auto proves = [&](std::size_t views) {
         return binomial_cumulative(failures, views, 1 - share) <= 1 - confidence;

@@ -16,13 +16,11 @@ double binomial_cumulative(std::size_t most, std::size_t count, double p);
 /// confidence, 0 to 1, if `failures` of `views` drawn views break the limit (Clopper and Pearson,
 /// The Use of Confidence or Fiducial Limits, 1934, one-sided). Returns 0 without views. Takes
 /// O(failures).
-double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views,
-                                         double confidence);
+double passing_share_bound(std::size_t failures, std::size_t views, double confidence);
 
 /// Returns the smallest number of views that proves the share with this confidence although
 /// `failures` of them do not keep the limit. `share` and `confidence` lie between 0 and 1.
-std::size_t count_views_needed_for_certificate(double share, double confidence,
-                                               std::size_t failures);
+std::size_t needed_views(double share, double confidence, std::size_t failures);
 
 /// Returns an error that, with this confidence, at least this share of all views does not exceed.
 /// The result is the smallest drawn value that is large enough (one-sided tolerance limit; Wilks,

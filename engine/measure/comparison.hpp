@@ -21,7 +21,7 @@ using catoptric::CulledWork;
 struct Causes; // internal: report.json has their data
 struct LagResults;
 struct LightEdgeErrors;
-struct LookupErrorSummary;
+struct LookupSummary;
 struct PathDistance;
 struct ReferenceNoise;
 struct SceneContents;
@@ -143,7 +143,7 @@ struct Row : Errors {
     std::optional<RayCounts> rays;  ///< rays of one frame; empty if the row traces none
     std::optional<std::size_t> saturated_texels; ///< of half-float captures, clipped at 65504
     /// Of directions, over first-order pixels. Null unless the row looks into captures.
-    std::shared_ptr<LookupErrorSummary> lookup;
+    std::shared_ptr<LookupSummary> lookup;
     std::shared_ptr<LightEdgeErrors> light_edges; ///< null unless the row looks into captures
     std::shared_ptr<Causes> causes;               ///< see CompareRequest::studies; may be null
     std::optional<double> traced_fraction;
@@ -160,7 +160,7 @@ struct Row : Errors {
     std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
     std::string image; ///< file name of the pictures without folder and ending: "naive-bounces1"
     bool is_reference = false;  ///< whether technique and settings are those of the reference
-    bool mirrors_black = false; ///< see measure::is_row_eligible_for_ranking
+    bool mirrors_black = false; ///< see measure::is_rankable
 };
 
 struct Comparison {
@@ -197,7 +197,7 @@ struct Comparison {
     std::vector<View> views;
     std::vector<Row> rows;
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
-    /// measure::find_pareto_front_of_rows.
+    /// measure::find_pareto_front.
     std::vector<std::size_t> pareto;
     double max_ms = NAN, max_flip = NAN, max_rmse = NAN; ///< budgets (budget.hpp); NaN: none
     std::shared_ptr<LagResults> lag;  ///< see CompareRequest::studies; may be null

@@ -13,17 +13,16 @@ namespace catoptric::measure {
 
 namespace {
 
-using ValuePerWorkKind = std::vector<double>; // one number for each fitted kind
+using KindValues = std::vector<double>; // one number for each fitted kind
 
 /// Normal equations of the relative errors: minimise w' G w - 2 h' w over w >= 0.
-struct UnitCostNormalEquations {
-    std::vector<ValuePerWorkKind> matrix;
-    ValuePerWorkKind right;
+struct NormalEquations {
+    std::vector<KindValues> matrix;
+    KindValues right;
 
-    explicit UnitCostNormalEquations(std::size_t kinds)
-        : matrix(kinds, ValuePerWorkKind(kinds)), right(kinds) {}
+    explicit NormalEquations(std::size_t kinds) : matrix(kinds, KindValues(kinds)), right(kinds) {}
     /// Adds a sample `sign` times. `row` has the sample's counts divided by its time.
-    void add_sample(const ValuePerWorkKind& row, double sign) {
+    void add_sample(const KindValues& row, double sign) {
         for (std::size_t i = 0; i < right.size(); ++i) {
             right[i] += sign * row[i];
             for (std::size_t j = 0; j < right.size(); ++j) matrix[i][j] += sign * row[i] * row[j];
@@ -33,11 +32,11 @@ struct UnitCostNormalEquations {
 
 /// Solves for the unit costs by coordinate descent. Each step sets one cost to its best value that
 /// is not negative.
-ValuePerWorkKind solve_for_nonnegative_costs(const UnitCostNormalEquations& equations) {
+KindValues solve_nonnegative(const NormalEquations& equations) {
     constexpr int kMaxSolverSweeps = 200'000;
     constexpr double kFitConvergenceLimit = 1e-12;
     const std::size_t count = equations.right.size();
-    ValuePerWorkKind found(count);
+    KindValues found(count);
     for (int sweep = 0; sweep < kMaxSolverSweeps; ++sweep) {
         double change = 0, size = 0;
         for (std::size_t i = 0; i < count; ++i) {
@@ -57,29 +56,28 @@ ValuePerWorkKind solve_for_nonnegative_costs(const UnitCostNormalEquations& equa
     return found;
 }
 
-double work_count_of_kind(const WorkCounts& counts, WorkKind kind) {
+double count_of(const WorkCounts& counts, WorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
 }
 
-bool is_ray_tracing_work_kind(WorkKind kind) { return kind <= WorkKind::triangle_lanes; }
+bool is_ray_work(WorkKind kind) { return kind <= WorkKind::triangle_lanes; }
 
 /// Returns the predicted time with each unit cost at an end of its range: rays at the low end and
 /// all other work at the high end, or the other way round.
-double predict_time_at_cost_bounds(const DeviceCosts& costs, const WorkCounts& counts,
-                                   bool rays_are_cheap) {
+double predict_at_bounds(const DeviceCosts& costs, const WorkCounts& counts, bool rays_are_cheap) {
     double ms = 0;
-    for (const WorkUnitCost& unit : costs.units) {
-        const bool low = is_ray_tracing_work_kind(unit.kind) == rays_are_cheap;
+    for (const UnitCost& unit : costs.units) {
+        const bool low = is_ray_work(unit.kind) == rays_are_cheap;
         const double ns = !unit.range.is_known() ? unit.ns : low ? unit.range.low : unit.range.high;
-        ms += work_count_of_kind(counts, unit.kind) * ns * 1e-6;
+        ms += count_of(counts, unit.kind) * ns * 1e-6;
     }
     return ms;
 }
 
 /// Returns the indices of the rows that no other row beats, the fastest row first. Rows without a
 /// predicted time are left out.
-std::vector<std::size_t> find_pareto_front_of_predicted_times(const std::vector<Row>& rows,
-                                                              const std::vector<double>& ms) {
+std::vector<std::size_t> front_of_times(const std::vector<Row>& rows,
+                                        const std::vector<double>& ms) {
     const auto beats = [&](std::size_t a, std::size_t b) {
         const double flip_a = rows[a].error.flip, flip_b = rows[b].error.flip;
         return ms[a] <= ms[b] && flip_a <= flip_b && (ms[a] < ms[b] || flip_a < flip_b);
@@ -97,12 +95,12 @@ std::vector<std::size_t> find_pareto_front_of_predicted_times(const std::vector<
 
 } // namespace
 
-std::string_view cost_origin_name(UnitCostOrigin origin) {
+std::string_view cost_origin_name(CostOrigin origin) {
     constexpr std::string_view kCostOriginNames[] = {"fitted", "literature", "given"};
     return kCostOriginNames[static_cast<std::size_t>(origin)];
 }
 
-double UnitCostFitQuality::share_of_predictions_within_factor(double factor) const {
+double FitQuality::share_within(double factor) const {
     std::size_t within = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
         within += left_out_ms[i] <= samples[i].ms * factor &&
@@ -112,8 +110,8 @@ double UnitCostFitQuality::share_of_predictions_within_factor(double factor) con
 
 PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
     PredictedTime time;
-    for (const WorkUnitCost& unit : costs.units) {
-        const double millions = work_count_of_kind(counts, unit.kind) * 1e-6; // ns to ms
+    for (const UnitCost& unit : costs.units) {
+        const double millions = count_of(counts, unit.kind) * 1e-6; // ns to ms
         time.ms += millions * unit.ns;
         time.low += millions * (unit.range.is_known() ? unit.range.low : unit.ns);
         time.high += millions * (unit.range.is_known() ? unit.range.high : unit.ns);
@@ -121,73 +119,68 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
     return time;
 }
 
-Interval find_prediction_error(const DeviceCosts& costs) {
+Interval prediction_error(const DeviceCosts& costs) {
     constexpr double kTail = .05;
     std::vector<double> ratios;
     for (std::size_t i = 0; costs.fit && i < costs.fit->samples.size(); ++i)
         if (costs.fit->left_out_ms[i] > 0)
             ratios.push_back(costs.fit->samples[i].ms / costs.fit->left_out_ms[i]);
     if (ratios.empty()) return {};
-    return {compute_percentile(ratios, kTail), compute_percentile(ratios, 1 - kTail)};
+    return {percentile(ratios, kTail), percentile(ratios, 1 - kTail)};
 }
 
-PredictedParetoFront
-find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& rows,
-                            const std::vector<std::optional<PredictedTime>>& measured) {
+PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& rows,
+                             const std::vector<std::optional<PredictedTime>>& measured) {
     constexpr double kUnknownFrameTime = std::numeric_limits<double>::quiet_NaN();
-    PredictedParetoFront front;
+    PredictedFront front;
     std::vector<double> ms, cheap, dear;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& row = rows[i];
         if (i < measured.size() && measured[i]) {
             front.times.push_back(*measured[i]);
             for (std::vector<double>* times : {&ms, &cheap, &dear})
-                times->push_back(is_row_eligible_for_ranking(row) ? measured[i]->ms
-                                                                  : kUnknownFrameTime);
+                times->push_back(is_rankable(row) ? measured[i]->ms : kUnknownFrameTime);
             continue;
         }
-        const WorkCounts counts = total_work_counts_of_row(row);
+        const WorkCounts counts = total_work(row);
         const bool is_known = has_counted_work(row);
         front.times.push_back(
             is_known ? predict_time(costs, counts)
                      : PredictedTime{kUnknownFrameTime, kUnknownFrameTime, kUnknownFrameTime});
-        const bool takes_part = is_known && is_row_eligible_for_ranking(row);
+        const bool takes_part = is_known && is_rankable(row);
         ms.push_back(takes_part ? front.times.back().ms : kUnknownFrameTime);
-        cheap.push_back(takes_part ? predict_time_at_cost_bounds(costs, counts, true)
-                                   : kUnknownFrameTime);
-        dear.push_back(takes_part ? predict_time_at_cost_bounds(costs, counts, false)
-                                  : kUnknownFrameTime);
+        cheap.push_back(takes_part ? predict_at_bounds(costs, counts, true) : kUnknownFrameTime);
+        dear.push_back(takes_part ? predict_at_bounds(costs, counts, false) : kUnknownFrameTime);
     }
-    front.rows = find_pareto_front_of_predicted_times(rows, ms);
-    front.rows_if_rays_are_cheap = find_pareto_front_of_predicted_times(rows, cheap);
-    front.rows_if_rays_are_dear = find_pareto_front_of_predicted_times(rows, dear);
+    front.rows = front_of_times(rows, ms);
+    front.rows_cheap_rays = front_of_times(rows, cheap);
+    front.rows_dear_rays = front_of_times(rows, dear);
     return front;
 }
 
-DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samples,
-                           std::span<const WorkKind> kinds) {
+DeviceCosts fit_costs(std::string device, std::vector<TimedWork> samples,
+                      std::span<const WorkKind> kinds) {
     check(samples.size() >= kinds.size() && !kinds.empty(), Failure::usage, "fitting the costs of ",
           kinds.size(), " kinds of work: wanted at least as many measured rows, found ",
           samples.size());
-    std::vector<ValuePerWorkKind> rows;
-    UnitCostNormalEquations all(kinds.size());
-    for (const TimedWorkSample& sample : samples) {
+    std::vector<KindValues> rows;
+    NormalEquations all(kinds.size());
+    for (const TimedWork& sample : samples) {
         check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
               "': wanted a time above 0 ms, found ", sample.ms);
-        ValuePerWorkKind& row = rows.emplace_back();
-        for (const WorkKind kind : kinds)
-            row.push_back(work_count_of_kind(sample.counts, kind) / sample.ms);
+        KindValues& row = rows.emplace_back();
+        for (const WorkKind kind : kinds) row.push_back(count_of(sample.counts, kind) / sample.ms);
         all.add_sample(row, 1);
     }
-    DeviceCosts costs{.device = std::move(device), .origin = UnitCostOrigin::fitted};
-    const ValuePerWorkKind found = solve_for_nonnegative_costs(all);
+    DeviceCosts costs{.device = std::move(device), .origin = CostOrigin::fitted};
+    const KindValues found = solve_nonnegative(all);
     for (std::size_t i = 0; i < kinds.size(); ++i)
         if (found[i] > 0) costs.units.push_back({kinds[i], found[i] * 1e6, {}, "fit"});
-    UnitCostFitQuality& fit = costs.fit.emplace();
-    for (const ValuePerWorkKind& row : rows) {
-        UnitCostNormalEquations others = all;
+    FitQuality& fit = costs.fit.emplace();
+    for (const KindValues& row : rows) {
+        NormalEquations others = all;
         others.add_sample(row, -1);
-        const ValuePerWorkKind without = solve_for_nonnegative_costs(others);
+        const KindValues without = solve_nonnegative(others);
         double relative = 0;
         for (std::size_t k = 0; k < row.size(); ++k) relative += without[k] * row[k];
         fit.left_out_ms.push_back(relative * samples[fit.left_out_ms.size()].ms);

@@ -16,12 +16,12 @@ namespace catoptric::measure {
 
 /// Where a cost comes from. fitted: from times measured on the device. literature: from published
 /// figures. given: from the user.
-enum class UnitCostOrigin : std::uint8_t { fitted, literature, given };
+enum class CostOrigin : std::uint8_t { fitted, literature, given };
 /// Returns "fitted", "literature" or "given".
-std::string_view cost_origin_name(UnitCostOrigin origin);
+std::string_view cost_origin_name(CostOrigin origin);
 
 /// Cost of one unit of a kind of work, nanoseconds.
-struct WorkUnitCost {
+struct UnitCost {
     WorkKind kind = WorkKind::fragments;
     double ns = 0;
     Interval range; ///< smallest and largest value that the source supports; unknown if it has none
@@ -29,7 +29,7 @@ struct WorkUnitCost {
 };
 
 /// A row whose time was measured, for a fit.
-struct TimedWorkSample {
+struct TimedWork {
     std::string name;
     WorkCounts counts;
     double ms = 0;
@@ -37,21 +37,21 @@ struct TimedWorkSample {
 
 /// How well fitted costs predict times. The time of each row is predicted by costs that were fitted
 /// to all other rows.
-struct UnitCostFitQuality {
-    std::vector<TimedWorkSample> samples;
+struct FitQuality {
+    std::vector<TimedWork> samples;
     std::vector<double> left_out_ms; ///< predicted time of each sample by a fit without it
     /// Returns the share of samples, 0..1, whose prediction lies within a factor `factor` of the
     /// measured time.
-    double share_of_predictions_within_factor(double factor) const;
+    double share_within(double factor) const;
 };
 
 struct DeviceCosts {
     std::string device; ///< name of the device
-    UnitCostOrigin origin = UnitCostOrigin::given;
+    CostOrigin origin = CostOrigin::given;
     std::string note; ///< what the reader must know of the figures; may be empty
-    std::vector<WorkUnitCost> units;
+    std::vector<UnitCost> units;
     /// Quality of the fit, if this program fitted the costs. Read from a file, it has no counts.
-    std::optional<UnitCostFitQuality> fit;
+    std::optional<FitQuality> fit;
 };
 
 /// Time that costs predict for a frame, milliseconds, with the smallest and largest costs of their
@@ -62,31 +62,30 @@ struct PredictedTime {
 PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts);
 /// Returns the interval of measured by predicted time in which 90 % of the rows of the fit lie.
 /// Unknown without a fit.
-Interval find_prediction_error(const DeviceCosts& costs);
+Interval prediction_error(const DeviceCosts& costs);
 
 /// The rows that no other row beats on a device, by predicted time and by FLIP over the mirrors.
-struct PredictedParetoFront {
+struct PredictedFront {
     std::vector<PredictedTime> times; ///< predicted time of each row; NaN for a row whose work was
                                       ///< not counted
     /// Indices of the rows on the front at the given unit costs, the fastest first.
     std::vector<std::size_t> rows;
     /// The rows on the front if rays have the smallest and all other work the largest cost of its
     /// range, and the other way round. Both equal `rows` if no range is known.
-    std::vector<std::size_t> rows_if_rays_are_cheap, rows_if_rays_are_dear;
+    std::vector<std::size_t> rows_cheap_rays, rows_dear_rays;
 };
 /// Returns the front of the rows that are candidates for ranking and whose work was counted, or
 /// whose time on the device is in `measured`, which has an entry for each row or none at all.
-PredictedParetoFront
-find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& rows,
-                            const std::vector<std::optional<PredictedTime>>& measured = {});
+PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& rows,
+                             const std::vector<std::optional<PredictedTime>>& measured = {});
 
 /// Fits the cost of each kind in `kinds` so that the sum of the squared relative errors is least
 /// and no cost is negative (non-negative least squares by coordinate descent: Franc, Hlavac,
 /// Navara, Sequential Coordinate-Wise Algorithm for the Non-negative Least Squares Problem, 2005).
 /// Kinds with a cost of 0 are left out of the result. Fits once more without each sample, for
-/// UnitCostFitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time
+/// FitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time
 /// that is not positive. Costs O(samples kinds^2) and little more.
-DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samples,
-                           std::span<const WorkKind> kinds);
+DeviceCosts fit_costs(std::string device, std::vector<TimedWork> samples,
+                      std::span<const WorkKind> kinds);
 
 } // namespace catoptric::measure

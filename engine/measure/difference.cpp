@@ -49,7 +49,7 @@ const RegisteredMetric kOffPixelShareMetric{
      .help = "share of the pixels whose largest channel difference exceeds .02",
      .better = BetterDirection::less,
      .order = 102,
-     .columns = {{"off, %", MetricValueFormat::percent, 2}},
+     .columns = {{"off, %", ValueFormat::percent, 2}},
      .get = [](const Difference& error) -> MetricValue { return error.off; }}};
 const RegisteredMetric kMaeMetric{
     {.name = "mae",
@@ -72,7 +72,7 @@ const RegisteredMetric kPsnrMetric{{.name = "psnr",
                                     .help = "-20 log10 rmse; none for equal pictures",
                                     .better = BetterDirection::more,
                                     .order = 106,
-                                    .columns = {{"PSNR dB", MetricValueFormat::fixed, 1}},
+                                    .columns = {{"PSNR dB", ValueFormat::fixed, 1}},
                                     .get = [](const Difference& error) -> MetricValue {
                                         return error.psnr.value_or(Difference::kNone);
                                     }}};
@@ -98,13 +98,12 @@ const RegisteredMetric kMaxDifferenceMetric{
      .better = BetterDirection::less,
      .order = 109,
      .get = [](const Difference& error) -> MetricValue { return error.max; }}};
-const RegisteredMetric kMaxDifferencePixelMetric{
-    {.name = "max_at",
-     .help = "pixel with the largest channel difference",
-     .order = 110,
-     .get = [](const Difference& error) -> MetricValue {
-         return PixelPosition{error.max_x, error.max_y};
-     }}};
+const RegisteredMetric kMaxPixelMetric{{.name = "max_at",
+                                        .help = "pixel with the largest channel difference",
+                                        .order = 110,
+                                        .get = [](const Difference& error) -> MetricValue {
+                                            return PixelPosition{error.max_x, error.max_y};
+                                        }}};
 
 const RegisteredMetric kMeanMetric{
     {.name = "mean",
@@ -120,14 +119,14 @@ const RegisteredMetric kMeanClampedMetric{
      .get = [](const Row& row) -> MetricValue { return row.mean_clamped.rgb; }}};
 
 /// Differences of the pixels of a short run. `largest` is NaN where a pixel is not finite.
-struct PixelDifferenceBlock {
+struct DifferenceBlock {
     static constexpr std::size_t kBlockPixels = 256;
     std::array<double, kBlockPixels> largest, square, absolute;
 };
 
 /// Fills `run` with the differences of `count` pixels of three values each.
-CATOPTRIC_WIDE void compute_block_differences(const float* __restrict a, const float* __restrict b,
-                                              std::size_t count, PixelDifferenceBlock& run) {
+CATOPTRIC_WIDE void compare_block(const float* __restrict a, const float* __restrict b,
+                                  std::size_t count, DifferenceBlock& run) {
     double* __restrict const largest = run.largest.data();
     double* __restrict const square = run.square.data();
     double* __restrict const absolute = run.absolute.data();
@@ -151,11 +150,10 @@ CATOPTRIC_WIDE void compute_block_differences(const float* __restrict a, const f
 
 } // namespace
 
-void PictureDifferenceSum::add_rows(std::span<const vec3> a, std::span<const vec3> b,
-                                    std::span<const std::uint8_t> mask,
-                                    std::span<const float> flip_map) {
-    for (std::size_t first = 0; first < a.size(); first += PixelDifferenceBlock::kBlockPixels) {
-        const std::size_t count = std::min(PixelDifferenceBlock::kBlockPixels, a.size() - first);
+void DifferenceSum::add_rows(std::span<const vec3> a, std::span<const vec3> b,
+                             std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
+    for (std::size_t first = 0; first < a.size(); first += DifferenceBlock::kBlockPixels) {
+        const std::size_t count = std::min(DifferenceBlock::kBlockPixels, a.size() - first);
         const auto part = [&](auto values) {
             return values.empty() ? values : values.subspan(first, count);
         };
@@ -163,11 +161,10 @@ void PictureDifferenceSum::add_rows(std::span<const vec3> a, std::span<const vec
     }
 }
 
-void PictureDifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
-                                   std::span<const std::uint8_t> mask,
-                                   std::span<const float> flip_map) {
-    PixelDifferenceBlock run;
-    compute_block_differences(&a[0].x, &b[0].x, a.size(), run);
+void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
+                            std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
+    DifferenceBlock run;
+    compare_block(&a[0].x, &b[0].x, a.size(), run);
     const std::size_t first = off_.size();
     off_.resize(first + a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -182,7 +179,7 @@ void PictureDifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3
         absolutes_ += run.absolute[i];
         flips_ += static_cast<double>(flip_map[i]);
         largest_.push_back(largest);
-        off_[first + i] = largest > kMaxInvisibleChannelDifference;
+        off_[first + i] = largest > kMaxInvisibleDifference;
         off_count_ += off_[first + i];
         if (largest_.size() == 1 || largest > result_.max) {
             const auto width = static_cast<std::size_t>(width_);
@@ -193,7 +190,7 @@ void PictureDifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3
     }
 }
 
-Difference PictureDifferenceSum::compute_difference_metrics_from_sums() {
+Difference DifferenceSum::finish() {
     Difference result = std::exchange(result_, {});
     const Mask off = std::exchange(off_, {});
     std::vector<double> largest = std::exchange(largest_, {});
@@ -204,7 +201,7 @@ Difference PictureDifferenceSum::compute_difference_metrics_from_sums() {
     result.flip = flips_ / judged;
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.off = static_cast<double>(off_count_) / judged;
-    result.p99 = compute_percentile(std::move(largest), 0.99);
+    result.p99 = percentile(std::move(largest), 0.99);
     result.longest_line = longest_line_length(off, width_);
     return result;
 }
@@ -212,25 +209,25 @@ Difference PictureDifferenceSum::compute_difference_metrics_from_sums() {
 Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                       std::span<const float> flip_map) {
     check_equal_sizes(a, b, mask, flip_map.size());
-    PictureDifferenceSum sum(a.width, a.pixels.size());
+    DifferenceSum sum(a.width, a.pixels.size());
     sum.add_rows(a.pixels, b.pixels, mask, flip_map);
-    Difference result = sum.compute_difference_metrics_from_sums();
-    result.others = compute_picture_metrics({a, b, mask, flip_map});
+    Difference result = sum.finish();
+    result.others = picture_metrics({a, b, mask, flip_map});
     return result;
 }
 
-void PictureMeanSum::add_rows(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
+void MeanSum::add_rows(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
     dvec3 sum = sum_, clamped_sum = clamped_sum_; // local copies stay in registers
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
         sum += dvec3(pixels[i]);
-        clamped_sum += clamp_pixel_to_unit_range(pixels[i]);
+        clamped_sum += clamp_pixel(pixels[i]);
         ++count_;
     }
     sum_ = sum, clamped_sum_ = clamped_sum;
 }
 
-Mean PictureMeanSum::mean(ValueRange range) const {
+Mean MeanSum::mean(ValueRange range) const {
     const dvec3 rgb = (range == ValueRange::clamped ? clamped_sum_ : sum_) /
                       static_cast<double>(count_); // 0/0 is NaN
     return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
@@ -239,7 +236,7 @@ Mean PictureMeanSum::mean(ValueRange range) const {
 Mean mean_of(const Picture& picture, ValueRange range, const Mask& mask) {
     check(mask.empty() || mask.size() == picture.pixels.size(), Failure::bad_data, "a mean of ",
           picture.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
-    PictureMeanSum sum;
+    MeanSum sum;
     sum.add_rows(picture.pixels, mask);
     return sum.mean(range);
 }

@@ -9,11 +9,11 @@ namespace catoptric::measure {
 
 /// Sums the difference of two pictures row by row, so that neither picture needs to be in memory as
 /// a whole. Keeps 9 bytes a pixel. The result does not depend on how many rows each call adds.
-class PictureDifferenceSum {
+class DifferenceSum {
 public:
     /// Reserves memory for all pixels at once, because a list that grows step by step would take
     /// twice as much.
-    PictureDifferenceSum(int width, std::size_t pixel_count) : width_(width) {
+    DifferenceSum(int width, std::size_t pixel_count) : width_(width) {
         off_.reserve(pixel_count), largest_.reserve(pixel_count);
     }
 
@@ -24,7 +24,7 @@ public:
 
     /// Returns the difference over all rows, without the metrics that are computed from pictures.
     /// Resets the sum.
-    Difference compute_difference_metrics_from_sums();
+    Difference finish();
 
 private:
     void add_run(std::span<const vec3> a, std::span<const vec3> b,
@@ -41,7 +41,7 @@ private:
 
 /// Sums the mean of a picture row by row, both of the values as they are and of the values clamped
 /// to [0,1].
-class PictureMeanSum {
+class MeanSum {
 public:
     /// Adds the next rows. `mask` has as many entries as there are pixels; if it is empty, all
     /// pixels count.

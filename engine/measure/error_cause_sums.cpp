@@ -9,10 +9,10 @@ namespace catoptric::measure {
 namespace {
 
 /// Sums of a value over the pixels of each class.
-struct SumsByMirrorBounceClass {
+struct BounceSums {
     double first_order = 0, mirror_in_mirror = 0;
     std::vector<double> per_mirror;
-    double sum_of_all_mirror_pixels() const { return first_order + mirror_in_mirror; }
+    double total() const { return first_order + mirror_in_mirror; }
 };
 
 /// The mirror pixels of a picture, and which of them are counted.
@@ -22,38 +22,37 @@ struct FiniteMirrorPixels {
     std::vector<bool> counts;            ///< whether each pixel of `places` is counted
     std::size_t mirrors = 0;
 
-    SumsByMirrorBounceClass sum_by_mirror_bounce_class(std::span<const double> values) const {
-        SumsByMirrorBounceClass sums;
+    BounceSums sum_by_bounce(std::span<const double> values) const {
+        BounceSums sums;
         sums.per_mirror.resize(mirrors);
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!counts[i]) continue;
             const std::uint32_t hit = hits[places[i]];
-            (second_mirror_of_hit_word(hit) ? sums.mirror_in_mirror
-                                            : sums.first_order) += values[i];
-            sums.per_mirror[first_mirror_of_hit_word(hit).index()] += values[i];
+            (second_mirror(hit) ? sums.mirror_in_mirror : sums.first_order) += values[i];
+            sums.per_mirror[first_mirror(hit).index()] += values[i];
         }
         return sums;
     }
 };
 
-FiniteMirrorPixels list_counted_pixels(std::span<const std::uint32_t> hits,
-                                       std::span<const double> whole,
-                                       const std::vector<PixelErrorCause>& causes) {
-    FiniteMirrorPixels pixels{hits, list_mirror_pixels(hits), {}, 0};
+FiniteMirrorPixels counted_pixels(std::span<const std::uint32_t> hits,
+                                  std::span<const double> whole,
+                                  const std::vector<PixelCause>& causes) {
+    FiniteMirrorPixels pixels{hits, mirror_pixels(hits), {}, 0};
     const auto check_size = [&](std::size_t size, const std::string& what) {
         check(size == pixels.places.size(), Failure::internal, what, ": wanted values of ",
               pixels.places.size(), " mirror pixels, found ", size);
     };
     check_size(whole.size(), "squared errors");
-    for (const PixelErrorCause& cause : causes) {
+    for (const PixelCause& cause : causes) {
         check_size(cause.part.size(), cause.name);
         if (!cause.alone.empty()) check_size(cause.alone.size(), cause.name + " alone");
     }
     for (std::size_t i = 0; i < pixels.places.size(); ++i) {
-        pixels.mirrors = std::max<std::size_t>(
-            pixels.mirrors, first_mirror_of_hit_word(hits[pixels.places[i]]).number());
+        pixels.mirrors = std::max<std::size_t>(pixels.mirrors,
+                                               first_mirror(hits[pixels.places[i]]).number());
         pixels.counts.push_back(std::isfinite(whole[i]) &&
-                                std::ranges::all_of(causes, [i](const PixelErrorCause& cause) {
+                                std::ranges::all_of(causes, [i](const PixelCause& cause) {
                                     return std::isfinite(cause.part[i]) &&
                                            (cause.alone.empty() || std::isfinite(cause.alone[i]));
                                 }));
@@ -62,22 +61,21 @@ FiniteMirrorPixels list_counted_pixels(std::span<const std::uint32_t> hits,
 }
 
 /// Returns the mean over the pixels of each mirror, 0 for a mirror without pixels.
-std::vector<double> compute_mean_per_mirror(const std::vector<double>& sums,
-                                            const std::vector<double>& counts) {
+std::vector<double> mean_per_mirror(const std::vector<double>& sums,
+                                    const std::vector<double>& counts) {
     std::vector<double> means(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i)
         if (counts[i] > 0) means[i] = sums[i] / counts[i];
     return means;
 }
 
-std::vector<std::uint8_t>
-mark_largest_error_cause_of_pixels(const FiniteMirrorPixels& pixels, const Mask& off,
-                                   const std::vector<PixelErrorCause>& causes) {
+std::vector<std::uint8_t> mark_largest_cause(const FiniteMirrorPixels& pixels, const Mask& off,
+                                             const std::vector<PixelCause>& causes) {
     std::vector<std::uint8_t> largest(pixels.hits.size());
     for (std::size_t i = 0; i < pixels.places.size(); ++i) {
         if (!pixels.counts[i] || off[pixels.places[i]] == 0) continue;
         const auto most = std::ranges::max_element(
-            causes, {}, [i](const PixelErrorCause& cause) { return cause.part[i]; });
+            causes, {}, [i](const PixelCause& cause) { return cause.part[i]; });
         largest[pixels.places[i]] = static_cast<std::uint8_t>(most - causes.begin() + 1);
     }
     return largest;
@@ -85,43 +83,36 @@ mark_largest_error_cause_of_pixels(const FiniteMirrorPixels& pixels, const Mask&
 
 } // namespace
 
-std::vector<std::size_t> list_mirror_pixels(std::span<const std::uint32_t> hits) {
+std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (first_mirror_of_hit_word(hits[i])) places.push_back(i);
+        if (first_mirror(hits[i])) places.push_back(i);
     return places;
 }
 
-Causes summarise_error_causes(std::span<const std::uint32_t> hits, const Mask& off,
-                              std::span<const double> whole,
-                              const std::vector<PixelErrorCause>& causes) {
-    const FiniteMirrorPixels pixels = list_counted_pixels(hits, whole, causes);
-    const SumsByMirrorBounceClass counts = pixels.sum_by_mirror_bounce_class(
-                                      std::vector<double>(whole.size(), 1.0)),
-                                  row = pixels.sum_by_mirror_bounce_class(whole);
-    if (counts.sum_of_all_mirror_pixels() == 0) return {};
-    const auto mean = [&](const SumsByMirrorBounceClass& sums) {
-        return sums.sum_of_all_mirror_pixels() / counts.sum_of_all_mirror_pixels();
-    };
-    Causes result{
-        .squared_error = mean(row),
-        .squared_error_per_mirror = compute_mean_per_mirror(row.per_mirror, counts.per_mirror),
-        .largest = mark_largest_error_cause_of_pixels(pixels, off, causes)};
-    for (const PixelErrorCause& cause : causes) {
-        const SumsByMirrorBounceClass part = pixels.sum_by_mirror_bounce_class(cause.part);
-        ErrorCauseShare& summed = result.list.emplace_back(ErrorCauseShare{.name = cause.name});
+Causes summarise_causes(std::span<const std::uint32_t> hits, const Mask& off,
+                        std::span<const double> whole, const std::vector<PixelCause>& causes) {
+    const FiniteMirrorPixels pixels = counted_pixels(hits, whole, causes);
+    const BounceSums counts = pixels.sum_by_bounce(std::vector<double>(whole.size(), 1.0)),
+                     row = pixels.sum_by_bounce(whole);
+    if (counts.total() == 0) return {};
+    const auto mean = [&](const BounceSums& sums) { return sums.total() / counts.total(); };
+    Causes result{.squared_error = mean(row),
+                  .squared_error_per_mirror = mean_per_mirror(row.per_mirror, counts.per_mirror),
+                  .largest = mark_largest_cause(pixels, off, causes)};
+    for (const PixelCause& cause : causes) {
+        const BounceSums part = pixels.sum_by_bounce(cause.part);
+        CauseShare& summed = result.list.emplace_back(CauseShare{.name = cause.name});
         summed.squared_error = mean(part);
-        const auto share = [&](double sum) {
-            return row.sum_of_all_mirror_pixels() > 0 ? sum / row.sum_of_all_mirror_pixels() : NAN;
-        };
-        summed.share = share(part.sum_of_all_mirror_pixels());
+        const auto share = [&](double sum) { return row.total() > 0 ? sum / row.total() : NAN; };
+        summed.share = share(part.total());
         summed.share_first_order = share(part.first_order);
         summed.share_mirror_in_mirror = share(part.mirror_in_mirror);
         for (const double sum : part.per_mirror) summed.share_per_mirror.push_back(share(sum));
         if (cause.alone.empty()) continue;
-        const SumsByMirrorBounceClass alone = pixels.sum_by_mirror_bounce_class(cause.alone);
+        const BounceSums alone = pixels.sum_by_bounce(cause.alone);
         summed.alone = mean(alone);
-        summed.alone_per_mirror = compute_mean_per_mirror(alone.per_mirror, counts.per_mirror);
+        summed.alone_per_mirror = mean_per_mirror(alone.per_mirror, counts.per_mirror);
     }
     // By rounding, a rest of 0 may be slightly negative.
     result.rest_rmse = std::sqrt(std::max(result.list.back().squared_error, 0.0));

@@ -9,9 +9,8 @@
 
 namespace catoptric::measure {
 
-std::optional<UndrawnDielectricReflectionResult>
-find_undrawn_dielectrics(const Comparison& comparison) {
-    UndrawnDielectricReflectionResult finding;
+std::optional<UndrawnDielectrics> find_undrawn_dielectrics(const Comparison& comparison) {
+    UndrawnDielectrics finding;
     for (const Row& row : comparison.rows) {
         const Difference& error = row.error_dielectrics;
         if (error.pixels == 0 || std::isnan(error.flip)) continue;
@@ -27,13 +26,12 @@ find_undrawn_dielectrics(const Comparison& comparison) {
     return finding;
 }
 
-std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Comparison& comparison) {
+std::optional<ClearCost> find_clear_cost(const Comparison& comparison) {
     const Row* one = find_naive_row(comparison, 0);
-    const Row* two = find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::last_captures);
+    const Row* two = find_seed_row(comparison, TechniqueTraits::SeedPart::last_captures);
     if (one == nullptr || two == nullptr) return {};
     const SampleSummary &without = one->elapsed_ms(), &reused = two->elapsed_ms();
-    CaptureClearCostResult finding{one, two,
-                                   median_ratio_interval(without.rounds, reused.rounds).low > 1};
+    ClearCost finding{one, two, median_ratio_interval(without.rounds, reused.rounds).low > 1};
     if (!comparison.clear_ms) return finding;
     const double clear = comparison.clear_ms->median;
     finding.clear_ms = clear;
@@ -43,22 +41,20 @@ std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Compa
     with_clear.resize(std::min(with_clear.size(), clears.size()));
     for (std::size_t i = 0; i < with_clear.size(); ++i) with_clear[i] += clears[i];
     if (finding.one_is_slower)
-        finding.verdict = CaptureClearCostResult::CaptureClearCostVerdict::slower_without;
+        finding.verdict = ClearCost::Verdict::slower_without;
     else if (!(median_ratio_interval(with_clear, reused.rounds).low > 1))
-        finding.verdict = CaptureClearCostResult::CaptureClearCostVerdict::too_little;
+        finding.verdict = ClearCost::Verdict::too_little;
     return finding;
 }
 
-std::optional<StoredDistanceFormatResult>
-find_stored_distance_format_result(const Comparison& comparison) {
+std::optional<DistanceFormatResult> find_distance_format(const Comparison& comparison) {
     const auto eight_bits = [&](std::string_view range) -> const Row* {
-        const KnobNameAndValueText wanted[] = {{"distance", "unorm8"}, {"range", range}};
-        const Row* row = find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::parallax,
-                                               wanted);
+        const KnobText wanted[] = {{"distance", "unorm8"}, {"range", range}};
+        const Row* row = find_seed_row(comparison, TechniqueTraits::SeedPart::parallax, wanted);
         return has_known_error(row) ? row : nullptr;
     };
-    StoredDistanceFormatResult finding{
-        find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::last_captures),
+    DistanceFormatResult finding{
+        find_seed_row(comparison, TechniqueTraits::SeedPart::last_captures),
         find_parallax_row(comparison), eight_bits("200"), eight_bits("1000")};
     if (!has_known_error(finding.plain) || !has_known_error(finding.full)) return {};
     if (finding.near == nullptr && finding.far == nullptr) return {};
@@ -67,9 +63,8 @@ find_stored_distance_format_result(const Comparison& comparison) {
     return finding;
 }
 
-std::optional<BouncesVersusErrorResult>
-find_bounces_versus_error_result(const Comparison& comparison) {
-    BouncesVersusErrorResult finding;
+std::optional<BouncesResult> find_bounces_result(const Comparison& comparison) {
+    BouncesResult finding;
     for (int i = 1; has_known_error(find_naive_row(comparison, i)); ++i)
         finding.steps.push_back(find_naive_row(comparison, i));
     if (finding.steps.size() < 2) return {};
@@ -83,26 +78,25 @@ find_bounces_versus_error_result(const Comparison& comparison) {
     return finding;
 }
 
-std::optional<ParallaxCorrectionPriceResult>
-find_parallax_correction_price(const Comparison& comparison) {
-    const Row* two = find_row_of_seed_part(comparison, TechniqueTraits::SeedPart::last_captures);
+std::optional<ParallaxPrice> find_parallax_price(const Comparison& comparison) {
+    const Row* two = find_seed_row(comparison, TechniqueTraits::SeedPart::last_captures);
     const Row* three = find_parallax_row(comparison);
     if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
-    ParallaxCorrectionPriceResult finding{two, three, RowJudge(comparison.rows).times(*three, *two),
-                                          time_ratio_interval(*three, *two)};
+    ParallaxPrice finding{two, three, RowJudge(comparison.rows).times(*three, *two),
+                          time_ratio_interval(*three, *two)};
     finding.more = three->time_ms().median / two->time_ms().median - 1;
     if (three->memory_bytes > two->memory_bytes)
         finding.more_bytes = three->memory_bytes - two->memory_bytes;
     return finding;
 }
 
-std::optional<RayTracingTimeResult> find_ray_tracing_time_result(const Comparison& comparison) {
+std::optional<RayTracingTime> find_ray_tracing_time(const Comparison& comparison) {
     const Row* three = find_parallax_row(comparison);
     const Row* traced = find_ray_traced_row(comparison);
     if (three == nullptr || traced == nullptr || !(three->time_ms().median > 0)) return {};
-    return RayTracingTimeResult{three, traced, RowJudge(comparison.rows).times(*traced, *three),
-                                time_ratio_interval(*traced, *three),
-                                traced->time_ms().median / three->time_ms().median};
+    return RayTracingTime{three, traced, RowJudge(comparison.rows).times(*traced, *three),
+                          time_ratio_interval(*traced, *three),
+                          traced->time_ms().median / three->time_ms().median};
 }
 
 } // namespace catoptric::measure

@@ -14,20 +14,19 @@ namespace catoptric::measure {
 inline constexpr double kEightBitStep = 1.0 / 255;
 
 /// Result for smooth dielectrics, whose reflection some rows do not draw.
-struct UndrawnDielectricReflectionResult {
+struct UndrawnDielectrics {
     double share = 0; ///< share of the picture's pixels that show smooth dielectrics, 0..1
     /// Rows that draw the reflection, because they trace each pixel.
     std::vector<const Row*> tracing;
     const Row* best = nullptr; ///< the other row with the lowest FLIP over these pixels
 };
 /// Returns nothing if no pixel shows a smooth dielectric or if each row draws the reflection.
-std::optional<UndrawnDielectricReflectionResult>
-find_undrawn_dielectrics(const Comparison& comparison);
+std::optional<UndrawnDielectrics> find_undrawn_dielectrics(const Comparison& comparison);
 
 /// Answer, by device times, to whether clearing cubes explains why part one without
 /// inter-reflections, which renders and clears no cube, is slower than part two.
-struct CaptureClearCostResult {
-    enum class CaptureClearCostVerdict {
+struct ClearCost {
+    enum class Verdict {
         slower_without, ///< part one is slower even without a clear
         too_little, ///< part one is not slower than part two even with the time of the clear added
         explains
@@ -36,24 +35,23 @@ struct CaptureClearCostResult {
     bool one_is_slower = false;
     /// Time to clear all mirrors' cubes; empty if not measured, and then `verdict` says nothing.
     std::optional<double> clear_ms;
-    CaptureClearCostVerdict verdict = CaptureClearCostVerdict::explains;
+    Verdict verdict = Verdict::explains;
     /// Excess of part one with a clear over part two, as a share of part two's time.
     double gap = 0;
 };
-std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Comparison& comparison);
+std::optional<ClearCost> find_clear_cost(const Comparison& comparison);
 
 /// Cost of storing distances in 8 bits. Missing rows are null, but at least one of `near` and `far`
 /// is there.
-struct StoredDistanceFormatResult {
+struct DistanceFormatResult {
     const Row *plain, *full;
     const Row *near, *far;      ///< rows with 8-bit distances up to 200 and up to 1000 units
     bool near_is_worse = false; ///< whether `near` has a larger error than no correction at all
 };
-std::optional<StoredDistanceFormatResult>
-find_stored_distance_format_result(const Comparison& comparison);
+std::optional<DistanceFormatResult> find_distance_format(const Comparison& comparison);
 
 /// Answer to the question whether more bounces bring the technique `naive` closer to the reference.
-struct BouncesVersusErrorResult {
+struct BouncesResult {
     std::vector<const Row*> steps; ///< rows with 1, 2, ... inter-reflections
     double fall = 0;               ///< fall of the rmse from the first to the last step
     /// Whether more inter-reflections help: whether `fall` is larger than kEightBitStep.
@@ -62,12 +60,11 @@ struct BouncesVersusErrorResult {
     /// step. Null otherwise.
     const Row* dominated_by = nullptr;
 };
-std::optional<BouncesVersusErrorResult>
-find_bounces_versus_error_result(const Comparison& comparison);
+std::optional<BouncesResult> find_bounces_result(const Comparison& comparison);
 
 /// Additional cost of the seed report's part three (parallax correction) over its part two (last
 /// frame's captures).
-struct ParallaxCorrectionPriceResult {
+struct ParallaxPrice {
     const Row *two, *three;
     Order order;         ///< of part three's time and part two's
     Interval ratio_ci95; ///< ratio of part three's time to part two's, round by round
@@ -78,11 +75,10 @@ struct ParallaxCorrectionPriceResult {
 
     bool is_tie() const { return order == Order::equal || order == Order::unknown; }
 };
-std::optional<ParallaxCorrectionPriceResult>
-find_parallax_correction_price(const Comparison& comparison);
+std::optional<ParallaxPrice> find_parallax_price(const Comparison& comparison);
 
 /// Time of ray tracing, compared with the seed report's part three (parallax correction).
-struct RayTracingTimeResult {
+struct RayTracingTime {
     const Row *three, *traced;
     Order order; ///< of ray tracing's time and part three's
     Interval ratio_ci95;
@@ -90,6 +86,6 @@ struct RayTracingTimeResult {
 
     bool is_tie() const { return order == Order::equal || order == Order::unknown; }
 };
-std::optional<RayTracingTimeResult> find_ray_tracing_time_result(const Comparison& comparison);
+std::optional<RayTracingTime> find_ray_tracing_time(const Comparison& comparison);
 
 } // namespace catoptric::measure

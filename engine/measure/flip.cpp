@@ -31,7 +31,7 @@ const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312
 const dvec3 kWhiteXyz = kXyzFromRgb * dvec3(1);
 
 /// Returns `matrix * v`. It is written out so that compilers vectorise loops over it.
-inline dvec3 multiply_matrix_by_vector(const dmat3& matrix, const dvec3& v) {
+inline dvec3 multiply(const dmat3& matrix, const dvec3& v) {
     return {matrix[0].x * v.x + matrix[1].x * v.y + matrix[2].x * v.z,
             matrix[0].y * v.x + matrix[1].y * v.y + matrix[2].y * v.z,
             matrix[0].z * v.x + matrix[1].z * v.y + matrix[2].z * v.z};
@@ -44,14 +44,13 @@ const dmat3 kRgbFromRelativeXyz = glm::inverse(kRelativeXyzFromRgb);
 
 /// Returns a colour in opponent space: x achromatic, y red-green, z blue-yellow.
 inline dvec3 ycxcz_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
-    const dvec3 n = multiply_matrix_by_vector(relative_from_rgb, rgb);
+    const dvec3 n = multiply(relative_from_rgb, rgb);
     return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
 }
 
 inline dvec3 rgb_from_ycxcz(const dvec3& ycxcz, const dmat3& rgb_from_relative) {
     const double y = (ycxcz.x + 16) * (1.0 / 116);
-    return multiply_matrix_by_vector(rgb_from_relative,
-                                     {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
+    return multiply(rgb_from_relative, {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
 }
 
 inline double clamp_to_gamut(double value) { return std::min(std::max(value, 0.0), 1.0); }
@@ -80,7 +79,7 @@ inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb)
         return cube_root(std::max(t, kLabLinearEnd)) +
                std::min(t - kLabLinearEnd, 0.0) * (1 / (3 * kCieLabDelta * kCieLabDelta));
     };
-    const dvec3 n = multiply_matrix_by_vector(relative_from_rgb, rgb);
+    const dvec3 n = multiply(relative_from_rgb, rgb);
     const double l = 116 * f(n.y) - 16;
     return {l, 0.01 * l * 500 * (f(n.x) - f(n.y)), 0.01 * l * 200 * (f(n.y) - f(n.z))};
 }
@@ -89,7 +88,7 @@ inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb)
 /// underflow.
 inline double vector_length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-double hyab_colour_distance(const dvec3& a, const dvec3& b) {
+double hyab_distance(const dvec3& a, const dvec3& b) {
     return std::abs(a.x - b.x) + vector_length(a.y - b.y, a.z - b.z);
 }
 
@@ -98,8 +97,7 @@ double hyab_colour_distance(const dvec3& a, const dvec3& b) {
 /// Returns a Gaussian of the contrast sensitivity functions, a * sqrt(pi / b) * exp(-pi^2 x^2 / b),
 /// with x in degrees. It is one factor of a separable two-dimensional kernel, so its amplitude is
 /// the square root. The kernel ends where weights become negligible, and at most at `radius`.
-FilterKernel make_contrast_sensitivity_kernel(double a, double b, int radius,
-                                              double pixels_per_degree) {
+FilterKernel make_sensitivity_kernel(double a, double b, int radius, double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     const double amplitude = std::sqrt(a * std::sqrt(kPi / b));
     // Share of the middle weight that is below float's rounding.
@@ -130,8 +128,8 @@ struct PixelRegion {
 };
 
 /// Converts linear RGB to opponent colours in place.
-CATOPTRIC_WIDE void convert_to_opponent(double* __restrict x, double* __restrict y,
-                                        double* __restrict z, std::size_t count) {
+CATOPTRIC_WIDE void to_opponent(double* __restrict x, double* __restrict y, double* __restrict z,
+                                std::size_t count) {
     const dmat3 relative_from_rgb = kRelativeXyzFromRgb; // a local copy stays in registers
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 colour = ycxcz_from_rgb({x[i], y[i], z[i]}, relative_from_rgb);
@@ -157,20 +155,18 @@ void decode_pixels(const vec3* pixels, std::size_t count, PixelEncoding encoding
 
 /// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
 /// Beyond the picture, its outermost pixels are repeated.
-void convert_region_to_opponent_space(const Picture& display, PixelEncoding encoding,
-                                      const PixelRegion& part, int reach, ChannelPlanes& result) {
+void region_to_opponent(const Picture& display, PixelEncoding encoding, const PixelRegion& part,
+                        int reach, ChannelPlanes& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
-    for (ChannelPlane& plane : result) plane.resize_plane(size.x, size.y);
+    for (ChannelPlane& plane : result) plane.resize(size.x, size.y);
     const auto count = static_cast<std::size_t>(end - first);
     for (int y = 0; y < size.y; ++y) {
         const vec3* const pixels = &display.at(0, std::clamp(low.y + y, 0, display.height - 1));
-        const std::array<double*, 3> rows = {result[0].values_of_plane_row(y),
-                                             result[1].values_of_plane_row(y),
-                                             result[2].values_of_plane_row(y)};
+        const std::array<double*, 3> rows = {result[0].row(y), result[1].row(y), result[2].row(y)};
         decode_pixels(pixels + low.x + first, count, encoding, rows[0] + first, rows[1] + first,
                       rows[2] + first);
-        convert_to_opponent(rows[0] + first, rows[1] + first, rows[2] + first, count);
+        to_opponent(rows[0] + first, rows[1] + first, rows[2] + first, count);
         for (double* const row : rows) {
             std::fill(row, row + first, row[first]);
             std::fill(row + end, row + size.x, row[end - 1]);
@@ -179,8 +175,8 @@ void convert_region_to_opponent_space(const Picture& display, PixelEncoding enco
 }
 
 /// Converts opponent colours to the perceptually uniform space in place, clamped to the gamut.
-CATOPTRIC_WIDE void convert_to_uniform_space(double* __restrict x, double* __restrict y,
-                                             double* __restrict z, std::size_t count) {
+CATOPTRIC_WIDE void to_uniform(double* __restrict x, double* __restrict y, double* __restrict z,
+                               std::size_t count) {
     // local copies stay in registers
     const dmat3 rgb_from_relative = kRgbFromRelativeXyz, relative_from_rgb = kRelativeXyzFromRgb;
     for (std::size_t i = 0; i < count; ++i) {
@@ -200,19 +196,19 @@ struct ColourKernels {
           red_green(make_colour_kernel(1, 0.0053, pixels_per_degree)),
           blue_yellow(make_colour_kernel(34.1, 0.04, pixels_per_degree)),
           blue_yellow_2(make_colour_kernel(13.5, 0.025, pixels_per_degree)) {
-        normalise_kernel_sum({&achromatic_kernel});
-        normalise_kernel_sum({&red_green});
-        normalise_kernel_sum({&blue_yellow, &blue_yellow_2});
+        normalise_sum({&achromatic_kernel});
+        normalise_sum({&red_green});
+        normalise_sum({&blue_yellow, &blue_yellow_2});
     }
 
     FilterKernel achromatic_kernel, red_green, blue_yellow, blue_yellow_2;
 
 private:
     static FilterKernel make_colour_kernel(double a, double b, double pixels_per_degree) {
-        return make_contrast_sensitivity_kernel(a, b, colour_kernel_radius(pixels_per_degree),
-                                                pixels_per_degree);
+        return make_sensitivity_kernel(a, b, colour_kernel_radius(pixels_per_degree),
+                                       pixels_per_degree);
     }
-    static void normalise_kernel_sum(std::initializer_list<FilterKernel*> kernels) {
+    static void normalise_sum(std::initializer_list<FilterKernel*> kernels) {
         double total = 0;
         for (const FilterKernel* kernel : kernels) {
             double line = 0;
@@ -227,7 +223,7 @@ private:
 /// Maps a colour distance to [0,1] (eqs. 5 and 6). Small distances get most of the range.
 class ColourDistanceMap {
 public:
-    /// Returns the mapped difference. `distance` is that of two colours by `hyab_colour_distance`.
+    /// Returns the mapped difference. `distance` is that of two colours by `hyab_distance`.
     float operator()(float distance) const {
         const float error = std::pow(distance, kColourErrorExponent);
         const float knee = kErrorKneeInput * largest_;
@@ -237,7 +233,7 @@ public:
     }
 
 private:
-    static dvec3 hunt_lab_from_linear_rgb(const dvec3& rgb) {
+    static dvec3 hunt_lab_from_linear(const dvec3& rgb) {
         return hunt_lab_from_rgb(rgb, kRelativeXyzFromRgb);
     }
 
@@ -245,16 +241,15 @@ private:
     static constexpr float kErrorKneeInput = 0.4F;      // p_c
     static constexpr float kErrorKneeOutput = 0.95F;    // p_t
     // Green against blue is the largest difference in the sRGB gamut.
-    float largest_ = std::pow(
-        static_cast<float>(hyab_colour_distance(hunt_lab_from_linear_rgb({0, 1, 0}),
-                                                hunt_lab_from_linear_rgb({0, 0, 1}))),
-        kColourErrorExponent);
+    float largest_ = std::pow(static_cast<float>(hyab_distance(hunt_lab_from_linear({0, 1, 0}),
+                                                               hunt_lab_from_linear({0, 0, 1}))),
+                              kColourErrorExponent);
 };
 
 // --- section 4.2: feature pipeline ---------------------------------------------------------------
 
 /// Scales positive weights to sum 1 and negative ones to sum -1.
-void normalise_kernel(FilterKernel& kernel) {
+void normalise(FilterKernel& kernel) {
     double positive = 0;
     double negative = 0;
     for (const double w : kernel.weights) (w > 0 ? positive : negative) += std::abs(w);
@@ -272,16 +267,16 @@ int feature_kernel_radius(double pixels_per_degree) {
 /// degrees, and its first two derivatives.
 struct FeatureKernels {
     explicit FeatureKernels(double pixels_per_degree)
-        : smooth_kernel(feature_kernel_radius(pixels_per_degree)),
-          first(smooth_kernel.kernel_radius), second(smooth_kernel.kernel_radius) {
+        : smooth_kernel(feature_kernel_radius(pixels_per_degree)), first(smooth_kernel.radius),
+          second(smooth_kernel.radius) {
         const double deviation = feature_kernel_deviation(pixels_per_degree);
-        for (int i = -smooth_kernel.kernel_radius; i <= smooth_kernel.kernel_radius; ++i) {
+        for (int i = -smooth_kernel.radius; i <= smooth_kernel.radius; ++i) {
             const double squared = i * i / (deviation * deviation);
             smooth_kernel[i] = std::exp(-squared / 2);
             first[i] = -i * smooth_kernel[i];
             second[i] = (squared - 1) * smooth_kernel[i];
         }
-        normalise_kernel(smooth_kernel), normalise_kernel(first), normalise_kernel(second);
+        normalise(smooth_kernel), normalise(first), normalise(second);
         // Luminance is (achromatic + 16) / 116, and the constant 16 vanishes in derivatives.
         for (FilterKernel* derivative : {&first, &second})
             for (double& weight : derivative->weights) weight /= 116;
@@ -290,14 +285,13 @@ struct FeatureKernels {
     FilterKernel smooth_kernel, first, second;
 };
 
-CATOPTRIC_WIDE void compute_vector_lengths(double* __restrict x, const double* __restrict y,
-                                           std::size_t count) {
+CATOPTRIC_WIDE void vector_lengths(double* __restrict x, const double* __restrict y,
+                                   std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) x[i] = vector_length(x[i], y[i]);
 }
 
 /// Returns the feature difference in [0,1] (eq. 7).
-inline double flip_feature_difference(double edge_a, double edge_b, double point_a,
-                                      double point_b) {
+inline double feature_difference(double edge_a, double edge_b, double point_a, double point_b) {
     const double largest = std::max(std::abs(edge_a - edge_b), std::abs(point_a - point_b));
     return std::sqrt(largest / std::numbers::sqrt2); // q_f = 1/2
 }
@@ -310,16 +304,14 @@ struct FlipKernels {
 };
 
 /// Data of one picture that FLIP compares.
-struct PreparedFlipInput {
+struct FlipInput {
     ChannelPlanes colour;     ///< filtered, clamped to the gamut, in the perceptually uniform space
     ChannelPlane edge, point; ///< strength of an edge and of a point at each pixel
 };
 
 /// Writes the distances of colours and of features, pixel by pixel.
-CATOPTRIC_WIDE void compute_colour_and_feature_distances(const PreparedFlipInput& a,
-                                                         const PreparedFlipInput& b,
-                                                         float* __restrict colours,
-                                                         float* __restrict features) {
+CATOPTRIC_WIDE void compute_distances(const FlipInput& a, const FlipInput& b,
+                                      float* __restrict colours, float* __restrict features) {
     const std::size_t count = a.edge.values.size();
     const double *a_x = a.colour[0].values.data(), *a_y = a.colour[1].values.data(),
                  *a_z = a.colour[2].values.data();
@@ -331,7 +323,7 @@ CATOPTRIC_WIDE void compute_colour_and_feature_distances(const PreparedFlipInput
         colours[i] = static_cast<float>(std::abs(a_x[i] - b_x[i]) +
                                         vector_length(a_y[i] - b_y[i], a_z[i] - b_z[i]));
         features[i] = static_cast<float>(
-            flip_feature_difference(edge_a[i], edge_b[i], point_a[i], point_b[i]));
+            feature_difference(edge_a[i], edge_b[i], point_a[i], point_b[i]));
     }
 }
 
@@ -339,15 +331,15 @@ CATOPTRIC_WIDE void compute_colour_and_feature_distances(const PreparedFlipInput
 class FlipRegionComputer {
 public:
     FlipRegionComputer(const FlipKernels& kernels, PixelEncoding encoding)
-        : flip_kernels_(kernels), encoding_(encoding) {}
+        : kernels_(kernels), encoding_(encoding) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
-    void write_flip_map_region(const Picture& a, const Picture& b, const PixelRegion& part,
-                               float* to, std::ptrdiff_t stride) {
-        prepare_flip_input(a, part, a_);
-        prepare_flip_input(b, part, b_);
+    void write_region(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
+                      std::ptrdiff_t stride) {
+        prepare(a, part, a_);
+        prepare(b, part, b_);
         colours_.resize(a_.edge.values.size()), features_.resize(a_.edge.values.size());
-        compute_colour_and_feature_distances(a_, b_, colours_.data(), features_.data());
+        compute_distances(a_, b_, colours_.data(), features_.data());
         std::size_t i = 0;
         for (int y = part.low.y; y < part.high.y; ++y, to += stride)
             for (int x = 0; x < part.high.x - part.low.x; ++x, ++i)
@@ -355,44 +347,39 @@ public:
     }
 
 private:
-    void prepare_flip_input(const Picture& display, const PixelRegion& part,
-                            PreparedFlipInput& seen) {
-        convert_region_to_opponent_space(display, encoding_, part, flip_kernels_.reach, opponent_);
+    void prepare(const Picture& display, const PixelRegion& part, FlipInput& seen) {
+        region_to_opponent(display, encoding_, part, kernels_.reach, opponent_);
         const auto& [achromatic, red_green, blue_yellow] = opponent_;
-        const ColourKernels& colour = flip_kernels_.colour;
-        convolve_along_x(achromatic, colour.achromatic_kernel, flip_kernels_.reach, part_);
-        sum_convolutions_along_y({{part_, colour.achromatic_kernel}}, flip_kernels_.reach,
-                                 seen.colour[0]);
-        convolve_along_x(red_green, colour.red_green, flip_kernels_.reach, part_);
-        sum_convolutions_along_y({{part_, colour.red_green}}, flip_kernels_.reach, seen.colour[1]);
-        convolve_along_x(blue_yellow, colour.blue_yellow, flip_kernels_.reach, part_);
-        convolve_along_x(blue_yellow, colour.blue_yellow_2, flip_kernels_.reach, part_2_);
-        sum_convolutions_along_y({{part_, colour.blue_yellow}, {part_2_, colour.blue_yellow_2}},
-                                 flip_kernels_.reach, seen.colour[2]);
-        convert_to_uniform_space(seen.colour[0].values.data(), seen.colour[1].values.data(),
-                                 seen.colour[2].values.data(), seen.colour[0].values.size());
+        const ColourKernels& colour = kernels_.colour;
+        convolve_x(achromatic, colour.achromatic_kernel, kernels_.reach, part_);
+        sum_convolutions_y({{part_, colour.achromatic_kernel}}, kernels_.reach, seen.colour[0]);
+        convolve_x(red_green, colour.red_green, kernels_.reach, part_);
+        sum_convolutions_y({{part_, colour.red_green}}, kernels_.reach, seen.colour[1]);
+        convolve_x(blue_yellow, colour.blue_yellow, kernels_.reach, part_);
+        convolve_x(blue_yellow, colour.blue_yellow_2, kernels_.reach, part_2_);
+        sum_convolutions_y({{part_, colour.blue_yellow}, {part_2_, colour.blue_yellow_2}},
+                           kernels_.reach, seen.colour[2]);
+        to_uniform(seen.colour[0].values.data(), seen.colour[1].values.data(),
+                   seen.colour[2].values.data(), seen.colour[0].values.size());
 
-        convolve_along_x(achromatic, flip_kernels_.feature.smooth_kernel, flip_kernels_.reach,
-                         smooth_x_);
-        compute_luminance_gradient(flip_kernels_.feature.first, seen.edge);
-        compute_luminance_gradient(flip_kernels_.feature.second, seen.point);
+        convolve_x(achromatic, kernels_.feature.smooth_kernel, kernels_.reach, smooth_x_);
+        luminance_gradient(kernels_.feature.first, seen.edge);
+        luminance_gradient(kernels_.feature.second, seen.point);
     }
 
     /// Writes the magnitude of the luminance's gradient by a derivative of a Gaussian.
-    void compute_luminance_gradient(const FilterKernel& derivative, ChannelPlane& magnitude) {
-        convolve_along_x(opponent_[0], derivative, flip_kernels_.reach, part_);
-        sum_convolutions_along_y({{part_, flip_kernels_.feature.smooth_kernel}},
-                                 flip_kernels_.reach, magnitude);
-        sum_convolutions_along_y({{smooth_x_, derivative}}, flip_kernels_.reach, part_2_);
-        compute_vector_lengths(magnitude.values.data(), part_2_.values.data(),
-                               magnitude.values.size());
+    void luminance_gradient(const FilterKernel& derivative, ChannelPlane& magnitude) {
+        convolve_x(opponent_[0], derivative, kernels_.reach, part_);
+        sum_convolutions_y({{part_, kernels_.feature.smooth_kernel}}, kernels_.reach, magnitude);
+        sum_convolutions_y({{smooth_x_, derivative}}, kernels_.reach, part_2_);
+        vector_lengths(magnitude.values.data(), part_2_.values.data(), magnitude.values.size());
     }
 
-    const FlipKernels& flip_kernels_;
+    const FlipKernels& kernels_;
     PixelEncoding encoding_;
     ChannelPlanes opponent_;
     ChannelPlane part_, part_2_, smooth_x_;
-    PreparedFlipInput a_, b_;
+    FlipInput a_, b_;
     std::vector<float> colours_, features_;
     ColourDistanceMap colour_difference_;
 };
@@ -400,11 +387,11 @@ private:
 } // namespace
 
 std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_degree) {
-    return compute_flip_of_rows(a, b, 0, a.height, PixelEncoding::srgb, pixels_per_degree);
+    return flip_rows(a, b, 0, a.height, PixelEncoding::srgb, pixels_per_degree);
 }
 
-std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int first, int end,
-                                        PixelEncoding encoding, double pixels_per_degree) {
+std::vector<float> flip_rows(const Picture& a, const Picture& b, int first, int end,
+                             PixelEncoding encoding, double pixels_per_degree) {
     check(a.width == b.width && a.height == b.height, Failure::bad_data,
           "FLIP wants two pictures "
           "of the same size, found ",
@@ -430,9 +417,8 @@ std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int 
         for (int tile = next++; tile < tile_count; tile = next++) {
             const ivec2 low = kFlipTileEdge * ivec2(tile % tiles.x, tile / tiles.x);
             const ivec2 high = min(low + kFlipTileEdge, size), from(0, first);
-            part_of_map.write_flip_map_region(a, b, {low + from, high + from},
-                                              map.data() + std::ptrdiff_t(low.y) * size.x + low.x,
-                                              size.x);
+            part_of_map.write_region(a, b, {low + from, high + from},
+                                     map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
         }
     };
     const unsigned threads = std::min(hardware_thread_count(), static_cast<unsigned>(tile_count));

@@ -17,8 +17,8 @@ enum class PixelEncoding { srgb, linear };
 
 /// Returns the rows [first, end) of the map that `flip` returns. `encoding` is that of both
 /// pictures.
-std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int first, int end,
-                                        PixelEncoding encoding, double pixels_per_degree = 67);
+std::vector<float> flip_rows(const Picture& a, const Picture& b, int first, int end,
+                             PixelEncoding encoding, double pixels_per_degree = 67);
 
 /// Returns the radius of FLIP's filters in pixels.
 int flip_filter_radius(double pixels_per_degree = 67);

@@ -7,10 +7,10 @@ namespace catoptric::measure {
 
 namespace {
 
-double missing_value_to_nan(const std::optional<double>& value) { return value.value_or(NAN); }
+double value_or_nan(const std::optional<double>& value) { return value.value_or(NAN); }
 
 MetricValue list_pass_times(const Row& row) {
-    std::vector<NamedMetricValueParts> list;
+    std::vector<MetricParts> list;
     for (const PassFacts& pass : row.passes)
         list.push_back({"name", pass.name, {{"gpu_ms", pass.gpu_ms}}});
     return list;
@@ -18,7 +18,7 @@ MetricValue list_pass_times(const Row& row) {
 
 /// Returns a count of rays, or no value if the row traces none.
 template <std::uint64_t RayCounts::*Kind>
-MetricValue ray_count_metric_value(const Row& row) {
+MetricValue ray_count(const Row& row) {
     return row.rays ? static_cast<double>((*row.rays).*Kind) : NAN;
 }
 
@@ -27,14 +27,14 @@ const RegisteredMetric kScenePassesMetric{
      .help = "renders of the scene per frame, a cube counted once: the seed report's R",
      .better = BetterDirection::less,
      .order = 10,
-     .columns = {{"R", MetricValueFormat::fixed}},
+     .columns = {{"R", ValueFormat::fixed}},
      .get = [](const Row& row) -> MetricValue { return static_cast<double>(row.scene_passes); }}};
 const RegisteredMetric kSceneDrawsMetric{
     {.name = "scene_draws",
      .help = "renders of the scene per frame, with every face of a cube counted",
      .better = BetterDirection::less,
      .order = 11,
-     .columns = {{"Draws", MetricValueFormat::fixed}},
+     .columns = {{"Draws", ValueFormat::fixed}},
      .get = [](const Row& row) -> MetricValue { return static_cast<double>(row.scene_draws); }}};
 const RegisteredMetric kGpuTimeMetric{
     {.name = "gpu_ms",
@@ -42,7 +42,7 @@ const RegisteredMetric kGpuTimeMetric{
      .help = "time of a frame on the device, from the first to the last time stamp",
      .better = BetterDirection::less,
      .order = 20,
-     .columns = {{"ms", MetricValueFormat::times}, {"95 %", MetricValueFormat::time_interval}},
+     .columns = {{"ms", ValueFormat::times}, {"95 %", ValueFormat::time_interval}},
      .get = [](const Row& row) -> MetricValue { return row.gpu_ms; }}};
 const RegisteredMetric kRecordTimeMetric{
     {.name = "cpu_record_ms",
@@ -50,7 +50,7 @@ const RegisteredMetric kRecordTimeMetric{
      .help = "time to record the command buffer",
      .better = BetterDirection::less,
      .order = 21,
-     .columns = {{.title = "record ms", .style = MetricValueFormat::own_times, .order = 23}},
+     .columns = {{.title = "record ms", .style = ValueFormat::own_times, .order = 23}},
      .get = [](const Row& row) -> MetricValue { return row.cpu_record_ms; }}};
 const RegisteredMetric kWallTimeMetric{
     {.name = "wall_ms",
@@ -58,7 +58,7 @@ const RegisteredMetric kWallTimeMetric{
      .help = "time from submit to fence, without recording and read-back",
      .better = BetterDirection::less,
      .order = 22,
-     .columns = {{"wall ms", MetricValueFormat::times}},
+     .columns = {{"wall ms", ValueFormat::times}},
      .get = [](const Row& row) -> MetricValue { return row.wall_ms; }}};
 const RegisteredMetric kProcessorTimeMetric{
     {.name = "cpu_ms",
@@ -66,8 +66,8 @@ const RegisteredMetric kProcessorTimeMetric{
      .help = "processor time of the whole process per frame, if the device is a processor",
      .better = BetterDirection::less,
      .order = 24,
-     .columns = {{.title = "cpu ms", .style = MetricValueFormat::times, .order = 22},
-                 {.title = "cpu 95 %", .style = MetricValueFormat::time_interval, .order = 22}},
+     .columns = {{.title = "cpu ms", .style = ValueFormat::times, .order = 22},
+                 {.title = "cpu 95 %", .style = ValueFormat::time_interval, .order = 22}},
      .get = [](const Row& row) -> MetricValue { return row.cpu_ms; }}};
 const RegisteredMetric kWaitedShareMetric{
     {.name = "waited",
@@ -101,7 +101,7 @@ const RegisteredMetric kGraphMemoryMetric{
      .help = "memory of the frame's images",
      .better = BetterDirection::less,
      .order = 210,
-     .columns = {{"MiB", MetricValueFormat::mebibytes}},
+     .columns = {{"MiB", ValueFormat::mebibytes}},
      .get = [](const Row& row) -> MetricValue { return static_cast<double>(row.memory_bytes); }}};
 const RegisteredMetric kTracedFractionMetric{
     {.name = "traced_fraction",
@@ -109,10 +109,8 @@ const RegisteredMetric kTracedFractionMetric{
      .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 220,
-     .columns = {{"Traced, %", MetricValueFormat::percent, 2, MetricTableKind::lookup, 999}},
-     .get = [](const Row& row) -> MetricValue {
-         return missing_value_to_nan(row.traced_fraction);
-     }}};
+     .columns = {{"Traced, %", ValueFormat::percent, 2, TableKind::lookup, 999}},
+     .get = [](const Row& row) -> MetricValue { return value_or_nan(row.traced_fraction); }}};
 const RegisteredMetric kAutoFaceEdgeMetric{
     {.name = "auto_face/edge",
      .unit = "texels",
@@ -133,17 +131,17 @@ const RegisteredMetric kPrimaryRaysMetric{{.name = "rays/primary",
                                            .unit = "rays",
                                            .help = "number of camera rays of a frame",
                                            .order = 240,
-                                           .get = ray_count_metric_value<&RayCounts::primary>}};
+                                           .get = ray_count<&RayCounts::primary>}};
 const RegisteredMetric kMirrorRaysMetric{{.name = "rays/mirror",
                                           .unit = "rays",
                                           .help = "number of reflected rays of a frame",
                                           .order = 241,
-                                          .get = ray_count_metric_value<&RayCounts::mirror>}};
+                                          .get = ray_count<&RayCounts::mirror>}};
 const RegisteredMetric kShadowRaysMetric{{.name = "rays/shadow",
                                           .unit = "rays",
                                           .help = "number of shadow rays of a frame",
                                           .order = 242,
-                                          .get = ray_count_metric_value<&RayCounts::shadow>}};
+                                          .get = ray_count<&RayCounts::shadow>}};
 const RegisteredMetric kSaturatedTexelsMetric{
     {.name = "saturated_texels",
      .unit = "texels",

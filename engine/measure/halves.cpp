@@ -15,7 +15,7 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the root of the squared error plus `margin`; 0 if that is negative, and NaN for NaN.
-double root_of_square_with_margin(const Difference& error, double margin) {
+double root_with_margin(const Difference& error, double margin) {
     if (margin == 0 && !(error.rmse < 0)) return error.rmse; // no noise
     const double square = std::copysign(error.rmse * error.rmse, error.rmse) + margin;
     return square < 0 ? 0 : std::sqrt(square);
@@ -23,41 +23,37 @@ double root_of_square_with_margin(const Difference& error, double margin) {
 
 } // namespace
 
-double find_rmse_bound(const Difference& error) {
-    return root_of_square_with_margin(error, error.square_margin);
+double rmse_bound(const Difference& error) { return root_with_margin(error, error.square_margin); }
+
+double lower_rmse_bound(const Difference& error) {
+    return root_with_margin(error, -error.square_margin);
 }
 
-double find_lower_rmse_bound(const Difference& error) {
-    return root_of_square_with_margin(error, -error.square_margin);
-}
+double flip_bound(const Difference& error) { return error.flip + error.flip_floor; }
 
-double find_flip_bound(const Difference& error) { return error.flip + error.flip_floor; }
-
-double find_lower_flip_bound(const Difference& error) {
+double lower_flip_bound(const Difference& error) {
     const double bound = error.flip - error.flip_floor;
     return bound < 0 ? 0 : bound;
 }
 
-double square_root_keeping_sign(double square) {
-    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
-}
+double signed_sqrt(double square) { return square < 0 ? -std::sqrt(-square) : std::sqrt(square); }
 
 namespace {
 
-constexpr int kBootstrapResampleCount = 1000;
+constexpr int kResamples = 1000;
 constexpr std::uint64_t kBootstrapSeed = 1;
 
 /// Sum over the pixels of one bootstrap tile whose values are finite.
-struct BootstrapTileSum {
+struct TileSum {
     double products = 0, pixels = 0;
 };
 
 /// Returns the product of both differences, summed over the channels.
-double product_of_channel_differences(const dvec3& x, const dvec3& a, const dvec3& b) {
+double difference_product(const dvec3& x, const dvec3& a, const dvec3& b) {
     return glm::dot(x - a, x - b);
 }
 
-bool has_channel_clamped_in_one_only(const vec3& a, const vec3& b) {
+bool clamps_differ(const vec3& a, const vec3& b) {
     for (int channel = 0; channel < 3; ++channel)
         if ((a[channel] > 1) != (b[channel] > 1)) return true;
     return false;
@@ -70,8 +66,8 @@ bool has_channel_clamped_in_one_only(const vec3& a, const vec3& b) {
 /// If both halves are below 1, a true value of 1 or more looks too dark. For symmetric noise, this
 /// is at most as likely as both halves above 1. Those pixels therefore count twice, unless they are
 /// so bright that the noise cannot bring them below 1.
-double excess_of_clamped_channels(const dvec3& x, const dvec3& a, const dvec3& b, const vec3& raw_a,
-                                  const vec3& raw_b) {
+double clamped_excess(const dvec3& x, const dvec3& a, const dvec3& b, const vec3& raw_a,
+                      const vec3& raw_b) {
     constexpr float kFarAboveNoise = 10; // in differences of the halves
     double excess = 0;
     for (int channel = 0; channel < 3; ++channel) {
@@ -91,7 +87,7 @@ double excess_of_clamped_channels(const dvec3& x, const dvec3& a, const dvec3& b
 /// a normal distribution are exceeded with a probability of .00003, which leaves room for noise
 /// that is not normal. The deviation is estimated from `count` squares around 0, so fewer values
 /// need more (Student's t, by the expansion of Cornish and Fisher). One value bounds nothing.
-double deviations_of_noise_margin(double count) {
+double margin_deviations(double count) {
     constexpr double kZ = 4;
     constexpr double kZ3 = kZ * kZ * kZ, kZ5 = kZ3 * kZ * kZ;
     if (count < 2) return INFINITY;
@@ -100,65 +96,63 @@ double deviations_of_noise_margin(double count) {
 }
 
 /// Returns the interval of the mean product over tiles that are drawn with replacement.
-Interval compute_bootstrap_interval(std::vector<BootstrapTileSum> tiles) {
-    std::erase_if(tiles, [](const BootstrapTileSum& tile) { return tile.pixels == 0; });
-    if (tiles.size() < kMinTilesForInterval) return {};
+Interval bootstrap_interval(std::vector<TileSum> tiles) {
+    std::erase_if(tiles, [](const TileSum& tile) { return tile.pixels == 0; });
+    if (tiles.size() < kMinTiles) return {};
     std::mt19937_64 random(kBootstrapSeed);
     std::vector<double> means;
-    means.reserve(kBootstrapResampleCount);
-    for (int k = 0; k < kBootstrapResampleCount; ++k) {
-        BootstrapTileSum sum;
+    means.reserve(kResamples);
+    for (int k = 0; k < kResamples; ++k) {
+        TileSum sum;
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const BootstrapTileSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
+            const TileSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
             sum.products += drawn.products, sum.pixels += drawn.pixels;
         }
         means.push_back(sum.products / (3 * sum.pixels));
     }
-    return {compute_percentile(means, .025), compute_percentile(std::move(means), .975)};
+    return {percentile(means, .025), percentile(std::move(means), .975)};
 }
 
 /// Sums of squared errors over the pixels of one mask.
-struct NoiseFreeErrorSum {
-    std::vector<BootstrapTileSum> tiles;
+struct NoiseFreeSum {
+    std::vector<TileSum> tiles;
     double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
     double variance = 0;     ///< variance of `products`
     double clamp_excess = 0; ///< by which clamping may have lowered `products`
 };
 
-NoiseFreeErrorSum sum_noise_free_error_over_mask(const Picture& picture,
-                                                 const NoisyReferenceHalves& halves,
-                                                 const Mask& mask,
-                                                 std::span<const float> flip_map) {
+NoiseFreeSum sum_noise_free(const Picture& picture, const NoisyHalves& halves, const Mask& mask,
+                            std::span<const float> flip_map) {
     const auto width = static_cast<std::size_t>(picture.width);
     const std::size_t across = (width + kBootstrapTileEdge - 1) / kBootstrapTileEdge;
-    NoiseFreeErrorSum sum;
+    NoiseFreeSum sum;
     sum.tiles.resize(
         across * ((picture.pixels.size() / width + kBootstrapTileEdge - 1) / kBootstrapTileEdge));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const vec3 &x = picture.pixels[i], &a = halves.a.pixels[i], &b = halves.b.pixels[i];
         if (!mask.empty() && mask[i] == 0) continue;
         if (!is_finite_pixel(x) || !is_finite_pixel(a) || !is_finite_pixel(b)) continue;
-        const dvec3 low_a = clamp_pixel_to_unit_range(a), low_b = clamp_pixel_to_unit_range(b);
-        const dvec3 low_x = clamp_pixel_to_unit_range(x);
-        const double product = product_of_channel_differences(low_x, low_a, low_b);
-        BootstrapTileSum& tile =
+        const dvec3 low_a = clamp_pixel(a), low_b = clamp_pixel(b);
+        const dvec3 low_x = clamp_pixel(x);
+        const double product = difference_product(low_x, low_a, low_b);
+        TileSum& tile =
             sum.tiles[i / width / kBootstrapTileEdge * across + i % width / kBootstrapTileEdge];
         tile.products += product, ++tile.pixels;
         sum.products += product, ++sum.pixels;
         const double swapped = glm::dot(low_x - (low_a + low_b) / 2., low_a - low_b);
         sum.variance += swapped * swapped;
-        sum.clamp_excess += excess_of_clamped_channels(low_x, low_a, low_b, a, b);
-        sum.unclamped += product_of_channel_differences(dvec3(x), dvec3(a), dvec3(b));
+        sum.clamp_excess += clamped_excess(low_x, low_a, low_b, a, b);
+        sum.unclamped += difference_product(dvec3(x), dvec3(a), dvec3(b));
         sum.between += glm::dot(low_a - low_b, low_a - low_b);
-        sum.crossing += has_channel_clamped_in_one_only(a, b);
+        sum.crossing += clamps_differ(a, b);
         sum.flip += static_cast<double>(flip_map[i]);
         sum.floor += static_cast<double>(halves.floor_map[i]);
     }
     return sum;
 }
 
-void check_halves_match_picture(const Picture& picture, const NoisyReferenceHalves& halves,
-                                const Mask& mask, std::size_t flip_size) {
+void check_halves(const Picture& picture, const NoisyHalves& halves, const Mask& mask,
+                  std::size_t flip_size) {
     for (const Picture* half : {&halves.a, &halves.b})
         check(half->width == picture.width && half->height == picture.height, Failure::bad_data,
               "halves of a reference: wanted the size of the picture, ", picture.width, "x",
@@ -171,7 +165,7 @@ void check_halves_match_picture(const Picture& picture, const NoisyReferenceHalv
           halves.floor_map.size());
 }
 
-MetricValue interval_to_metric_value(const Interval& interval) {
+MetricValue interval_value(const Interval& interval) {
     return interval.is_known() ? MetricValue(std::vector{interval.low, interval.high})
                                : MetricValue();
 }
@@ -187,9 +181,8 @@ const RegisteredMetric kNoiseMetric{
 
 } // namespace
 
-NoisyReferenceHalves make_noisy_reference_halves(const Picture& a, const Picture& b,
-                                                 double exposure) {
-    NoisyReferenceHalves halves{apply_exposure(a, exposure), apply_exposure(b, exposure), {}, {}};
+NoisyHalves make_halves(const Picture& a, const Picture& b, double exposure) {
+    NoisyHalves halves{apply_exposure(a, exposure), apply_exposure(b, exposure), {}, {}};
     halves.mean = Picture(a.width, a.height);
     for (std::size_t i = 0; i < halves.mean.pixels.size(); ++i)
         halves.mean.pixels[i] = vec3((dvec3(halves.a.pixels[i]) + dvec3(halves.b.pixels[i])) / 2.);
@@ -197,9 +190,8 @@ NoisyReferenceHalves make_noisy_reference_halves(const Picture& a, const Picture
     return halves;
 }
 
-std::vector<float> compute_flip_against_halves(const Picture& picture,
-                                               const NoisyReferenceHalves& halves,
-                                               double exposure) {
+std::vector<float> flip_against_halves(const Picture& picture, const NoisyHalves& halves,
+                                       double exposure) {
     const Picture shown = to_unrounded_display(picture, exposure);
     std::vector<float> map = flip(shown, to_unrounded_display(halves.a));
     const std::vector<float> second = flip(shown, to_unrounded_display(halves.b));
@@ -207,34 +199,30 @@ std::vector<float> compute_flip_against_halves(const Picture& picture,
     return map;
 }
 
-Difference compute_difference_from_halves(const Picture& picture,
-                                          const NoisyReferenceHalves& halves, const Mask& mask,
-                                          std::span<const float> flip_map) {
-    check_halves_match_picture(picture, halves, mask, flip_map.size());
+Difference difference_from_halves(const Picture& picture, const NoisyHalves& halves,
+                                  const Mask& mask, std::span<const float> flip_map) {
+    check_halves(picture, halves, mask, flip_map.size());
     Difference result = difference(picture, halves.mean, mask, flip_map);
-    const NoiseFreeErrorSum sum = sum_noise_free_error_over_mask(picture, halves, mask, flip_map);
+    const NoiseFreeSum sum = sum_noise_free(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return result;
-    result.rmse = square_root_keeping_sign(sum.products / (3 * sum.pixels));
+    result.rmse = signed_sqrt(sum.products / (3 * sum.pixels));
     result.psnr.reset();
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.flip_floor = sum.floor / sum.pixels;
-    const double noise = sum.variance > 0
-                             ? deviations_of_noise_margin(sum.pixels) * std::sqrt(sum.variance)
-                             : 0;
+    const double noise = sum.variance > 0 ? margin_deviations(sum.pixels) * std::sqrt(sum.variance)
+                                          : 0;
     result.square_margin = (noise + sum.clamp_excess) / (3 * sum.pixels);
     return result;
 }
 
-NoiseFreeErrorEstimate estimate_noise_free_error_by_halves(const Picture& picture,
-                                                           const NoisyReferenceHalves& halves,
-                                                           const Mask& mask,
-                                                           std::span<const float> flip_map) {
-    check_halves_match_picture(picture, halves, mask, flip_map.size());
-    NoiseFreeErrorSum sum = sum_noise_free_error_over_mask(picture, halves, mask, flip_map);
+NoiseFreeError estimate_noise_free(const Picture& picture, const NoisyHalves& halves,
+                                   const Mask& mask, std::span<const float> flip_map) {
+    check_halves(picture, halves, mask, flip_map.size());
+    NoiseFreeSum sum = sum_noise_free(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return {};
     const double values = 3 * sum.pixels;
     return {.squared_error = sum.products / values,
-            .ci95 = compute_bootstrap_interval(std::move(sum.tiles)),
+            .ci95 = bootstrap_interval(std::move(sum.tiles)),
             .deviation = std::sqrt(sum.variance) / values,
             .unclamped = sum.unclamped / values,
             .crossing = sum.crossing / sum.pixels,
@@ -247,11 +235,11 @@ bool is_below_noise(const Difference& error) {
     return error.flip_floor > 0 && error.flip <= error.flip_floor;
 }
 
-double find_flip_noise_floor(const Difference& a, const Difference& b) {
+double flip_noise_floor(const Difference& a, const Difference& b) {
     return std::max(a.flip_floor, b.flip_floor);
 }
 
-double choose_target_noise_floor(const std::vector<const Row*>& rows) {
+double target_noise_floor(const std::vector<const Row*>& rows) {
     constexpr double kNoiseShareOfFlip = .2;
     double captures = INFINITY, others = INFINITY;
     for (const Row* row : rows) {
@@ -264,15 +252,15 @@ double choose_target_noise_floor(const std::vector<const Row*>& rows) {
     return std::isfinite(least) ? kNoiseShareOfFlip * least : 0;
 }
 
-void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estimates) {
-    std::vector<NamedMetricValueParts> list;
+void set_noise(Row& row, const std::vector<NoiseFreeError>& estimates) {
+    std::vector<MetricParts> list;
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-        const NoiseFreeErrorEstimate& estimate = estimates[i];
+        const NoiseFreeError& estimate = estimates[i];
         if (std::isnan(estimate.squared_error)) continue; // a mask without pixels has no estimate
         list.push_back({"mask",
-                        std::string(list_row_masks()[i].name),
+                        std::string(row_masks()[i].name),
                         {{"squared_error", estimate.squared_error},
-                         {"ci95", interval_to_metric_value(estimate.ci95)},
+                         {"ci95", interval_value(estimate.ci95)},
                          {"deviation", estimate.deviation},
                          {"squared_error_unclamped", estimate.unclamped},
                          {"crossing", estimate.crossing},
@@ -280,7 +268,7 @@ void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estim
                          {"flip", estimate.flip},
                          {"flip_floor", estimate.flip_floor}}});
     }
-    set_row_metric_of_study(row, std::string(kNoiseMetricName), std::move(list));
+    set_study_metric(row, std::string(kNoiseMetricName), std::move(list));
 }
 
 } // namespace catoptric::measure

@@ -16,66 +16,64 @@
 namespace catoptric::measure {
 
 /// Two halves of a reference, as linear RGB after exposure, and the FLIP between them.
-struct NoisyReferenceHalves {
+struct NoisyHalves {
     Picture a, b;
     Picture mean;                 ///< mean of both halves
     std::vector<float> floor_map; ///< FLIP map of `a` and `b`
 };
 /// Returns halves with these pictures. `exposure`: stops, by which the pictures are multiplied.
-NoisyReferenceHalves make_noisy_reference_halves(const Picture& a, const Picture& b,
-                                                 double exposure);
+NoisyHalves make_halves(const Picture& a, const Picture& b, double exposure);
 
 /// Returns the mean of a picture's FLIP maps against the two halves. `picture` is linear, before
 /// exposure.
-std::vector<float> compute_flip_against_halves(const Picture& picture,
-                                               const NoisyReferenceHalves& halves, double exposure);
+std::vector<float> flip_against_halves(const Picture& picture, const NoisyHalves& halves,
+                                       double exposure);
 
 /// Returns the difference of a picture, after exposure, and the halves. `rmse` is the root of the
 /// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below
 /// the noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map`
-/// (see compute_flip_against_halves), and `flip_floor` the mean FLIP between the halves.
+/// (see flip_against_halves), and `flip_floor` the mean FLIP between the halves.
 /// `square_margin` is such that the true squared error exceeds the estimate by more with a
 /// probability of kNoiseMissProbability at most. All other figures are those against the mean of
 /// both halves, whose noise they include.
-Difference compute_difference_from_halves(const Picture& picture,
-                                          const NoisyReferenceHalves& halves, const Mask& mask,
-                                          std::span<const float> flip_map);
+Difference difference_from_halves(const Picture& picture, const NoisyHalves& halves,
+                                  const Mask& mask, std::span<const float> flip_map);
 
-/// Probability that noise makes an error exceed find_rmse_bound, for noise that is independent in
-/// each pixel and nearly normal in the sum over pixels. Taken for find_flip_bound as well, whose
+/// Probability that noise makes an error exceed rmse_bound, for noise that is independent in
+/// each pixel and nearly normal in the sum over pixels. Taken for flip_bound as well, whose
 /// noise is not known in closed form (tests/unit/halves_test.cpp tries it).
 inline constexpr double kNoiseMissProbability = .001;
 /// Returns a bound of the picture's error against the reference without noise: the root of the
 /// squared error plus its margin. Without noise it is the error itself. NaN without finite pixels.
-double find_rmse_bound(const Difference& error);
+double rmse_bound(const Difference& error);
 /// Returns a bound of the picture's FLIP against the reference without noise: the mean FLIP against
 /// both halves plus the FLIP between them. FLIP against a half alone may be too small, because
 /// noise of the half can resemble noise of the picture. Differences of colours obey the triangle
 /// inequality: the difference from the truth is at most that from a half plus that of this half
 /// from the truth, and the two halves differ more than a half and the truth.
-double find_flip_bound(const Difference& error);
+double flip_bound(const Difference& error);
 /// Return a bound on the other side, which the picture's error is not below, as an audit needs it
 /// for alarms. 0 if the error may be 0.
-double find_lower_rmse_bound(const Difference& error);
-double find_lower_flip_bound(const Difference& error);
+double lower_rmse_bound(const Difference& error);
+double lower_flip_bound(const Difference& error);
 
 /// Returns sqrt(square), or -sqrt(-square) if an unbiased squared error is negative, as
 /// Difference::rmse has it.
-double square_root_keeping_sign(double square);
+double signed_sqrt(double square);
 
 /// Edge of the tiles that the bootstrap draws, pixels.
 inline constexpr int kBootstrapTileEdge = 16;
 /// Fewest tiles with pixels of the mask for which there is an interval.
-inline constexpr std::size_t kMinTilesForInterval = 10;
+inline constexpr std::size_t kMinTiles = 10;
 
 /// The estimate of a picture's squared error over the pixels of a mask, and its noise. All squared
 /// errors are means over pixels and channels.
-struct NoiseFreeErrorEstimate {
+struct NoiseFreeError {
     /// Unbiased for the clamped pictures: linear RGB times 2^exposure, clamped to [0,1].
     double squared_error = Difference::kNone;
     /// 95 % interval of the squared error, by the percentile bootstrap over tiles of 16x16 pixels
     /// (Efron and Tibshirani 1993, 13). Neighbouring pixels share errors, and tiles keep them
-    /// together. Unknown for fewer than kMinTilesForInterval tiles.
+    /// together. Unknown for fewer than kMinTiles tiles.
     Interval ci95;
     /// Standard deviation of the estimate by the noise of this picture's halves alone. With M =
     /// (A + B) / 2, the product (x - M)(A - B) has the variance of (x - A)(x - B) if the noise of
@@ -92,28 +90,26 @@ struct NoiseFreeErrorEstimate {
     double flip = Difference::kNone;        ///< as in Difference
     double flip_floor = Difference::kNone;  ///< as in Difference
 };
-NoiseFreeErrorEstimate estimate_noise_free_error_by_halves(const Picture& picture,
-                                                           const NoisyReferenceHalves& halves,
-                                                           const Mask& mask,
-                                                           std::span<const float> flip_map);
+NoiseFreeError estimate_noise_free(const Picture& picture, const NoisyHalves& halves,
+                                   const Mask& mask, std::span<const float> flip_map);
 
 /// Returns whether a row's FLIP over these pixels is no larger than that between the halves of its
 /// reference. False for a reference without noise.
 bool is_below_noise(const Difference& error);
 /// Returns the difference of two rows' FLIP below which they tie: the larger floor of the two, or 0
 /// for references without noise.
-double find_flip_noise_floor(const Difference& a, const Difference& b);
+double flip_noise_floor(const Difference& a, const Difference& b);
 
 /// Returns the noise floor (FLIP between the halves) at which a reference needs no more frames: a
 /// fifth of the least FLIP over the mirrors of a row that looks into captures. If there is no such
 /// row, all rows except the reference count. Returns 0 if there are no rows.
-double choose_target_noise_floor(const std::vector<const Row*>& rows);
+double target_noise_floor(const std::vector<const Row*>& rows);
 
-/// Name of the metric that lists a row's NoiseFreeErrorEstimate for each mask, and of the study
+/// Name of the metric that lists a row's NoiseFreeError for each mask, and of the study
 /// that shows it.
 inline constexpr std::string_view kNoiseMetricName = "noise";
-/// Sets the row's metric kNoiseMetricName. `estimates` has one entry for each of list_row_masks().
-void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estimates);
+/// Sets the row's metric kNoiseMetricName. `estimates` has one entry for each of row_masks().
+void set_noise(Row& row, const std::vector<NoiseFreeError>& estimates);
 
 /// The noise of a comparison's reference.
 struct ReferenceNoise {
@@ -134,7 +130,7 @@ struct ReferenceNoise {
 
     /// Returns whether a half has fewer rays than the reference asks for.
     bool is_coarse() const { return rays * frames < wanted_rays; }
-    bool is_noise_target_reached() const { return flip_floor <= wanted_floor; }
+    bool is_target_reached() const { return flip_floor <= wanted_floor; }
 };
 
 } // namespace catoptric::measure

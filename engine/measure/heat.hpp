@@ -10,7 +10,7 @@ namespace catoptric::measure {
 /// yellow. Lightness (CIE L*) rises evenly with the value, so the order survives grey print and
 /// colour blindness. Values outside are clamped. NaN becomes cyan, a colour that the map does not
 /// contain.
-vec3 heat_map_colour(float value);
+vec3 heat_colour(float value);
 
 /// Returns the picture of a row-major error map, ready for `write_png`. `high` is the value that
 /// gets the last colour. Throws `internal` if the map has not width * height values or `high` is

@@ -9,7 +9,7 @@ namespace {
 
 /// Returns the largest k, from 1, for which P(Binomial(n, 1/2) < k) <= 2.5 %, or 0 if there is
 /// none.
-std::size_t order_statistic_rank_of_median_interval(std::size_t n) {
+std::size_t interval_rank(std::size_t n) {
     const auto count = static_cast<double>(n);
     double log_term = -count * std::log(2.0); // logarithm of P(Binomial = k)
     double below = 0;                         // P(Binomial < k)
@@ -23,18 +23,17 @@ std::size_t order_statistic_rank_of_median_interval(std::size_t n) {
 }
 
 template <typename Pair>
-Interval median_interval_over_pairs(std::span<const double> a, std::span<const double> b,
-                                    Pair&& pair) {
+Interval interval_over_pairs(std::span<const double> a, std::span<const double> b, Pair&& pair) {
     std::vector<double> values;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
         values.push_back(pair(a[i], b[i]));
-    return median_confidence_interval(values);
+    return median_interval(values);
 }
 
 } // namespace
 
-Interval median_confidence_interval(std::span<const double> values) {
-    const std::size_t rank = order_statistic_rank_of_median_interval(values.size());
+Interval median_interval(std::span<const double> values) {
+    const std::size_t rank = interval_rank(values.size());
     if (rank == 0 || std::ranges::any_of(values, [](double value) { return std::isnan(value); }))
         return {};
     std::vector<double> sorted(values.begin(), values.end());
@@ -50,11 +49,11 @@ Order compare_to_limit(const Interval& interval, double limit) {
 }
 
 Interval median_ratio_interval(std::span<const double> a, std::span<const double> b) {
-    return median_interval_over_pairs(a, b, [](double x, double y) { return x / y; });
+    return interval_over_pairs(a, b, [](double x, double y) { return x / y; });
 }
 
 Interval median_difference_interval(std::span<const double> a, std::span<const double> b) {
-    return median_interval_over_pairs(a, b, [](double x, double y) { return x - y; });
+    return interval_over_pairs(a, b, [](double x, double y) { return x - y; });
 }
 
 MedianWithInterval ratio_of_medians(const MedianWithInterval& a, const MedianWithInterval& b) {

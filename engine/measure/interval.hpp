@@ -17,7 +17,7 @@ inline constexpr std::size_t kMinIntervalSamples = 6;
 /// largest value. k is the largest rank for which P(Binomial(n, 1/2) < k) <= 2.5 % (David and
 /// Nagaraja, Order Statistics, 7.1). For 6 to 8 values it is their range (96.9 % for 6). It is
 /// unknown for fewer than `kMinIntervalSamples` values or if a value is NaN. Costs O(n log n).
-Interval median_confidence_interval(std::span<const double> values);
+Interval median_interval(std::span<const double> values);
 
 /// How a measured value stands to another value or to a limit.
 enum class Order : std::uint8_t { less, equal, more, unknown };

@@ -14,8 +14,8 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the first row on the front that beats this row, or null if none does.
-const Row* find_row_dominating(const RowJudge& judge, const std::vector<const Row*>& front,
-                               const Row& loser) {
+const Row* find_dominating(const RowJudge& judge, const std::vector<const Row*>& front,
+                           const Row& loser) {
     const auto found = std::ranges::find_if(
         front, [&](const Row* row) { return judge.beats(*row, loser); });
     return found == front.end() ? nullptr : *found;
@@ -44,7 +44,7 @@ double chi_square_limit(double degrees) {
 /// Returns whether Friedman's test shows that some of the rows differ in time. False for fewer than
 /// kMinIntervalSamples common rounds. With few rounds its statistic is only about that of
 /// chi-square: a limit of 5 % gave 6 % of errors in drawn tables, so the limit is 2.5 %.
-bool do_times_differ(const std::vector<Row>& rows) {
+bool times_differ(const std::vector<Row>& rows) {
     std::vector<const std::vector<double>*> times;
     for (const Row& row : rows)
         if (has_known_time(row) && row.time_ms().rounds.size() >= kMinIntervalSamples)
@@ -90,18 +90,15 @@ bool has_known_error(const Row* row) {
     return row != nullptr && !has_nonfinite_pixels(*row) && std::isfinite(row->error.rmse);
 }
 
-bool is_row_eligible_for_ranking(const Row& row) {
-    return has_known_error(&row) && !row.mirrors_black;
-}
+bool is_rankable(const Row& row) { return has_known_error(&row) && !row.mirrors_black; }
 
 bool has_known_time(const Row& row) { return !std::isnan(row.time_ms().median); }
 
-bool is_judged_row(const Row& row) {
-    return is_row_eligible_for_ranking(row) && !std::isnan(row.error.flip) &&
-           row.time_ms().median > 0;
+bool is_judged(const Row& row) {
+    return is_rankable(row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
 }
 
-std::string_view find_judged_time(const Comparison& comparison) {
+std::string_view judged_time(const Comparison& comparison) {
     const auto timed = std::ranges::find_if(comparison.rows, has_known_time);
     return timed == comparison.rows.end() ? Row().time_metric() : timed->time_metric();
 }
@@ -118,18 +115,18 @@ Order compare_times(const Row& a, const Row& b) {
 
 Order compare_flip(const Row& a, const Row& b) {
     if (!a.views.empty() || !b.views.empty()) {
-        const Interval difference = metric_difference_interval_over_views(a, b, "flip");
+        const Interval difference = metric_difference_interval(a, b, "flip");
         if (difference.low >= -kEqualFlip && difference.high <= kEqualFlip) return Order::equal;
         return compare_to_limit(difference, 0);
     }
     const double difference = a.error.flip - b.error.flip;
     if (std::isnan(difference)) return Order::unknown;
-    if (std::abs(difference) <= std::max(kEqualFlip, find_flip_noise_floor(a.error, b.error)))
+    if (std::abs(difference) <= std::max(kEqualFlip, flip_noise_floor(a.error, b.error)))
         return Order::equal;
     return difference < 0 ? Order::less : Order::more;
 }
 
-RowJudge::RowJudge(const std::vector<Row>& rows) : times_differ_(do_times_differ(rows)) {}
+RowJudge::RowJudge(const std::vector<Row>& rows) : times_differ_(times_differ(rows)) {}
 
 Order RowJudge::times(const Row& a, const Row& b) const {
     const Order order = compare_times(a, b);
@@ -137,24 +134,24 @@ Order RowJudge::times(const Row& a, const Row& b) const {
 }
 
 bool RowJudge::beats(const Row& a, const Row& b) const {
-    if (!is_judged_row(a) || !is_judged_row(b)) return false;
+    if (!is_judged(a) || !is_judged(b)) return false;
     const Order time = times(a, b), error = flip(a, b);
     return (time == Order::less && (error == Order::less || error == Order::equal)) ||
            (time == Order::equal && error == Order::less);
 }
 
 bool RowJudge::is_open(const Row& a, const Row& b) const {
-    if (&a == &b || !is_judged_row(a) || !is_judged_row(b)) return false;
+    if (&a == &b || !is_judged(a) || !is_judged(b)) return false;
     const Order time = times(a, b), error = flip(a, b);
     return (time == Order::unknown && error != Order::more) ||
            (error == Order::unknown && time != Order::more);
 }
 
-std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows) {
+std::vector<std::size_t> find_pareto_front(const std::vector<Row>& rows) {
     const RowJudge judge(rows);
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (is_judged_row(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
+        if (is_judged(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
                 return judge.beats(other, rows[i]);
             }))
             front.push_back(i);
@@ -162,10 +159,10 @@ std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows)
     return front;
 }
 
-TimeRankRange find_time_rank_range_of_row(const Comparison& comparison, const Row& row) {
+RankRange find_rank_range(const Comparison& comparison, const Row& row) {
     if (!has_known_time(row)) return {0, 0};
     const RowJudge judge(comparison.rows);
-    TimeRankRange places{1, 0};
+    RankRange places{1, 0};
     for (const Row& other : comparison.rows) {
         if (!has_known_time(other)) continue;
         ++places.last;
@@ -183,7 +180,7 @@ std::vector<const Row*> find_noisy_rows(const Comparison& comparison) {
     return noisy;
 }
 
-bool is_on_pareto_front(const Comparison& comparison, const Row& row) {
+bool is_on_front(const Comparison& comparison, const Row& row) {
     return std::ranges::any_of(comparison.pareto, [&](std::size_t index) {
         return index < comparison.rows.size() && &comparison.rows[index] == &row;
     });
@@ -193,7 +190,7 @@ FastestRows find_fastest_rows(const Comparison& comparison) {
     const RowJudge judge(comparison.rows);
     std::vector<const Row*> timed;
     for (const Row& row : comparison.rows)
-        if (is_row_eligible_for_ranking(row) && has_known_time(row)) timed.push_back(&row);
+        if (is_rankable(row) && has_known_time(row)) timed.push_back(&row);
     FastestRows fastest;
     fastest.candidates = timed.size();
     for (const Row* row : timed)
@@ -210,18 +207,17 @@ FastestRows find_fastest_rows(const Comparison& comparison) {
 const Row* find_closest_row(const Comparison& comparison) {
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows) {
-        if (row.is_reference || !is_row_eligible_for_ranking(row)) continue;
+        if (row.is_reference || !is_rankable(row)) continue;
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     return closest;
 }
 
-std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison) {
+std::vector<const Row*> find_closest_ties(const Comparison& comparison) {
     std::vector<const Row*> ties;
     const Row* closest = find_closest_row(comparison);
     for (const Row& row : comparison.rows) {
-        if (closest == nullptr || &row == closest || row.is_reference ||
-            !is_row_eligible_for_ranking(row))
+        if (closest == nullptr || &row == closest || row.is_reference || !is_rankable(row))
             continue;
         if (compare_flip(*closest, row) != Order::less) ties.push_back(&row);
     }
@@ -239,8 +235,8 @@ RowRanking rank_rows(const Comparison& comparison) {
             result.open.push_back(winner);
         RowRanking::RowWins win{winner, {}};
         for (const Row& row : comparison.rows)
-            if (!is_on_pareto_front(comparison, row) &&
-                find_row_dominating(judge, result.front, row) == winner)
+            if (!is_on_front(comparison, row) &&
+                find_dominating(judge, result.front, row) == winner)
                 win.losers.push_back(&row);
         if (!win.losers.empty()) result.wins.push_back(std::move(win));
     }
@@ -251,8 +247,8 @@ RowRanking rank_rows(const Comparison& comparison) {
             result.black.push_back(&row);
         else if (!has_known_time(row))
             result.untimed.push_back(&row);
-        else if (!is_on_pareto_front(comparison, row) &&
-                 find_row_dominating(judge, result.front, row) == nullptr)
+        else if (!is_on_front(comparison, row) &&
+                 find_dominating(judge, result.front, row) == nullptr)
             result.beaten_by_beaten.push_back(&row);
     }
     return result;
@@ -262,9 +258,9 @@ RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison) {
     const RowJudge judge(comparison.rows);
     std::vector<const Row*> traced, others;
     for (const Row& row : comparison.rows)
-        if (is_judged_row(row)) (is_ray_traced_row(row) ? traced : others).push_back(&row);
+        if (is_judged(row)) (is_ray_traced(row) ? traced : others).push_back(&row);
     RayTracingVerdict verdict;
-    verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced_row);
+    verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced);
     for (const Row* row : others) {
         const bool is_beaten = std::ranges::any_of(
                        traced, [&](const Row*other) { return judge.beats(*other, *row); }),

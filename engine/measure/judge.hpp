@@ -18,15 +18,15 @@ bool has_nonfinite_pixels(const Row& row);
 bool has_known_error(const Row* row);
 /// Returns whether the row takes part in fastest, closest and front. A candidate is judged and
 /// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
-bool is_row_eligible_for_ranking(const Row& row);
+bool is_rankable(const Row& row);
 /// Returns whether the row's time is known. The time of a row whose picture is a file is NaN.
 bool has_known_time(const Row& row);
 /// Returns whether the row is a candidate with a known time above 0 and a known FLIP. Only such
 /// rows beat others or are beaten.
-bool is_judged_row(const Row& row);
+bool is_judged(const Row& row);
 /// Returns the name of the metric by which the rows are judged: "cpu_ms" on a processor, unless all
 /// rows share their frames, "frame_ms" for a moving scene, and otherwise "gpu_ms".
-std::string_view find_judged_time(const Comparison& comparison);
+std::string_view judged_time(const Comparison& comparison);
 /// Returns the interval of a's time divided by b's, round by round. The interval is unknown if the
 /// rows have too few rounds in common.
 Interval time_ratio_interval(const Row& a, const Row& b);
@@ -35,7 +35,7 @@ Interval time_ratio_interval(const Row& a, const Row& b);
 /// to both sides.
 inline constexpr double kEqualTimeRatio = 1.05;
 /// Two FLIP are equal if they differ by at most this, or by at most the noise of the reference
-/// (find_flip_noise_floor).
+/// (flip_noise_floor).
 inline constexpr double kEqualFlip = .002;
 
 /// Returns the order of two times: `equal` within kEqualTimeRatio, `less` or `more` if the interval
@@ -69,21 +69,21 @@ private:
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.
 /// This list is Comparison::pareto. Costs O(n^2).
-std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows);
+std::vector<std::size_t> find_pareto_front(const std::vector<Row>& rows);
 
 /// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
 /// are faster. `last` is the number of rows less those that this row is faster than. Rows whose
 /// times are equal, or cannot be told apart, share places. Both are 0 for a row without a known
 /// time, which takes no place from others.
-struct TimeRankRange {
+struct RankRange {
     std::size_t first = 1, last = 1;
 };
-TimeRankRange find_time_rank_range_of_row(const Comparison& comparison, const Row& row);
+RankRange find_rank_range(const Comparison& comparison, const Row& row);
 
 /// Returns the rows whose threads waited for processors that other programs used.
 std::vector<const Row*> find_noisy_rows(const Comparison& comparison);
 
-bool is_on_pareto_front(const Comparison& comparison, const Row& row);
+bool is_on_front(const Comparison& comparison, const Row& row);
 
 /// The candidates that no other candidate is faster than.
 struct FastestRows {
@@ -99,7 +99,7 @@ FastestRows find_fastest_rows(const Comparison& comparison);
 const Row* find_closest_row(const Comparison& comparison);
 /// Returns the other rows that find_closest_row could name as well, because its FLIP is not less
 /// than theirs (compare_flip).
-std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison);
+std::vector<const Row*> find_closest_ties(const Comparison& comparison);
 
 /// Ranking of the rows: which row beats which.
 struct RowRanking {

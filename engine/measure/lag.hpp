@@ -77,14 +77,14 @@ struct LagResults {
 };
 
 /// Returns a metric of each instant, NaN where the instant sees no mirror.
-std::vector<double> list_error_metric_at_instants(const std::vector<Difference>& errors,
-                                                  double Difference::*figure);
+std::vector<double> values_at_instants(const std::vector<Difference>& errors,
+                                       double Difference::*figure);
 /// Return the mean and a percentile of a metric over the instants that see a mirror, or NaN if none
 /// does. `fraction` is 0..1.
-double mean_error_over_instants(const std::vector<Difference>& errors, double Difference::*figure);
-double percentile_error_over_instants(const std::vector<Difference>& errors,
-                                      double Difference::*figure, double fraction);
+double mean_over_instants(const std::vector<Difference>& errors, double Difference::*figure);
+double percentile_over_instants(const std::vector<Difference>& errors, double Difference::*figure,
+                                double fraction);
 /// Returns the instant of the largest FLIP in seconds, or NaN if there is none.
-double find_instant_of_worst_lag(const LagResults& lag, const LagAtSpeed& at);
+double find_worst_instant(const LagResults& lag, const LagAtSpeed& at);
 
 } // namespace catoptric::measure

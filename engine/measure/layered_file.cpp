@@ -24,7 +24,7 @@ std::size_t find_channel(const ImageShape& shape, const std::string& channel,
 
 } // namespace
 
-void write_picture_layers(const LayeredPictureFile& file, const std::filesystem::path& path) {
+void write_layers(const LayeredFile& file, const std::filesystem::path& path) {
     check(!file.layers.empty(), Failure::internal, "a file of layers wants a layer, found none");
     const Picture& first = file.layers.front().picture;
     ImageShape shape{
@@ -46,8 +46,7 @@ void write_picture_layers(const LayeredPictureFile& file, const std::filesystem:
     write_file(path, encode_openexr(shape, values));
 }
 
-LayeredPictureFile read_picture_layers(const std::filesystem::path& path,
-                                       std::span<const std::string> names) {
+LayeredFile read_layers(const std::filesystem::path& path, std::span<const std::string> names) {
     const std::unique_ptr<ByteSource> bytes = open_source(path);
     std::array<char, 16> start{};
     const std::size_t count = bytes->read(0, start);
@@ -55,7 +54,7 @@ LayeredPictureFile read_picture_layers(const std::filesystem::path& path,
           ": wanted an OpenEXR file, found something else");
     ImageReader exr_reader(*bytes, "openexr", path.string());
     const ImageShape& shape = exr_reader.shape();
-    LayeredPictureFile file{.description = shape.description};
+    LayeredFile file{.description = shape.description};
     std::vector<std::size_t> channels;
     for (const std::string& name : names) {
         file.layers.push_back(

@@ -15,17 +15,16 @@ struct PictureLayer {
     std::string name;
     Picture picture;
 };
-struct LayeredPictureFile {
+struct LayeredFile {
     std::vector<PictureLayer> layers;
     std::string description; ///< text that the file holds beside its pixels
 };
 
 /// Writes an OpenEXR file of 32-bit floats, with each value bit-exact. The file is replaced as a
 /// whole or not at all.
-void write_picture_layers(const LayeredPictureFile& file, const std::filesystem::path& path);
+void write_layers(const LayeredFile& file, const std::filesystem::path& path);
 /// Reads layers of these names. Throws `missing_input` for a missing file, and `bad_data` for a
 /// file without these layers.
-LayeredPictureFile read_picture_layers(const std::filesystem::path& path,
-                                       std::span<const std::string> names);
+LayeredFile read_layers(const std::filesystem::path& path, std::span<const std::string> names);
 
 } // namespace catoptric::measure

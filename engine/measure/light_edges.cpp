@@ -10,10 +10,10 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr int kColumnOrderNextToRmse = 104; // order of columns that stand beside rmse
+constexpr int kOrderAfterRmse = 104; // order of columns that stand beside rmse
 
 template <double LightEdgeErrors::*Figure>
-MetricValue light_edge_metric_value(const Row& row) {
+MetricValue light_edge_value(const Row& row) {
     return row.light_edges ? (*row.light_edges).*Figure : NAN;
 }
 
@@ -24,29 +24,29 @@ const RegisteredMetric kLightEdgeRmseMetric{
      .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 255,
-     .columns = {{.title = "rmse, light edges", .order = kColumnOrderNextToRmse}},
-     .get = light_edge_metric_value<&LightEdgeErrors::rmse>}};
+     .columns = {{.title = "rmse, light edges", .order = kOrderAfterRmse}},
+     .get = light_edge_value<&LightEdgeErrors::rmse>}};
 const RegisteredMetric kRemainingRmseMetric{
     {.name = "light_edges/rest_rmse",
      .help = "part of the rmse from all other pixels",
      .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 256,
-     .columns = {{.title = "rmse, rest", .order = kColumnOrderNextToRmse}},
-     .get = light_edge_metric_value<&LightEdgeErrors::rest_rmse>}};
+     .columns = {{.title = "rmse, rest", .order = kOrderAfterRmse}},
+     .get = light_edge_value<&LightEdgeErrors::rest_rmse>}};
 const RegisteredMetric kLightEdgeShareMetric{
     {.name = "light_edges/share",
      .help = "share of the squared error in pixels that looked within a texel "
              "of a light's outline",
      .mask = kMirrorMaskName,
      .order = 257,
-     .get = light_edge_metric_value<&LightEdgeErrors::share>}};
+     .get = light_edge_value<&LightEdgeErrors::share>}};
 const RegisteredMetric kLightEdgePixelsMetric{
     {.name = "light_edges/pixels",
      .help = "share of the pixels that looked within a texel of a light's outline",
      .mask = kMirrorMaskName,
      .order = 258,
-     .get = light_edge_metric_value<&LightEdgeErrors::pixels>}};
+     .get = light_edge_value<&LightEdgeErrors::pixels>}};
 
 struct SquaredErrorSum {
     /// Finite pixels, and the mean square of a channel times their number. An estimate against a
@@ -54,21 +54,19 @@ struct SquaredErrorSum {
     double pixels = 0, squares = 0;
 };
 
-SquaredErrorSum make_squared_error_sum(const Difference& error) {
+SquaredErrorSum squared_error_sum(const Difference& error) {
     const auto judged = static_cast<double>(error.pixels - error.nonfinite);
     return {judged, judged > 0 ? error.rmse * std::abs(error.rmse) * judged : 0};
 }
 
 } // namespace
 
-LightEdgeErrors split_error_by_light_edges(const Difference& there, const Difference& elsewhere) {
-    const SquaredErrorSum edges = make_squared_error_sum(there),
-                          rest = make_squared_error_sum(elsewhere);
+LightEdgeErrors split_by_light_edges(const Difference& there, const Difference& elsewhere) {
+    const SquaredErrorSum edges = squared_error_sum(there), rest = squared_error_sum(elsewhere);
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
     return {edges.pixels / pixels, squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,
-            square_root_keeping_sign(edges.squares / pixels),
-            square_root_keeping_sign(rest.squares / pixels)};
+            signed_sqrt(edges.squares / pixels), signed_sqrt(rest.squares / pixels)};
 }
 
 } // namespace catoptric::measure

@@ -18,6 +18,6 @@ struct LightEdgeErrors {
 
 /// Returns the split of a row's error. `there` is its difference over pixels at light edges,
 /// `elsewhere` that over all other mirror pixels. All values are NaN if neither has a finite pixel.
-LightEdgeErrors split_error_by_light_edges(const Difference& there, const Difference& elsewhere);
+LightEdgeErrors split_by_light_edges(const Difference& there, const Difference& elsewhere);
 
 } // namespace catoptric::measure

@@ -8,7 +8,7 @@ namespace catoptric::measure {
 
 /// Threshold of a pixel that is off. A pixel is off if its largest channel difference exceeds this
 /// value, in linear RGB with both pictures clamped to [0,1].
-inline constexpr double kMaxInvisibleChannelDifference = .02;
+inline constexpr double kMaxInvisibleDifference = .02;
 
 /// Returns the length in pixels of the longest line in `off`, or 0 without a line. `off` is a mask
 /// of whole rows of `width` pixels. Pixels form one set if at most two others lie between them:

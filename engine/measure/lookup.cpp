@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kFirstOrderMaskName = "first_order";
 
-template <double LookupErrorSummary::*Figure>
-MetricValue lookup_error_metric_of_row(const Row& row) {
+template <double LookupSummary::*Figure>
+MetricValue lookup_value(const Row& row) {
     return row.lookup ? (*row.lookup).*Figure : NAN;
 }
 
@@ -25,7 +25,7 @@ const RegisteredMetric kLookupPixelsMetric{
      .help = "number of mirror pixels whose reflected ray meets no second mirror",
      .mask = kFirstOrderMaskName,
      .order = 260,
-     .columns = {{"Pixels", MetricValueFormat::fixed, 0, MetricTableKind::lookup}},
+     .columns = {{"Pixels", ValueFormat::fixed, 0, TableKind::lookup}},
      .get = [](const Row& row) -> MetricValue {
          return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
      }}};
@@ -36,8 +36,8 @@ const RegisteredMetric kMeanAngleMetric{
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 261,
-     .columns = {{"Mean, degrees", MetricValueFormat::fixed, 3, MetricTableKind::lookup}},
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::mean_degrees>}};
+     .columns = {{"Mean, degrees", ValueFormat::fixed, 3, TableKind::lookup}},
+     .get = lookup_value<&LookupSummary::mean_degrees>}};
 const RegisteredMetric kAnglePercentile95Metric{
     {.name = "lookup/p95_degrees",
      .unit = "degrees",
@@ -45,8 +45,8 @@ const RegisteredMetric kAnglePercentile95Metric{
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 262,
-     .columns = {{"95 %", MetricValueFormat::fixed, 2, MetricTableKind::lookup}},
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::p95_degrees>}};
+     .columns = {{"95 %", ValueFormat::fixed, 2, TableKind::lookup}},
+     .get = lookup_value<&LookupSummary::p95_degrees>}};
 const RegisteredMetric kAnglePercentile99Metric{
     {.name = "lookup/p99_degrees",
      .unit = "degrees",
@@ -54,31 +54,31 @@ const RegisteredMetric kAnglePercentile99Metric{
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 263,
-     .columns = {{"99 %", MetricValueFormat::fixed, 2, MetricTableKind::lookup}},
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::p99_degrees>}};
+     .columns = {{"99 %", ValueFormat::fixed, 2, TableKind::lookup}},
+     .get = lookup_value<&LookupSummary::p99_degrees>}};
 const RegisteredMetric kWrongObjectMetric{
     {.name = "lookup/wrong_object",
      .help = "share of the pixels whose look-up finds another object than the true one",
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 264,
-     .columns = {{"Wrong object, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::wrong_object>}};
+     .columns = {{"Wrong object, %", ValueFormat::percent, 2, TableKind::lookup}},
+     .get = lookup_value<&LookupSummary::wrong_object>}};
 const RegisteredMetric kUnknownLookupsMetric{
     {.name = "lookup/unknown",
      .help = "share of the pixels whose search answers unknown",
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 265,
-     .columns = {{"Unknown, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::unknown>}};
+     .columns = {{"Unknown, %", ValueFormat::percent, 2, TableKind::lookup}},
+     .get = lookup_value<&LookupSummary::unknown>}};
 const RegisteredMetric kMissedLookupsMetric{
     {.name = "lookup/miss",
      .help = "share of the pixels whose search answers miss",
      .mask = kFirstOrderMaskName,
      .order = 266,
-     .columns = {{"Miss, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::miss>}};
+     .columns = {{"Miss, %", ValueFormat::percent, 2, TableKind::lookup}},
+     .get = lookup_value<&LookupSummary::miss>}};
 const RegisteredMetric kLookupResidualMetric{
     {.name = "lookup/p95_residual",
      .help = "95th percentile, over hits, of the relative distance between the point found and the "
@@ -86,31 +86,30 @@ const RegisteredMetric kLookupResidualMetric{
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 267,
-     .get = lookup_error_metric_of_row<&LookupErrorSummary::p95_residual>}};
+     .get = lookup_value<&LookupSummary::p95_residual>}};
 
 } // namespace
 
-LookupErrorSummary summarise_lookup_errors(std::span<const LookupDirectionError> pixels) {
-    LookupErrorSummary error;
+LookupSummary summarise_lookups(std::span<const LookupError> pixels) {
+    LookupSummary error;
     error.pixels = pixels.size();
     if (pixels.empty()) return error;
     std::vector<double> angles;
-    for (const LookupDirectionError& pixel : pixels) angles.push_back(pixel.angle_degrees);
+    for (const LookupError& pixel : pixels) angles.push_back(pixel.angle_degrees);
     const auto count = static_cast<double>(pixels.size());
     const auto share = [&](auto&& is) {
         return static_cast<double>(std::ranges::count_if(pixels, is)) / count;
     };
     error.mean_degrees = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
-    error.p95_degrees = compute_percentile(angles, 0.95);
-    error.p99_degrees = compute_percentile(angles, 0.99);
-    error.wrong_object = share(
-        [](const LookupDirectionError& pixel) { return pixel.wrong_object; });
-    error.unknown = share([](const LookupDirectionError& pixel) { return pixel.state == 1; });
-    error.miss = share([](const LookupDirectionError& pixel) { return pixel.state == 2; });
+    error.p95_degrees = percentile(angles, 0.95);
+    error.p99_degrees = percentile(angles, 0.99);
+    error.wrong_object = share([](const LookupError& pixel) { return pixel.wrong_object; });
+    error.unknown = share([](const LookupError& pixel) { return pixel.state == 1; });
+    error.miss = share([](const LookupError& pixel) { return pixel.state == 2; });
     std::vector<double> residuals;
-    for (const LookupDirectionError& pixel : pixels)
+    for (const LookupError& pixel : pixels)
         if (pixel.state == 0) residuals.push_back(pixel.residual);
-    if (!residuals.empty()) error.p95_residual = compute_percentile(std::move(residuals), 0.95);
+    if (!residuals.empty()) error.p95_residual = percentile(std::move(residuals), 0.95);
     return error;
 }
 

@@ -13,10 +13,10 @@ namespace {
 
 bool is_row_metric(const Metric& quantity) {
     return std::holds_alternative<Metric::RowMetricFunction>(quantity.get) ||
-           std::holds_alternative<Metric::IsMetricOfStudy>(quantity.get);
+           std::holds_alternative<Metric::FromStudy>(quantity.get);
 }
 
-std::vector<Metric> list_metrics_in_order() {
+std::vector<Metric> sorted_metrics() {
     std::vector<Metric> rows = sorted_rows<Metric>();
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
@@ -27,14 +27,14 @@ std::vector<Metric> list_metrics_in_order() {
 /// Returns the index of a metric among those that are computed from pictures.
 std::size_t picture_metric_index(const Metric& quantity) {
     std::size_t index = 0;
-    for (const Metric& row : list_metrics()) {
+    for (const Metric& row : metrics()) {
         if (row.name == quantity.name) break;
         index += std::holds_alternative<Metric::PictureMetricFunction>(row.get);
     }
     return index;
 }
 
-constexpr RowPixelMask kRowPixelMasks[] = {
+constexpr RowMask kRowMasks[] = {
     {"error", "mirrors", "", &Errors::error},
     {"error_first_order", "first_order", "first order", &Errors::error_first_order},
     {"error_mirror_in_mirror", "mirror_in_mirror", "mirror in mirror",
@@ -52,26 +52,26 @@ RegisteredMetric::RegisteredMetric(Metric quantity) {
     table_rows<Metric>().push_back(std::move(quantity));
 }
 
-const std::vector<Metric>& list_metrics() {
-    static const std::vector<Metric> kRows = list_metrics_in_order();
+const std::vector<Metric>& metrics() {
+    static const std::vector<Metric> kRows = sorted_metrics();
     return kRows;
 }
 
-const std::vector<Metric>& list_difference_metrics() {
+const std::vector<Metric>& difference_metrics() {
     static const std::vector<Metric> kRows = [] {
-        std::vector<Metric> rows = list_metrics();
+        std::vector<Metric> rows = metrics();
         std::erase_if(rows, is_row_metric);
         return rows;
     }();
     return kRows;
 }
 
-void set_row_metric_of_study(Row& row, const std::string& metric, MetricValue value) {
+void set_study_metric(Row& row, const std::string& metric, MetricValue value) {
     if (!row.studied) row.studied = std::make_shared<Studied>();
     row.studied->values[metric] = std::move(value);
 }
 
-MetricValue find_row_metric_of_study(const Row& row, std::string_view metric) {
+MetricValue study_metric(const Row& row, std::string_view metric) {
     if (!row.studied) return {};
     const auto found = row.studied->values.find(metric);
     return found == row.studied->values.end() ? MetricValue() : found->second;
@@ -81,24 +81,24 @@ MetricValue metric_value(const Metric& quantity, const Row& row) {
     check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a row");
     if (const auto* get = std::get_if<Metric::RowMetricFunction>(&quantity.get)) return (*get)(row);
-    return find_row_metric_of_study(row, quantity.name);
+    return study_metric(row, quantity.name);
 }
 
 MetricValue metric_value(const Metric& quantity, const Difference& difference) {
     check(!is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a difference");
-    if (const auto* get = std::get_if<Metric::DifferenceMetricFunction>(&quantity.get))
+    if (const auto* get = std::get_if<Metric::DifferenceFunction>(&quantity.get))
         return (*get)(difference);
     const std::size_t index = picture_metric_index(quantity);
     return index < difference.others.size() ? difference.others[index] : NAN;
 }
 
-bool is_metric_shown(const Metric& quantity, const Comparison& comparison) {
+bool is_shown(const Metric& quantity, const Comparison& comparison) {
     return quantity.study.empty() ||
            std::ranges::find(comparison.studies, quantity.study) != comparison.studies.end();
 }
 
-bool is_missing_value(const MetricValue& value) {
+bool is_missing(const MetricValue& value) {
     struct MissingValueVisitor {
         bool operator()(std::monostate) const { return true; }
         bool operator()(bool) const { return false; }
@@ -109,24 +109,22 @@ bool is_missing_value(const MetricValue& value) {
         bool operator()(const PixelPosition& place) const { return place.x < 0; }
         bool operator()(const SampleSummary& times) const { return times.n == 0; }
         bool operator()(const std::vector<double>& list) const { return list.empty(); }
-        bool operator()(const std::vector<NamedMetricValueParts>& list) const {
-            return list.empty();
-        }
+        bool operator()(const std::vector<MetricParts>& list) const { return list.empty(); }
     };
     return std::visit(MissingValueVisitor{}, value);
 }
 
-std::vector<double> compute_picture_metrics(const PicturePair& compared) {
+std::vector<double> picture_metrics(const PicturePair& compared) {
     std::vector<double> figures;
-    for (const Metric& quantity : list_metrics())
+    for (const Metric& quantity : metrics())
         if (const auto* get = std::get_if<Metric::PictureMetricFunction>(&quantity.get))
             figures.push_back((*get)(compared));
     return figures;
 }
 
-std::span<const RowPixelMask> list_row_masks() { return kRowPixelMasks; }
+std::span<const RowMask> row_masks() { return kRowMasks; }
 
-bool has_table_columns(const RowPixelMask& mask, const Comparison& comparison) {
+bool has_table_columns(const RowMask& mask, const Comparison& comparison) {
     return !mask.only_where_some || std::ranges::any_of(comparison.rows, [&](const Row& row) {
         return (row.*mask.error).pixels > 0;
     });

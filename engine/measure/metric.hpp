@@ -22,15 +22,15 @@ struct PixelPosition {
     int x = -1, y = -1;
 };
 
-struct NamedMetricValueParts;
+struct MetricParts;
 
 /// Value of a metric. A double that is not finite, a time that was never measured and an invalid
-/// place count as no value (see is_missing_value).
+/// place count as no value (see is_missing).
 using MetricValue = std::variant<std::monostate, bool, double, dvec3, PixelPosition, SampleSummary,
-                                 std::vector<double>, std::vector<NamedMetricValueParts>>;
+                                 std::vector<double>, std::vector<MetricParts>>;
 
 /// An entry of a list of values, such as the times of passes or the shares of causes.
-struct NamedMetricValueParts {
+struct MetricParts {
     std::string_view kind; ///< the field that holds the entry's name, such as "name"
     std::string name;
     std::vector<std::pair<std::string_view, MetricValue>> values;
@@ -41,14 +41,14 @@ struct Studied {
     std::map<std::string, MetricValue, std::less<>> values;
 };
 /// Sets the row's value of a metric of a study.
-void set_row_metric_of_study(Row& row, const std::string& metric, MetricValue value);
+void set_study_metric(Row& row, const std::string& metric, MetricValue value);
 /// Returns the row's value of a metric of a study; no value if the study has not set it.
-MetricValue find_row_metric_of_study(const Row& row, std::string_view metric);
+MetricValue study_metric(const Row& row, std::string_view metric);
 
 enum class BetterDirection : std::uint8_t { neither, less, more };
 
 /// Format of a value in a table cell.
-enum class MetricValueFormat : std::uint8_t {
+enum class ValueFormat : std::uint8_t {
     fixed,         ///< a fixed number of decimals
     error,         ///< error: four decimals, or one digit and an exponent below .00005
     times,         ///< the median, with the decimals of the whole table
@@ -57,14 +57,14 @@ enum class MetricValueFormat : std::uint8_t {
     percent,       ///< a share in percent, with a fixed number of decimals
     mebibytes,
 };
-enum class MetricTableKind : std::uint8_t { rows, lookup };
+enum class TableKind : std::uint8_t { rows, lookup };
 
 /// Column of the report's tables.
 struct MetricColumn {
     std::string_view title;
-    MetricValueFormat style = MetricValueFormat::error;
+    ValueFormat style = ValueFormat::error;
     int decimals = 0;
-    MetricTableKind table = MetricTableKind::rows;
+    TableKind table = TableKind::rows;
     int order = 0; ///< place among the table's columns; 0 means the metric's order
 };
 
@@ -84,7 +84,7 @@ struct Metric {
     std::string_view name;
     std::string_view unit = {}; ///< "ms", "bytes"; empty for a plain number
     std::string_view help;
-    /// Pixels that the metric covers: a name of `list_row_masks()`, or empty if it is not about
+    /// Pixels that the metric covers: a name of `row_masks()`, or empty if it is not about
     /// pixels. A metric of a difference has a value for each mask and each mirror, and its `mask`
     /// becomes "each".
     std::string_view mask = {};
@@ -99,15 +99,13 @@ struct Metric {
     std::string_view study = {};
 
     /// Marks a metric whose value is the entry of its name in Row::studied.
-    struct IsMetricOfStudy {};
+    struct FromStudy {};
     using RowMetricFunction = MetricValue (*)(const Row&);
-    using DifferenceMetricFunction = MetricValue (*)(const Difference&);
+    using DifferenceFunction = MetricValue (*)(const Difference&);
     /// Function that computes a metric of two pictures. A value that is not finite counts as no
     /// value. The function is called once for each mask of pixels.
     using PictureMetricFunction = double (*)(const PicturePair&);
-    std::variant<IsMetricOfStudy, RowMetricFunction, DifferenceMetricFunction,
-                 PictureMetricFunction>
-        get;
+    std::variant<FromStudy, RowMetricFunction, DifferenceFunction, PictureMetricFunction> get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program
@@ -117,28 +115,28 @@ struct RegisteredMetric {
 };
 
 /// Upper limit of Metric::order for metrics of differences, which use orders from 100 on.
-inline constexpr int kFirstMetricOrderAfterDifferences = 200;
+inline constexpr int kOrderAfterDifferences = 200;
 
 /// Returns all metrics sorted by `order`, then name. Throws `internal` if two have the same name.
-const std::vector<Metric>& list_metrics();
+const std::vector<Metric>& metrics();
 /// Returns the metrics of a difference, whose mask is "each".
-const std::vector<Metric>& list_difference_metrics();
+const std::vector<Metric>& difference_metrics();
 
 /// Return the value of a metric. The first overload throws `internal` for a metric of a difference,
 /// the second for a metric of a row.
 MetricValue metric_value(const Metric& quantity, const Row& row);
 MetricValue metric_value(const Metric& quantity, const Difference& difference);
 /// Returns whether reports on the comparison show the metric (see Metric::study).
-bool is_metric_shown(const Metric& quantity, const Comparison& comparison);
+bool is_shown(const Metric& quantity, const Comparison& comparison);
 /// Returns whether a value counts as none (see MetricValue).
-bool is_missing_value(const MetricValue& value);
+bool is_missing(const MetricValue& value);
 
 /// Returns the values of the metrics that are computed from pictures, in the order of
 /// Difference::others.
-std::vector<double> compute_picture_metrics(const PicturePair& compared);
+std::vector<double> picture_metrics(const PicturePair& compared);
 
 /// Set of pixels over which each row has a difference.
-struct RowPixelMask {
+struct RowMask {
     std::string_view field; ///< field in JSON, such as "error_first_order"
     std::string_view name;  ///< name of the mask, such as "first_order"
     /// Title of the mask in tables. Empty for the mask of all mirror pixels, to which tables refer
@@ -148,8 +146,8 @@ struct RowPixelMask {
     /// Whether tables show the columns of this mask only if some row has pixels in the mask.
     bool only_where_some = false;
 };
-std::span<const RowPixelMask> list_row_masks();
+std::span<const RowMask> row_masks();
 /// Returns whether tables have columns of this mask.
-bool has_table_columns(const RowPixelMask& mask, const Comparison& comparison);
+bool has_table_columns(const RowMask& mask, const Comparison& comparison);
 
 } // namespace catoptric::measure

@@ -21,12 +21,12 @@ double headline_noise(const PathDistance& distance) {
 
 } // namespace
 
-Interval find_path_distance_interval(const PathDistance& distance) {
+Interval distance_interval(const PathDistance& distance) {
     const double flip = headline_flip(distance), noise = headline_noise(distance);
     return {std::clamp(flip - noise, 0.0, 1.0), std::clamp(flip + noise, 0.0, 1.0)};
 }
 
-bool is_path_distance_precise(const PathDistance& distance) {
+bool is_precise(const PathDistance& distance) {
     return headline_noise(distance) <=
            std::max(kPreciseShare * headline_flip(distance), kPreciseNoise);
 }

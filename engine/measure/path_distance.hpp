@@ -26,10 +26,10 @@ struct PathDistance {
 /// Returns the FLIP over the mirrors, or over the whole picture if it shows no mirror, with the
 /// noise taken off and added. By the triangle inequality, the FLIP to a picture without noise lies
 /// between: the mean of both halves is nearer to that picture than the halves are to each other.
-Interval find_path_distance_interval(const PathDistance& distance);
+Interval distance_interval(const PathDistance& distance);
 
 /// Returns whether more paths would say little: the noise is at most a quarter of the distance, or
 /// at most .01.
-bool is_path_distance_precise(const PathDistance& distance);
+bool is_precise(const PathDistance& distance);
 
 } // namespace catoptric::measure

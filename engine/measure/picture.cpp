@@ -43,7 +43,7 @@ void write_display_rows(const Picture& picture, double exposure_stops, Picture& 
 void convert_to_display(const Picture& picture, double exposure_stops, bool is_rounded,
                         Picture& display) {
     if (is_rounded)
-        write_display_rows(picture, exposure_stops, display, SrgbEightBitEncoder::instance());
+        write_display_rows(picture, exposure_stops, display, SrgbEncoder::instance());
     else
         write_display_rows(picture, exposure_stops, display, srgb_from_linear);
 }

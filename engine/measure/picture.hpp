@@ -60,7 +60,7 @@ CATOPTRIC_API Mask read_mask(const std::filesystem::path& path, int width, int h
 CATOPTRIC_API std::string encode_exr(const Picture& picture, const std::string& text = {});
 /// Returns a PNG file with 8 bits a channel of values as displayed (see `to_display`), clamped to
 /// [0,1]; NaN becomes 0. The same picture gives the same bytes.
-CATOPTRIC_API std::string encode_picture_png(const Picture& display);
+CATOPTRIC_API std::string encode_png(const Picture& display);
 
 /// Write these files. A file is replaced as a whole or not at all.
 CATOPTRIC_API void write_exr(const Picture& picture, const std::filesystem::path& path,

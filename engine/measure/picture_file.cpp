@@ -16,7 +16,7 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the format by the first bytes, not by the file name.
-std::string detect_picture_format(const ByteSource& bytes, const std::string& name) {
+std::string picture_format(const ByteSource& bytes, const std::string& name) {
     std::array<char, 16> first{};
     const std::size_t count = bytes.read(0, first);
     std::string format = detect_format({first.data(), count});
@@ -27,7 +27,7 @@ std::string detect_picture_format(const ByteSource& bytes, const std::string& na
 }
 
 ImageReader::ShapeCheck make_shape_check(const std::string& name,
-                                         const PictureReader::PictureSizeCheck& judge) {
+                                         const PictureReader::SizeCheck& judge) {
     return [&name, &judge](const ImageShape& shape) {
         if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
         check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMaxPictureValues,
@@ -38,30 +38,27 @@ ImageReader::ShapeCheck make_shape_check(const std::string& name,
 
 /// Decodes the stored values of a PNG to linear light. Most PNGs have 8 bits, whose light is in a
 /// table.
-class PngToLinearLightDecoder {
+class PngDecoder {
 public:
-    PngToLinearLightDecoder() {
-        for (std::size_t i = 0; i < table_.size(); ++i)
-            table_[i] = decode_srgb_value(stored_integer_to_unit_range(i));
+    PngDecoder() {
+        for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = decode_srgb(to_unit(i));
     }
     float operator()(float value) const {
         // Not negative, so the cast rounds down as floor does.
         const float above = value * 255 + .5F;
         const auto i = static_cast<std::size_t>(static_cast<int>(above));
-        return stored_integer_to_unit_range(i) == value ? table_[i] : decode_srgb_value(value);
+        return to_unit(i) == value ? table_[i] : decode_srgb(value);
     }
 
 private:
-    static float stored_integer_to_unit_range(std::size_t i) {
-        return static_cast<float>(i) * (1.0F / 255);
-    }
-    static float decode_srgb_value(float value) {
+    static float to_unit(std::size_t i) { return static_cast<float>(i) * (1.0F / 255); }
+    static float decode_srgb(float value) {
         return static_cast<float>(linear_from_srgb(static_cast<double>(value)));
     }
     std::array<float, 256> table_{};
 };
 
-ImageShape rgb_float_image_shape(const Picture& picture) {
+ImageShape rgb_shape(const Picture& picture) {
     return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
              static_cast<std::uint32_t>(std::max(picture.height, 0))},
             3,
@@ -80,10 +77,10 @@ PictureLocation locate_picture(const std::filesystem::path& path) {
     return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
-struct PictureReader::PictureReadState {
-    PictureReadState(const PictureLocation& at, const PictureSizeCheck& judge)
+struct PictureReader::State {
+    State(const PictureLocation& at, const SizeCheck& judge)
         : file_name(at.file.string()), bytes(open_source(at.file)),
-          format(detect_picture_format(*bytes, file_name)),
+          format(picture_format(*bytes, file_name)),
           image_reader(*bytes, format, file_name, make_shape_check(file_name, judge),
                        ImageColours{at.layer}),
           rgb(find_colour_channels(image_reader.shape(), file_name).rgb) {}
@@ -97,41 +94,37 @@ struct PictureReader::PictureReadState {
     std::vector<float> values;
 };
 
-PictureReader::PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge)
-    : open_picture_(std::make_unique<PictureReadState>(locate_picture(path), judge)) {}
+PictureReader::PictureReader(const std::filesystem::path& path, const SizeCheck& judge)
+    : state_(std::make_unique<State>(locate_picture(path), judge)) {}
 PictureReader::~PictureReader() = default;
 PictureReader::PictureReader(PictureReader&&) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
 
 int PictureReader::picture_width() const {
-    return static_cast<int>(open_picture_->image_reader.shape().size.x);
+    return static_cast<int>(state_->image_reader.shape().size.x);
 }
-int PictureReader::height() const {
-    return static_cast<int>(open_picture_->image_reader.shape().size.y);
-}
+int PictureReader::height() const { return static_cast<int>(state_->image_reader.shape().size.y); }
 std::string PictureReader::format() const {
-    return open_picture_->format == "png"   ? "PNG"
-           : open_picture_->format == "hdr" ? "Radiance"
-                                            : "OpenEXR";
+    return state_->format == "png" ? "PNG" : state_->format == "hdr" ? "Radiance" : "OpenEXR";
 }
 
-bool PictureReader::is_8_bit() const { return open_picture_->image_reader.shape().is_8_bit; }
+bool PictureReader::is_8_bit() const { return state_->image_reader.shape().is_8_bit; }
 
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
-    static const PngToLinearLightDecoder kDecoded;
+    static const PngDecoder kDecoded;
     // Pixels that are read at once; at least a row.
     constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 15;
-    const bool is_stored = open_picture_->format == "png"; // PNGs store sRGB values
-    const std::size_t channel_count = open_picture_->image_reader.shape().channel_count;
+    const bool is_stored = state_->format == "png"; // PNGs store sRGB values
+    const std::size_t channel_count = state_->image_reader.shape().channel_count;
     const auto columns = static_cast<std::size_t>(picture_width());
     const std::size_t most = std::max<std::size_t>(1, kPixelsPerBlock / columns) * columns;
     auto row = static_cast<std::uint32_t>(first);
     while (!pixels.empty()) {
         const std::size_t count = std::min(most, pixels.size());
-        open_picture_->values.resize(count * channel_count);
-        open_picture_->image_reader.read_rows(row, open_picture_->values);
-        const auto [red, green, blue] = open_picture_->rgb;
-        const float* value = open_picture_->values.data();
+        state_->values.resize(count * channel_count);
+        state_->image_reader.read_rows(row, state_->values);
+        const auto [red, green, blue] = state_->rgb;
+        const float* value = state_->values.data();
         if (is_stored)
             for (std::size_t i = 0; i < count; ++i, value += channel_count)
                 pixels[i] = {kDecoded(value[red]), kDecoded(value[green]), kDecoded(value[blue])};
@@ -145,8 +138,7 @@ void PictureReader::read_rows(int first, std::span<vec3> pixels) {
 
 Picture read_picture(const std::filesystem::path& path) { return read_picture(path, {}); }
 
-Picture read_picture(const std::filesystem::path& path,
-                     const PictureReader::PictureSizeCheck& judge) {
+Picture read_picture(const std::filesystem::path& path, const PictureReader::SizeCheck& judge) {
     PictureReader picture_reader(path, judge);
     Picture picture(picture_reader.picture_width(), picture_reader.height());
     picture_reader.read_rows(0, picture.pixels);
@@ -178,17 +170,16 @@ Mask read_mask(const std::filesystem::path& path, int width, int height) {
 }
 
 std::string encode_exr(const Picture& picture, const std::string& text) {
-    return encode_exr_with_channels(picture, {}, text);
+    return encode_exr(picture, {}, text);
 }
 
-std::string encode_exr_with_channels(const Picture& picture,
-                                     std::span<const ExtraPictureChannel> channels,
-                                     const std::string& text) {
-    ImageShape shape = rgb_float_image_shape(picture);
+std::string encode_exr(const Picture& picture, std::span<const ExtraChannel> channels,
+                       const std::string& text) {
+    ImageShape shape = rgb_shape(picture);
     shape.description = text;
     shape.channel_count += channels.size();
     if (!channels.empty()) shape.channels = {"R", "G", "B"};
-    for (const ExtraPictureChannel& channel : channels) {
+    for (const ExtraChannel& channel : channels) {
         check(channel.values.size() == picture.pixels.size(), Failure::internal, "channel ",
               channel.name, ": wanted ", picture.pixels.size(), " values, found ",
               channel.values.size());
@@ -199,12 +190,12 @@ std::string encode_exr_with_channels(const Picture& picture,
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const vec3& pixel = picture.pixels[i];
         values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
-        for (const ExtraPictureChannel& channel : channels) values.push_back(channel.values[i]);
+        for (const ExtraChannel& channel : channels) values.push_back(channel.values[i]);
     }
     return encode_openexr(shape, values);
 }
 
-std::vector<std::uint8_t> convert_display_to_bytes(const Picture& display) {
+std::vector<std::uint8_t> to_bytes(const Picture& display) {
     const auto byte = [](float value) {
         if (!(value > 0)) return std::uint8_t{0}; // NaN falls here
         return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0F) * 255));
@@ -216,8 +207,8 @@ std::vector<std::uint8_t> convert_display_to_bytes(const Picture& display) {
     return values;
 }
 
-std::string encode_picture_png(const Picture& display) {
-    return catoptric::encode_png(rgb_float_image_shape(display), convert_display_to_bytes(display));
+std::string encode_png(const Picture& display) {
+    return catoptric::encode_png(rgb_shape(display), to_bytes(display));
 }
 
 void write_exr(const Picture& picture, const std::filesystem::path& path, const std::string& text) {
@@ -225,7 +216,7 @@ void write_exr(const Picture& picture, const std::filesystem::path& path, const 
 }
 
 void write_png(const Picture& display, const std::filesystem::path& path) {
-    write_file(path, encode_picture_png(display));
+    write_file(path, encode_png(display));
 }
 
 } // namespace catoptric::measure

@@ -28,12 +28,12 @@ PictureLocation locate_picture(const std::filesystem::path& path);
 class PictureReader {
 public:
     /// Refuses a picture by its width and height: throws if they are not accepted.
-    using PictureSizeCheck = std::function<void(int, int)>;
+    using SizeCheck = std::function<void(int, int)>;
 
     /// Reads only the header and checks it against `judge`, `kMaxPictureValues`, and whether a file
     /// of this size can hold so many values. Memory for the picture is allocated after these
     /// checks.
-    explicit PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge = {});
+    explicit PictureReader(const std::filesystem::path& path, const SizeCheck& judge = {});
     ~PictureReader();
     PictureReader(PictureReader&&) noexcept;
     PictureReader& operator=(PictureReader&&) noexcept;
@@ -47,29 +47,27 @@ public:
     void read_rows(int first, std::span<vec3> pixels);
 
 private:
-    struct PictureReadState;
-    std::unique_ptr<PictureReadState> open_picture_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 /// Reads a whole picture. `judge` may refuse it by its size.
-Picture read_picture(const std::filesystem::path& path,
-                     const PictureReader::PictureSizeCheck& judge);
+Picture read_picture(const std::filesystem::path& path, const PictureReader::SizeCheck& judge);
 
 /// A channel of an OpenEXR file beside R, G and B, such as "depth.Z": a value for each pixel.
-struct ExtraPictureChannel {
+struct ExtraChannel {
     std::string name;
     std::vector<float> values;
 };
 /// Returns an OpenEXR file as `encode_exr` does, with more channels. Each value is bit-exact.
-std::string encode_exr_with_channels(const Picture& picture,
-                                     std::span<const ExtraPictureChannel> channels,
-                                     const std::string& text = {});
+std::string encode_exr(const Picture& picture, std::span<const ExtraChannel> channels,
+                       const std::string& text = {});
 
 /// Returns whether a file begins with the signature of a PNG.
 bool is_png(const std::filesystem::path& path);
 
 /// Returns red, green and blue of each pixel, row by row, as a PNG file holds them: 0 to 255,
 /// clamped. NaN becomes 0.
-std::vector<std::uint8_t> convert_display_to_bytes(const Picture& display);
+std::vector<std::uint8_t> to_bytes(const Picture& display);
 
 } // namespace catoptric::measure

@@ -7,7 +7,7 @@
 namespace catoptric::measure {
 
 PictureMean::PictureMean(int count, const Picture& mean, const Picture& variance)
-    : picture_count_(count), width_(mean.width), height_(mean.height) {
+    : count_(count), width_(mean.width), height_(mean.height) {
     const double pictures = count;
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
         mean_.emplace_back(mean.pixels[i]);
@@ -16,8 +16,8 @@ PictureMean::PictureMean(int count, const Picture& mean, const Picture& variance
     }
 }
 
-void PictureMean::add_picture(const Picture& picture) {
-    if (picture_count_ == 0) {
+void PictureMean::add(const Picture& picture) {
+    if (count_ == 0) {
         width_ = picture.width, height_ = picture.height;
         mean_.assign(picture.pixels.size(), dvec3(0));
         squares_.assign(picture.pixels.size(), dvec3(0));
@@ -25,11 +25,11 @@ void PictureMean::add_picture(const Picture& picture) {
     check(picture.width == width_ && picture.height == height_, Failure::bad_data,
           "a mean of pictures of ", width_, "x", height_, " wants another of this size, found ",
           picture.width, "x", picture.height);
-    ++picture_count_;
+    ++count_;
     for (std::size_t i = 0; i < mean_.size(); ++i) {
         const dvec3 value(picture.pixels[i]);
         const dvec3 before = value - mean_[i];
-        mean_[i] += before / static_cast<double>(picture_count_);
+        mean_[i] += before / static_cast<double>(count_);
         squares_[i] += before * (value - mean_[i]);
     }
 }
@@ -42,10 +42,9 @@ Picture PictureMean::mean() const {
 
 Picture PictureMean::variance() const {
     Picture result(width_, height_);
-    const double pictures = picture_count_;
+    const double pictures = count_;
     for (std::size_t i = 0; i < mean_.size(); ++i)
-        result.pixels[i] = picture_count_ < 2 ? vec3(NAN)
-                                              : vec3(squares_[i] / ((pictures - 1) * pictures));
+        result.pixels[i] = count_ < 2 ? vec3(NAN) : vec3(squares_[i] / ((pictures - 1) * pictures));
     return result;
 }
 

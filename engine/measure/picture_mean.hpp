@@ -14,9 +14,9 @@ public:
     /// Restores a mean of `count` pictures from `mean` and `variance`.
     PictureMean(int count, const Picture& mean, const Picture& variance);
     /// Adds a picture. Throws `bad_data` for another size than that of the first.
-    void add_picture(const Picture& picture);
+    void add(const Picture& picture);
     /// Returns the number of pictures.
-    int picture_count() const { return picture_count_; }
+    int count() const { return count_; }
     /// Returns the mean of all pictures; a picture without pixels if there are none.
     Picture mean() const;
     /// Returns an estimate of the variance of the mean, by channel: the sample variance divided by
@@ -24,7 +24,7 @@ public:
     Picture variance() const;
 
 private:
-    int picture_count_ = 0, width_ = 0, height_ = 0;
+    int count_ = 0, width_ = 0, height_ = 0;
     std::vector<dvec3> mean_;
     std::vector<dvec3> squares_; ///< sums of squared deviations from the mean
 };

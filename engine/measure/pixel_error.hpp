@@ -16,27 +16,27 @@ inline bool is_finite_pixel(const vec3& pixel) {
 }
 
 /// Returns the pixel clamped to [0,1]. NaN stays NaN.
-inline dvec3 clamp_pixel_to_unit_range(const vec3& pixel) {
+inline dvec3 clamp_pixel(const vec3& pixel) {
     const auto one = [](float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); };
     return {one(pixel.x), one(pixel.y), one(pixel.z)};
 }
 
 /// Returns the absolute difference of each channel, 0..1.
-inline dvec3 absolute_channel_difference(const vec3& a, const vec3& b) {
-    return glm::abs(clamp_pixel_to_unit_range(a) - clamp_pixel_to_unit_range(b));
+inline dvec3 absolute_difference(const vec3& a, const vec3& b) {
+    return glm::abs(clamp_pixel(a) - clamp_pixel(b));
 }
 
-/// Returns whether a channel differs by more than kMaxInvisibleChannelDifference. Both pixels must
+/// Returns whether a channel differs by more than kMaxInvisibleDifference. Both pixels must
 /// be finite.
 inline bool differs_visibly(const vec3& a, const vec3& b) {
-    const dvec3 channels = absolute_channel_difference(a, b);
-    return std::max({channels.x, channels.y, channels.z}) > kMaxInvisibleChannelDifference;
+    const dvec3 channels = absolute_difference(a, b);
+    return std::max({channels.x, channels.y, channels.z}) > kMaxInvisibleDifference;
 }
 
 /// Returns the mean squared difference over the channels, 0..1, or NaN if a pixel is not finite.
 inline double squared_error(const vec3& a, const vec3& b) {
     if (!is_finite_pixel(a) || !is_finite_pixel(b)) return std::numeric_limits<double>::quiet_NaN();
-    const dvec3 difference = absolute_channel_difference(a, b);
+    const dvec3 difference = absolute_difference(a, b);
     return glm::dot(difference, difference) / 3;
 }
 

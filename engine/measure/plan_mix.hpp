@@ -8,7 +8,7 @@
 namespace catoptric::measure {
 
 /// What one technique costs, and its error on each mirror in each view.
-struct TechniqueCandidateForMix {
+struct MixCandidate {
     double ms = 0; ///< time of a frame in which the technique draws all mirrors
     /// Sum over a mirror's pixels of the pixel's error, by view, then by mirror; 0 for a mirror
     /// that the view does not show.
@@ -23,8 +23,8 @@ struct TechniqueCandidateForMix {
 /// then by mirror. The error of a view is the sum over its mirrors divided by the number of their
 /// pixels. Returns nothing if no candidate keeps the limit alone. Costs O(mirrors^2 candidates
 /// views).
-std::vector<std::size_t>
-find_fastest_technique_mix(const std::vector<TechniqueCandidateForMix>& candidates,
-                           const std::vector<std::vector<double>>& pixels, double limit);
+std::vector<std::size_t> find_fastest_mix(const std::vector<MixCandidate>& candidates,
+                                          const std::vector<std::vector<double>>& pixels,
+                                          double limit);
 
 } // namespace catoptric::measure

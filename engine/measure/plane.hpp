@@ -13,38 +13,33 @@ struct ChannelPlane {
     std::vector<double> values;
 
     /// Sets the size. Keeps the memory and leaves the values undefined.
-    void resize_plane(int columns, int rows) {
+    void resize(int columns, int rows) {
         width = columns, height = rows;
         values.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     }
-    double* values_of_plane_row(int y) {
-        return values.data() + static_cast<std::ptrdiff_t>(y) * width;
-    }
-    const double* values_of_plane_row(int y) const {
+    double* row(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
+    const double* row(int y) const {
         return values.data() + static_cast<std::ptrdiff_t>(y) * width;
     }
 };
 
 /// Filter kernel: weights for the offsets -radius .. radius.
 struct FilterKernel {
-    int kernel_radius = 0;
+    int radius = 0;
     std::vector<double> weights;
 
     explicit FilterKernel(int reach)
-        : kernel_radius(reach), weights(2 * static_cast<std::size_t>(reach) + 1) {}
-    double& operator[](int offset) {
-        return weights[static_cast<std::size_t>(offset + kernel_radius)];
-    }
+        : radius(reach), weights(2 * static_cast<std::size_t>(reach) + 1) {}
+    double& operator[](int offset) { return weights[static_cast<std::size_t>(offset + radius)]; }
     double operator[](int offset) const {
-        return weights[static_cast<std::size_t>(offset + kernel_radius)];
+        return weights[static_cast<std::size_t>(offset + radius)];
     }
 };
 
 /// Writes the convolution of `in` along x to `out`, which must be another plane. `out` lacks
 /// `border` columns on each side. `border` is at least the kernel's radius. Costs 2 * radius + 1
 /// multiplications a pixel, on one core.
-void convolve_along_x(const ChannelPlane& in, const FilterKernel& kernel, int border,
-                      ChannelPlane& out);
+void convolve_x(const ChannelPlane& in, const FilterKernel& kernel, int border, ChannelPlane& out);
 
 /// Plane and the kernel with which it is convolved.
 struct FilteredPlane {
@@ -54,7 +49,6 @@ struct FilteredPlane {
 
 /// Writes the sum of convolutions along y to `out`. All planes have one size. `out` lacks `border`
 /// rows above and below.
-void sum_convolutions_along_y(std::initializer_list<FilteredPlane> parts, int border,
-                              ChannelPlane& out);
+void sum_convolutions_y(std::initializer_list<FilteredPlane> parts, int border, ChannelPlane& out);
 
 } // namespace catoptric::measure

@@ -29,9 +29,8 @@ double student_upper_tail(double t, std::size_t degrees_of_freedom) {
 
 } // namespace
 
-double estimate_probability_of_proof(std::span<const double> errors, double limit,
-                                     std::size_t views, std::size_t max_failures,
-                                     double added_deviation) {
+double proof_probability(std::span<const double> errors, double limit, std::size_t views,
+                         std::size_t max_failures, double added_deviation) {
     if (errors.size() < 2) return 0;
     if (limit <= 0) return std::ranges::all_of(errors, [](double error) { return error <= 0; });
     // Smaller errors count as this share of the limit. Views without an error would otherwise make
@@ -53,8 +52,8 @@ double estimate_probability_of_proof(std::span<const double> errors, double limi
     return binomial_cumulative(max_failures, views, failing);
 }
 
-std::vector<std::size_t> find_best_proof_order(std::span<const ProofCandidate> candidates,
-                                               std::size_t max_count, double no_plan_factor) {
+std::vector<std::size_t> find_best_order(std::span<const ProofCandidate> candidates,
+                                         std::size_t max_count, double no_plan_factor) {
     std::vector<std::size_t> order(candidates.size()); // from the fastest to the slowest
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return candidates[i].ms; });

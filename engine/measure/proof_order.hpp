@@ -15,9 +15,8 @@ namespace catoptric::measure {
 /// further standard deviation of logarithms, at least 0, because a few views seldom show the
 /// largest errors of a scene. The estimate can order proofs, but proves nothing. Returns 0 with
 /// fewer than two errors. With a limit of 0, returns 1 if all errors are 0, else 0.
-double estimate_probability_of_proof(std::span<const double> errors, double limit,
-                                     std::size_t views, std::size_t max_failures,
-                                     double added_deviation);
+double proof_probability(std::span<const double> errors, double limit, std::size_t views,
+                         std::size_t max_failures, double added_deviation);
 
 /// A plan that may be proved.
 struct ProofCandidate {
@@ -30,7 +29,7 @@ struct ProofCandidate {
 /// The order has the least expected logarithm of the chosen plan's time, if proofs succeed
 /// independently. Having no plan counts as much as a plan that takes `no_plan_factor` times as long
 /// as the slowest candidate. O(candidates^2 max_count).
-std::vector<std::size_t> find_best_proof_order(std::span<const ProofCandidate> candidates,
-                                               std::size_t max_count, double no_plan_factor);
+std::vector<std::size_t> find_best_order(std::span<const ProofCandidate> candidates,
+                                         std::size_t max_count, double no_plan_factor);
 
 } // namespace catoptric::measure

@@ -2,7 +2,7 @@
 
 namespace catoptric::measure {
 
-std::vector<std::string> list_row_notes(const Comparison& comparison, const Row& row) {
+std::vector<std::string> row_notes(const Comparison& comparison, const Row& row) {
     const std::string begin = "'" + row.label + "': ";
     std::vector<std::string> notes;
     for (const std::string& warning : comparison.warnings)

@@ -7,6 +7,6 @@ namespace catoptric::measure {
 /// Returns notes, one sentence each, on differences between a row's request and what was done.
 /// These notes are the comparison's warnings that begin with the row's label in quotes. The label
 /// is left out.
-std::vector<std::string> list_row_notes(const Comparison& comparison, const Row& row);
+std::vector<std::string> row_notes(const Comparison& comparison, const Row& row);
 
 } // namespace catoptric::measure

@@ -27,7 +27,7 @@ ShapleyValues::ShapleyValues(std::size_t players, std::size_t games) : games_(ga
     came_.resize(std::size_t{1} << players);
 }
 
-void ShapleyValues::add_coalition_value(std::uint32_t coalition, std::span<const double> values) {
+void ShapleyValues::add(std::uint32_t coalition, std::span<const double> values) {
     check(coalition < came_.size(), Failure::internal, "coalition ", coalition, " of ",
           worth_.size(), " players: wanted a number below ", came_.size());
     check(!came_[coalition], Failure::internal, "coalition ", coalition, " came twice");
@@ -46,7 +46,7 @@ void ShapleyValues::add_coalition_value(std::uint32_t coalition, std::span<const
     }
 }
 
-const std::vector<double>& ShapleyValues::shapley_values_of_player(std::size_t player) const {
+const std::vector<double>& ShapleyValues::worth(std::size_t player) const {
     const auto missing = std::ranges::find(came_, false);
     check(missing == came_.end(), Failure::internal, "coalition ", missing - came_.begin(), " of ",
           worth_.size(), " players is missing");

@@ -22,10 +22,10 @@ public:
     /// `values` is the value of game g. Each of the 2^players coalitions must be added once, in any
     /// order. Costs one product a player and game. Throws `internal` if the coalition was added
     /// before, has a player too many, or comes with a wrong number of games.
-    void add_coalition_value(std::uint32_t coalition, std::span<const double> values);
+    void add(std::uint32_t coalition, std::span<const double> values);
     /// Returns the worth of the player in each game (entry g: game g). Throws `internal` before all
     /// coalitions were added.
-    const std::vector<double>& shapley_values_of_player(std::size_t player) const;
+    const std::vector<double>& worth(std::size_t player) const;
 
 private:
     std::size_t games_;

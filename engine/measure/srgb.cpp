@@ -6,38 +6,38 @@
 namespace catoptric::measure {
 namespace {
 
-int srgb_code_by_formula(double linear) {
+int srgb_code(double linear) {
     return static_cast<int>(std::lround(srgb_from_linear(linear) * 255));
 }
 
 /// Returns the least value in [0,1] with this code. Bisects the bits: the curve is increasing, and
 /// the bits of positive numbers are ordered as the numbers are.
-double smallest_linear_value_of_srgb_code(int code) {
+double least_linear(int code) {
     std::uint64_t below = 0, there = std::bit_cast<std::uint64_t>(1.0);
     while (there - below > 1) {
         const std::uint64_t middle = below + (there - below) / 2;
-        (srgb_code_by_formula(std::bit_cast<double>(middle)) < code ? below : there) = middle;
+        (srgb_code(std::bit_cast<double>(middle)) < code ? below : there) = middle;
     }
     return std::bit_cast<double>(there);
 }
 
 } // namespace
 
-SrgbDecodeTable::SrgbCodeLookupTable::SrgbCodeLookupTable() {
+SrgbDecodeTable::CodeTable::CodeTable() {
     for (std::size_t code = 0; code < srgb.size(); ++code) {
         srgb[code] = static_cast<float>(static_cast<double>(code) / 255);
         linear[code] = linear_from_srgb(static_cast<double>(srgb[code]));
     }
 }
-const SrgbDecodeTable::SrgbCodeLookupTable SrgbDecodeTable::kStored;
+const SrgbDecodeTable::CodeTable SrgbDecodeTable::kStored;
 
-SrgbEightBitEncoder::SrgbEightBitEncoder() {
+SrgbEncoder::SrgbEncoder() {
     for (std::size_t code = 1; code <= 255; ++code)
-        least_[code] = smallest_linear_value_of_srgb_code(static_cast<int>(code));
+        least_[code] = least_linear(static_cast<int>(code));
     least_.back() = 2;
     std::size_t code = 0;
     for (std::size_t i = 0; i < guesses_.size(); ++i) {
-        const auto bits = static_cast<std::uint32_t>(i << kDroppedFloatMantissaBits);
+        const auto bits = static_cast<std::uint32_t>(i << kDroppedBits);
         const auto value = static_cast<double>(std::bit_cast<float>(bits));
         while (value >= least_[code + 1]) ++code;
         guesses_[i] = static_cast<std::uint8_t>(code);
@@ -46,8 +46,8 @@ SrgbEightBitEncoder::SrgbEightBitEncoder() {
         values_[i] = static_cast<float>(static_cast<double>(i) / 255);
 }
 
-const SrgbEightBitEncoder& SrgbEightBitEncoder::instance() {
-    static const SrgbEightBitEncoder kCurve;
+const SrgbEncoder& SrgbEncoder::instance() {
+    static const SrgbEncoder kCurve;
     return kCurve;
 }
 

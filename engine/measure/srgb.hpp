@@ -29,25 +29,25 @@ public:
     }
 
 private:
-    struct SrgbCodeLookupTable {
-        SrgbCodeLookupTable();
+    struct CodeTable {
+        CodeTable();
         std::array<float, 256> srgb{};
         std::array<double, 256> linear{};
     };
-    static const SrgbCodeLookupTable kStored;
+    static const CodeTable kStored;
 };
 
 /// Encodes light in [0,1] with the sRGB curve and rounds it to the nearest of the 256 values of 8
 /// bits.
-class SrgbEightBitEncoder {
+class SrgbEncoder {
 public:
     /// Returns the shared table, which the first call creates.
-    static const SrgbEightBitEncoder& instance();
+    static const SrgbEncoder& instance();
 
     /// Returns exactly round(srgb_from_linear(linear) * 255) / 255. Costs a nanosecond.
     float operator()(double linear) const {
         const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(linear));
-        std::size_t code = guesses_[bits >> kDroppedFloatMantissaBits];
+        std::size_t code = guesses_[bits >> kDroppedBits];
         // At most one code begins among floats with the same first bits. So one step up is enough,
         // or one step down if the float was rounded up. Conditions are summed because the processor
         // would mispredict branches.
@@ -57,20 +57,17 @@ public:
     }
 
 private:
-    SrgbEightBitEncoder();
+    SrgbEncoder();
 
-    static constexpr int kDroppedFloatMantissaBits = 16;
+    static constexpr int kDroppedBits = 16;
     /// Least linear value that is encoded as each 8-bit code, indexed by the code. Entry 256 is
     /// above 1, so no value in [0,1] reaches it.
     std::array<double, 257> least_{};
     /// Codes indexed by the first bits of a float.
-    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDroppedFloatMantissaBits) + 1>
-        guesses_{};
+    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDroppedBits) + 1> guesses_{};
     std::array<float, 256> values_{};
 };
 
-inline float srgb_rounded_to_8_bits(double linear) {
-    return SrgbEightBitEncoder::instance()(linear);
-}
+inline float rounded_srgb(double linear) { return SrgbEncoder::instance()(linear); }
 
 } // namespace catoptric::measure

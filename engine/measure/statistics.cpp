@@ -9,7 +9,7 @@
 
 namespace catoptric::measure {
 
-double compute_percentile(std::vector<double> values, double fraction) {
+double percentile(std::vector<double> values, double fraction) {
     check(!values.empty(), Failure::internal, "a percentile wants at least one value, found none");
     check(fraction >= 0 && fraction <= 1, Failure::internal,
           "a percentile wants a fraction in [0,1], found ", fraction);
@@ -23,7 +23,7 @@ double compute_percentile(std::vector<double> values, double fraction) {
     return *low + rest * (high - *low);
 }
 
-SampleSummary summarise_samples(std::span<const double> samples) {
+SampleSummary summarise(std::span<const double> samples) {
     check(!samples.empty(), Failure::internal, "a summary wants at least one sample, found none");
     for (std::size_t i = 0; i < samples.size(); ++i)
         check(std::isfinite(samples[i]), Failure::internal,
@@ -31,25 +31,25 @@ SampleSummary summarise_samples(std::span<const double> samples) {
     SampleSummary summary;
     summary.samples.assign(samples.begin(), samples.end());
     summary.n = samples.size();
-    summary.median = compute_percentile(summary.samples, 0.5);
-    summary.p05 = compute_percentile(summary.samples, 0.05);
-    summary.p95 = compute_percentile(summary.samples, 0.95);
+    summary.median = percentile(summary.samples, 0.5);
+    summary.p05 = percentile(summary.samples, 0.05);
+    summary.p95 = percentile(summary.samples, 0.95);
     std::vector<double> deviations;
     deviations.reserve(summary.n);
     for (const double sample : samples) deviations.push_back(std::abs(sample - summary.median));
-    summary.mad = compute_percentile(std::move(deviations), 0.5);
+    summary.mad = percentile(std::move(deviations), 0.5);
     return summary;
 }
 
-SampleSummary summarise_samples(std::span<const std::vector<double>> rounds) {
+SampleSummary summarise(std::span<const std::vector<double>> rounds) {
     std::vector<double> samples, medians;
     for (const std::vector<double>& round : rounds) {
         samples.insert(samples.end(), round.begin(), round.end());
-        medians.push_back(compute_percentile(round, 0.5));
+        medians.push_back(percentile(round, 0.5));
     }
-    SampleSummary summary = summarise_samples(samples);
-    summary.median = compute_percentile(medians, 0.5);
-    summary.ci95 = median_confidence_interval(medians);
+    SampleSummary summary = summarise(samples);
+    summary.median = percentile(medians, 0.5);
+    summary.ci95 = median_interval(medians);
     summary.rounds = std::move(medians);
     return summary;
 }

@@ -9,13 +9,13 @@
 namespace catoptric::measure {
 
 /// Returns the summary of a list. Throws `internal` if the list is empty or has a NaN or infinity.
-SampleSummary summarise_samples(std::span<const double> samples);
+SampleSummary summarise(std::span<const double> samples);
 /// Returns the summary of measurements in rounds. Each round has at least one sample.
-SampleSummary summarise_samples(std::span<const std::vector<double>> rounds);
+SampleSummary summarise(std::span<const std::vector<double>> rounds);
 
 /// Returns the value below which `fraction` (0..1) of the values lie. Interpolates linearly between
 /// the two nearest ranks, at position fraction * (n - 1) of the sorted list. Throws `internal` if
 /// the list is empty. Costs O(n).
-double compute_percentile(std::vector<double> values, double fraction);
+double percentile(std::vector<double> values, double fraction);
 
 } // namespace catoptric::measure

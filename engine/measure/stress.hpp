@@ -13,10 +13,10 @@ namespace catoptric::measure {
 /// Verdict on a property. `unsupported` means not judged, because the device does not allow
 /// something the property needs; the remark names it.
 enum class StressVerdict { pass, fail, quality_warning, unsupported, waived };
-std::string stress_verdict_name(StressVerdict verdict);
+std::string verdict_name(StressVerdict verdict);
 
 /// Part of a property that could not be run, and the reason. It has no measured value.
-struct SkippedStressTestPart {
+struct SkippedPart {
     std::string what, why;
 };
 
@@ -27,7 +27,7 @@ struct StressCase {
     double limit = 0;
     bool is_quality = false; ///< whether a picture beyond the limit looks worse but is not wrong
     std::string seen = {};   ///< what a user sees then
-    bool is_case_within_limit() const { return measured <= limit; }
+    bool is_within_limit() const { return measured <= limit; }
 };
 
 struct StressPicture {
@@ -44,12 +44,12 @@ struct StressRow {
     std::vector<StressCase> cases;       ///< empty if the property was not judged
     std::vector<StressPicture> pictures; ///< pictures of cases that do not hold
     double seconds = 0;
-    std::vector<SkippedStressTestPart> not_run;
+    std::vector<SkippedPart> not_run;
     /// Rule of tests/mutations: the wrong code that this property must notice.
     std::string turned_red_by;
     /// Returns the case whose measured value is nearest to its limit, or furthest beyond it. Wrong
     /// pictures precede pictures that only look worse. Returns null if the property has no case.
-    const StressCase* worst_stress_case() const;
+    const StressCase* worst_case() const;
 };
 
 struct StressResults {
@@ -63,10 +63,10 @@ struct StressResults {
     int width = 0, height = 0;
     std::uint64_t seed = 1;
     std::vector<StressRow> rows;
-    bool has_failed_stress_row() const; ///< Returns whether a row failed.
+    bool has_failed_row() const; ///< Returns whether a row failed.
     /// Returns "C9: why" for each row, and "L2, what: why" for each part of a row, that could not
     /// be run.
-    std::vector<std::string> list_stress_parts_not_run() const;
+    std::vector<std::string> parts_not_run() const;
 };
 
 } // namespace catoptric::measure

@@ -9,15 +9,15 @@
 namespace catoptric::measure {
 
 /// One variant and the default, measured in the same rounds.
-struct ShaderVariantTrial {
+struct VariantTrial {
     std::string variant, choice, standard; ///< "groups", "in order", "scattered"
     std::string benchmark;                 ///< name of the benchmark
     std::vector<double> ms, standard_ms;   ///< milliseconds of each round, on the device
 
     /// Returns the variant's time divided by the default's.
-    BenchmarkCostRatio time_ratio_to_default() const { return compute_cost_ratio(ms, standard_ms); }
+    CostRatio time_ratio() const { return cost_ratio(ms, standard_ms); }
     /// Returns whether the variant is faster than the default with 95 % confidence.
-    bool is_faster_than_default() const { return time_ratio_to_default().is_interval_below_one(); }
+    bool is_faster() const { return time_ratio().is_below_one(); }
 };
 
 } // namespace catoptric::measure

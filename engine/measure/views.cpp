@@ -16,17 +16,17 @@ namespace {
 
 constexpr std::string_view kRowOrderingMetrics[] = {"flip", "off", "mae"};
 
-const RowPixelMask& find_mirror_row_mask() { return list_row_masks().front(); }
+const RowMask& find_mirror_mask() { return row_masks().front(); }
 
-const Metric& find_metric_by_name(std::string_view name) {
-    const std::vector<Metric>& figures = list_difference_metrics();
+const Metric& find_metric(std::string_view name) {
+    const std::vector<Metric>& figures = difference_metrics();
     const auto found = std::ranges::find(figures, name, &Metric::name);
-    check(found != figures.end() && is_scalar_metric(*found), Failure::internal, "'", name,
+    check(found != figures.end() && is_scalar(*found), Failure::internal, "'", name,
           "': wanted a figure of a difference that is a number");
     return *found;
 }
 
-double scalar_metric_of_difference(const Metric& figure, const Difference& error) {
+double scalar_value(const Metric& figure, const Difference& error) {
     const MetricValue value = metric_value(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
@@ -34,36 +34,32 @@ double scalar_metric_of_difference(const Metric& figure, const Difference& error
 
 /// Returns the difference of two errors below which they cannot be told apart.
 double find_noise_floor(const Metric& figure, const Difference& a, const Difference& b) {
-    return figure.name == "flip" ? find_flip_noise_floor(a, b) : 0;
+    return figure.name == "flip" ? flip_noise_floor(a, b) : 0;
 }
 
-double compute_median(std::vector<double> values) {
-    return values.empty() ? Difference::kNone : compute_percentile(std::move(values), .5);
+double median_of(std::vector<double> values) {
+    return values.empty() ? Difference::kNone : percentile(std::move(values), .5);
 }
 
 /// Returns the row's score in one figure, such as FLIP: the number of rows that have a larger value
 /// than this row, minus the number of rows that have a smaller value.
-int compute_ranking_score(const Row& row, const std::vector<const Row*>& rows,
-                          std::string_view figure) {
+int ranking_score(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
     int standing = 0;
     for (const Row* other : rows)
         standing += is_metric_less(row, *other, figure) - is_metric_less(*other, row, figure);
     return standing;
 }
 
-MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<const Row*>& rows) {
-    MetricRowOrder order{&find_metric_by_name(name), rows, {}, {}};
+RowOrder order_by_metric(std::string_view name, const std::vector<const Row*>& rows) {
+    RowOrder order{&find_metric(name), rows, {}, {}};
     std::ranges::stable_sort(order.rows, {}, [&](const Row* row) {
-        const double median =
-            compute_metric_over_views(*row, find_mirror_row_mask(), *order.figure).median;
-        return std::pair(-compute_ranking_score(*row, rows, name),
-                         std::isnan(median) ? INFINITY : median);
+        const double median = metric_over_views(*row, find_mirror_mask(), *order.figure).median;
+        return std::pair(-ranking_score(*row, rows, name), std::isnan(median) ? INFINITY : median);
     });
     for (std::size_t i = 0; i < order.rows.size(); ++i)
         for (std::size_t k = i + 1; k < order.rows.size(); ++k) {
             const Row &first = *order.rows[i], &second = *order.rows[k];
-            if (!do_rows_differ_over_views(first, second, name))
-                order.ties.emplace_back(&first, &second);
+            if (!rows_differ(first, second, name)) order.ties.emplace_back(&first, &second);
             if (is_metric_less(second, first, name)) order.reversed.emplace_back(&first, &second);
         }
     return order;
@@ -71,25 +67,24 @@ MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<con
 
 } // namespace
 
-bool is_scalar_metric(const Metric& figure) {
+bool is_scalar(const Metric& figure) {
     return figure.mask == "each" &&
            std::holds_alternative<double>(metric_value(figure, Difference{}));
 }
 
-MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,
-                                          const Metric& figure) {
+MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure) {
     MetricOverViews over;
     for (const Errors& errors : row.views)
-        over.values.push_back(scalar_metric_of_difference(figure, errors.*mask.error));
+        over.values.push_back(scalar_value(figure, errors.*mask.error));
     std::vector<double> known = over.values;
     std::erase_if(known, [](double value) { return !std::isfinite(value); });
-    over.ci95 = median_confidence_interval(known);
-    over.median = compute_median(std::move(known));
+    over.ci95 = median_interval(known);
+    over.median = median_of(std::move(known));
     return over;
 }
 
-std::optional<SharedInstants> estimate_effect_of_shared_instants(const std::vector<View>& views,
-                                                                 std::span<const double> values) {
+std::optional<SharedInstants> estimate_shared_instants(const std::vector<View>& views,
+                                                       std::span<const double> values) {
     std::vector<std::vector<double>> instants;
     std::size_t largest = 0;
     for (std::size_t i = 0; i < std::min(views.size(), values.size()); ++i) {
@@ -123,13 +118,12 @@ std::optional<SharedInstants> estimate_effect_of_shared_instants(const std::vect
     return SharedInstants{instants.size(), effect, count / effect};
 }
 
-Interval metric_difference_interval_over_views(const Row& a, const Row& b,
-                                               std::string_view figure) {
-    const Metric& quantity = find_metric_by_name(figure);
+Interval metric_difference_interval(const Row& a, const Row& b, std::string_view figure) {
+    const Metric& quantity = find_metric(figure);
     std::vector<double> of_a, of_b;
     for (std::size_t i = 0; i < std::min(a.views.size(), b.views.size()); ++i) {
-        const double in_a = scalar_metric_of_difference(quantity, a.views[i].error),
-                     in_b = scalar_metric_of_difference(quantity, b.views[i].error);
+        const double in_a = scalar_value(quantity, a.views[i].error),
+                     in_b = scalar_value(quantity, b.views[i].error);
         if (!std::isfinite(in_a) || !std::isfinite(in_b)) continue;
         const bool is_noise = std::abs(in_a - in_b) <
                               find_noise_floor(quantity, a.views[i].error, b.views[i].error);
@@ -142,26 +136,25 @@ Interval metric_difference_interval_over_views(const Row& a, const Row& b,
 bool is_metric_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
         // False if the interval is not known.
-        return metric_difference_interval_over_views(a, b, figure).high < 0;
-    const Metric& quantity = find_metric_by_name(figure);
-    return scalar_metric_of_difference(quantity, a.error) +
-               find_noise_floor(quantity, a.error, b.error) <
-           scalar_metric_of_difference(quantity, b.error);
+        return metric_difference_interval(a, b, figure).high < 0;
+    const Metric& quantity = find_metric(figure);
+    return scalar_value(quantity, a.error) + find_noise_floor(quantity, a.error, b.error) <
+           scalar_value(quantity, b.error);
 }
 
-bool do_rows_differ_over_views(const Row& a, const Row& b, std::string_view figure) {
+bool rows_differ(const Row& a, const Row& b, std::string_view figure) {
     return is_metric_less(a, b, figure) || is_metric_less(b, a, figure);
 }
 
-std::vector<MetricRowOrder> order_rows_over_views(const Comparison& comparison) {
+std::vector<RowOrder> order_rows(const Comparison& comparison) {
     std::vector<const Row*> rows;
     for (const Row& row : comparison.rows)
         if (!row.is_reference && !has_nonfinite_pixels(row) && !row.views.empty())
             rows.push_back(&row);
-    std::vector<MetricRowOrder> orders;
+    std::vector<RowOrder> orders;
     if (rows.size() > 1)
         for (const std::string_view name : kRowOrderingMetrics)
-            orders.push_back(order_rows_by_metric(name, rows));
+            orders.push_back(order_by_metric(name, rows));
     return orders;
 }
 

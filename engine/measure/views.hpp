@@ -27,8 +27,7 @@ struct MetricOverViews {
 
 /// Returns a metric of a row over its views. `figure` must be a metric of a difference that is one
 /// number.
-MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,
-                                          const Metric& figure);
+MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure);
 
 /// How much a metric tells over views of which several share an instant. Such views resemble each
 /// other, so their mean is less certain than that of as many views with an instant each.
@@ -44,17 +43,17 @@ struct SharedInstants {
 /// Returns nothing if no two neighbouring views share an instant, or if fewer than two instants
 /// have values, as in a still scene. `rho` is estimated by the analysis of variance. With fewer
 /// than about six instants the estimate of the effective views is far too large.
-std::optional<SharedInstants> estimate_effect_of_shared_instants(const std::vector<View>& views,
-                                                                 std::span<const double> values);
+std::optional<SharedInstants> estimate_shared_instants(const std::vector<View>& views,
+                                                       std::span<const double> values);
 
 /// Returns whether the value of a metric is one number. Only such metrics have a median over views.
-bool is_scalar_metric(const Metric& figure);
+bool is_scalar(const Metric& figure);
 
 /// Returns the 95 % interval of the median of a's metric minus b's, over the mirrors, view by view.
 /// `figure` is a name such as "flip", "off" or "mae". Views in which either is not finite are left
 /// out. FLIP differences below the noise of the reference count as 0. Throws `internal` if no
 /// metric of differences that is a number has this name.
-Interval metric_difference_interval_over_views(const Row& a, const Row& b, std::string_view figure);
+Interval metric_difference_interval(const Row& a, const Row& b, std::string_view figure);
 
 /// Returns whether a metric of `a` over the mirrors is less than that of `b`: the interval of their
 /// difference over the views lies below 0. Without drawn views, the metrics of the picture are
@@ -63,10 +62,10 @@ Interval metric_difference_interval_over_views(const Row& a, const Row& b, std::
 bool is_metric_less(const Row& a, const Row& b, std::string_view figure);
 /// Returns whether the metrics of two rows differ over the views with 95 % confidence. Otherwise
 /// the rows tie.
-bool do_rows_differ_over_views(const Row& a, const Row& b, std::string_view figure);
+bool rows_differ(const Row& a, const Row& b, std::string_view figure);
 
 /// Rows in order of a metric over the mirrors for which less is better, with the pairs that tie.
-struct MetricRowOrder {
+struct RowOrder {
     /// Pairs of rows that tie, in the order of `rows`.
     using RowPairs = std::vector<std::pair<const Row*, const Row*>>;
     const Metric* figure;
@@ -79,6 +78,6 @@ struct MetricRowOrder {
 };
 /// Returns the orders by FLIP, share off and MAE. Empty if no views were drawn or fewer than two
 /// rows have views.
-std::vector<MetricRowOrder> order_rows_over_views(const Comparison& comparison);
+std::vector<RowOrder> order_rows(const Comparison& comparison);
 
 } // namespace catoptric::measure

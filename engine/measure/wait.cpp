@@ -11,7 +11,7 @@ const RegisteredMetric kDeviceWaitTimeMetric{
      .help = "time that the host waited for the device; no other time includes it",
      .better = BetterDirection::less,
      .order = 28,
-     .columns = {{.title = "wait ms", .style = MetricValueFormat::own_times, .order = 992}},
+     .columns = {{.title = "wait ms", .style = ValueFormat::own_times, .order = 992}},
      .get = [](const Row& row) -> MetricValue { return row.wait_ms; }}};
 
 } // namespace

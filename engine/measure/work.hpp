@@ -9,14 +9,14 @@
 namespace catoptric::measure {
 
 /// Name of the metric that holds the work of each pass.
-inline constexpr const char* kWorkByPassMetricName = "work_by_pass";
+inline constexpr const char* kWorkByPassName = "work_by_pass";
 
-/// Returns the metrics: "work/" with the name of each kind of work, and kWorkByPassMetricName.
-std::vector<Metric> list_work_metrics();
+/// Returns the metrics: "work/" with the name of each kind of work, and kWorkByPassName.
+std::vector<Metric> work_metrics();
 /// Sets the metrics of a row from the work of its passes.
-void set_row_work(Row& row, const std::vector<PassWork>& passes);
+void set_work(Row& row, const std::vector<PassWork>& passes);
 /// Returns the row's counts over all passes. Kinds that were not counted have no value.
-WorkCounts total_work_counts_of_row(const Row& row);
+WorkCounts total_work(const Row& row);
 /// Returns whether the row's work was counted.
 bool has_counted_work(const Row& row);
 

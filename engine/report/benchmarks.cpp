@@ -16,10 +16,10 @@ namespace catoptric::report {
 
 namespace {
 
-using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
+using measure::CostKind;
 
 Json make_benchmark_context_json(const BenchmarkRun& run) {
     Json context{{"date", run.date}};
@@ -63,9 +63,8 @@ Json make_benchmark_round_json(const BenchmarkResult& benchmark, std::size_t fam
 }
 
 void add_median_field(Json& json, const char* name, const std::vector<double>& values) {
-    json[name] = make_number_json(measure::compute_percentile(values, .5));
-    json[std::string(name) + "_ci95"] = make_interval_json(
-        measure::median_confidence_interval(values));
+    json[name] = make_number_json(measure::percentile(values, .5));
+    json[std::string(name) + "_ci95"] = make_interval_json(measure::median_interval(values));
 }
 
 Json make_median_json(const BenchmarkResult& benchmark, std::size_t family) {
@@ -77,21 +76,15 @@ Json make_median_json(const BenchmarkResult& benchmark, std::size_t family) {
     json["aggregate_name"] = "median";
     json["aggregate_unit"] = "time";
     json["iterations"] = benchmark.rounds.size();
-    add_median_field(
-        json, "real_time",
-        measure::list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time));
-    add_median_field(
-        json, "cpu_time",
-        measure::list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time));
+    add_median_field(json, "real_time", measure::round_costs(benchmark, CostKind::real_time));
+    add_median_field(json, "cpu_time", measure::round_costs(benchmark, CostKind::cpu_time));
     json["time_unit"] = "ms";
     if (benchmark.rounds.front().cycles)
-        add_median_field(
-            json, "cycles",
-            measure::list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cycles));
+        add_median_field(json, "cycles", measure::round_costs(benchmark, CostKind::cycles));
     return json;
 }
 
-Json make_benchmark_ratio_json(const measure::BenchmarkCostRatio& ratio) {
+Json make_benchmark_ratio_json(const measure::CostRatio& ratio) {
     return {{"median", make_number_json(ratio.median)}, {"ci95", make_interval_json(ratio.ci95)}};
 }
 
@@ -202,19 +195,19 @@ std::string to_json(const measure::BenchmarkChanges& changes) {
     Json document{{"schema", "catoptric/bench-compare/1"}};
     document["benchmarks"] = make_list_json(
         changes.list, [](const measure::BenchmarkChange& change) {
-            return Json{{"name", change.name},
-                        {"cost", cost_kind_name(change.cost)},
-                        {"before", make_number_json(change.medians[0])},
-                        {"after", make_number_json(change.medians[1])},
-                        {"ratio", make_benchmark_ratio_json(change.ratio)},
-                        {"real_time_ratio", make_benchmark_ratio_json(change.real_ratio)},
-                        {"outcome", benchmark_outcome_name(change.outcome())},
-                        {"counts",
-                         make_list_json(change.counts, [](const measure::CountedWorkChange& count) {
-                             return Json{{"name", count.name},
-                                         {"before", make_number_json(count.before)},
-                                         {"after", make_number_json(count.after)}};
-                         })}};
+            return Json{
+                {"name", change.name},
+                {"cost", cost_kind_name(change.cost)},
+                {"before", make_number_json(change.medians[0])},
+                {"after", make_number_json(change.medians[1])},
+                {"ratio", make_benchmark_ratio_json(change.ratio)},
+                {"real_time_ratio", make_benchmark_ratio_json(change.real_ratio)},
+                {"outcome", outcome_name(change.outcome())},
+                {"counts", make_list_json(change.counts, [](const measure::WorkChange& count) {
+                     return Json{{"name", count.name},
+                                 {"before", make_number_json(count.before)},
+                                 {"after", make_number_json(count.after)}};
+                 })}};
         });
     document["only_before"] = changes.only_before;
     document["only_after"] = changes.only_after;

@@ -44,7 +44,7 @@ std::string format_budget_limits(const Comparison& comparison) {
 
 std::string describe_budget_answer(const Comparison& comparison) {
     if (!measure::has_budget(comparison)) return "";
-    const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
+    const measure::BestRows answer = measure::find_best_rows(comparison);
     const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name +
                               describe_judged_time(comparison);
     const bool by_time = measure::has_error_budget(comparison);
@@ -66,7 +66,7 @@ std::string describe_budget_answer(const Comparison& comparison) {
     } else if (!answer.undecided.empty()) {
         text = fmt::format("Cannot tell whether a row keeps {}", where);
     } else {
-        const bool is_in_time = measure::compare_to_time_budget(comparison, *answer.nearest) ==
+        const bool is_in_time = measure::compare_to_budget(comparison, *answer.nearest) ==
                                 Order::less;
         text = fmt::format("No row keeps {}. The {} is {}", where,
                            !is_in_time || !by_time         ? "row with the least median time"

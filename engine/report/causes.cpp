@@ -39,18 +39,16 @@ const CausePictureColour kCauseColours[] = {
 /// row's error.
 struct ErrorCauseTableRow {
     const char* name;
-    double (*part)(const ErrorCauseShare& cause, double squared_error);
+    double (*part)(const CauseShare& cause, double squared_error);
     bool adds_up;
 };
 
 constexpr ErrorCauseTableRow kCauseTableLines[] = {
-    {"all", [](const ErrorCauseShare& cause, double) { return cause.share; }, true},
-    {"first order", [](const ErrorCauseShare& cause, double) { return cause.share_first_order; },
-     true},
+    {"all", [](const CauseShare& cause, double) { return cause.share; }, true},
+    {"first order", [](const CauseShare& cause, double) { return cause.share_first_order; }, true},
     {"mirror in mirror",
-     [](const ErrorCauseShare& cause, double) { return cause.share_mirror_in_mirror; }, true},
-    {"bound", [](const ErrorCauseShare& cause, double whole) { return cause.alone / whole; },
-     false}};
+     [](const CauseShare& cause, double) { return cause.share_mirror_in_mirror; }, true},
+    {"bound", [](const CauseShare& cause, double whole) { return cause.alone / whole; }, false}};
 
 constexpr const char* kRoughMirrorNote =
     " On rough mirrors, further causes are removed before these five. Noise: the mean of many "
@@ -65,7 +63,7 @@ std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, cons
     std::vector<std::string> cells{line.name};
     double sum = 0;
     for (const CausePictureColour& colour : columns) {
-        const auto cause = std::ranges::find(causes.list, colour.cause, &ErrorCauseShare::name);
+        const auto cause = std::ranges::find(causes.list, colour.cause, &CauseShare::name);
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
         if (is_there) sum += part;
@@ -92,9 +90,8 @@ std::vector<CausePictureColour> list_colours_of_found_causes(const Comparison& c
     std::ranges::copy_if(
         kCauseColours, std::back_inserter(found), [&](const CausePictureColour& colour) {
             return std::ranges::any_of(comparison.rows, [&](const Row& row) {
-                return row.causes &&
-                       std::ranges::find(row.causes->list, colour.cause, &ErrorCauseShare::name) !=
-                           row.causes->list.end();
+                return row.causes && std::ranges::find(row.causes->list, colour.cause,
+                                                       &CauseShare::name) != row.causes->list.end();
             });
         });
     return found;

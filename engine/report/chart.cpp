@@ -30,9 +30,9 @@ Json make_chart_row_json(const Comparison& comparison, std::size_t index) {
     const Row& row = comparison.rows[index];
     return {{"label", row.label},
             {"picture", index + 1}, // number of the row's picture in the comparer
-            {"place", format_time_places(measure::find_time_rank_range_of_row(comparison, row))},
-            {"front", measure::is_on_pareto_front(comparison, row)},
-            {"traced", measure::is_ray_traced_row(row)},
+            {"place", format_time_places(measure::find_rank_range(comparison, row))},
+            {"front", measure::is_on_front(comparison, row)},
+            {"traced", measure::is_ray_traced(row)},
             {"hidden", measure::is_below_noise(row.error)}};
 }
 

@@ -13,10 +13,10 @@ namespace catoptric::report {
 using catoptric::Setting;
 using measure::AutoFace;
 using measure::Causes;
+using measure::CauseShare;
 using measure::Comparison;
 using measure::DeviceFacts;
 using measure::EnvironmentFacts;
-using measure::ErrorCauseShare;
 using measure::LagAtSpeed;
 using measure::LagResults;
 using measure::LagRow;

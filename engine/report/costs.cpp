@@ -22,9 +22,8 @@ constexpr const char* kRowTimesSchema = "catoptric/row-times/1";
 constexpr double kLeastMs = 1e-6;
 constexpr const char* kMsText = "milliseconds above 0";
 constexpr std::uintmax_t kMaxCostFileBytes = std::uintmax_t{16} << 20;
-constexpr measure::UnitCostOrigin kAllCostOrigins[] = {measure::UnitCostOrigin::fitted,
-                                                       measure::UnitCostOrigin::literature,
-                                                       measure::UnitCostOrigin::given};
+constexpr measure::CostOrigin kAllCostOrigins[] = {
+    measure::CostOrigin::fitted, measure::CostOrigin::literature, measure::CostOrigin::given};
 
 /// A value of a document, with its place for messages: "costs.json: costs[2].ns".
 struct CostJsonValue {
@@ -82,9 +81,9 @@ WorkKind read_work_kind(const CostJsonValue& value) {
          suggest_name(name, names));
 }
 
-measure::UnitCostOrigin read_cost_origin(const CostJsonValue& value) {
+measure::CostOrigin read_cost_origin(const CostJsonValue& value) {
     const std::string name = value.read_text();
-    for (const measure::UnitCostOrigin origin : kAllCostOrigins)
+    for (const measure::CostOrigin origin : kAllCostOrigins)
         if (measure::cost_origin_name(origin) == name) return origin;
     value.fail_with_expected_value("fitted, literature or given");
 }
@@ -101,9 +100,9 @@ measure::Interval read_cost_range(const CostJsonValue& value, double ns) {
     return range;
 }
 
-measure::WorkUnitCost read_unit_cost(const CostJsonValue& value) {
+measure::UnitCost read_unit_cost(const CostJsonValue& value) {
     value.check_member_names({"work", "ns", "range", "source"});
-    measure::WorkUnitCost unit;
+    measure::UnitCost unit;
     unit.kind = read_work_kind(value.find_member("work"));
     unit.ns = value.find_member("ns").read_number(0, "nanoseconds of at least 0");
     unit.range = read_cost_range(value.find_member("range"), unit.ns);
@@ -122,8 +121,8 @@ Json read_costs_json(const std::filesystem::path& file, const char* what) {
 }
 
 /// Returns the measured and the predicted times of the rows of a fit.
-measure::UnitCostFitQuality read_fit(const CostJsonValue& value) {
-    measure::UnitCostFitQuality fit;
+measure::FitQuality read_fit(const CostJsonValue& value) {
+    measure::FitQuality fit;
     for (const CostJsonValue& row : value.find_member("left_out").list_elements()) {
         fit.samples.push_back({row.find_member("row").read_text(),
                                {},
@@ -143,8 +142,8 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
     costs.origin = read_cost_origin(document.find_member("origin"));
     costs.note = document.find_member("note").read_text_or_empty();
     for (const CostJsonValue& value : document.find_member("costs").list_elements()) {
-        const measure::WorkUnitCost unit = read_unit_cost(value);
-        check(std::ranges::find(costs.units, unit.kind, &measure::WorkUnitCost::kind) ==
+        const measure::UnitCost unit = read_unit_cost(value);
+        check(std::ranges::find(costs.units, unit.kind, &measure::UnitCost::kind) ==
                   costs.units.end(),
               Failure::bad_data, value.place, ".work: '",
               kWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
@@ -155,10 +154,10 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
     return costs;
 }
 
-Json to_json(const measure::UnitCostFitQuality& fit) {
+Json to_json(const measure::FitQuality& fit) {
     Json json{{"rows", fit.samples.size()},
-              {"within_20_percent", make_number_json(fit.share_of_predictions_within_factor(1.2))},
-              {"within_50_percent", make_number_json(fit.share_of_predictions_within_factor(1.5))},
+              {"within_20_percent", make_number_json(fit.share_within(1.2))},
+              {"within_50_percent", make_number_json(fit.share_within(1.5))},
               {"left_out", Json::array()}};
     for (std::size_t i = 0; i < fit.samples.size(); ++i)
         json["left_out"].push_back({{"row", fit.samples[i].name},
@@ -174,7 +173,7 @@ std::string to_json(const measure::DeviceCosts& costs) {
               {"device", costs.device},
               {"origin", measure::cost_origin_name(costs.origin)}};
     if (!costs.note.empty()) json["note"] = costs.note;
-    json["costs"] = make_list_json(costs.units, [](const measure::WorkUnitCost& unit) {
+    json["costs"] = make_list_json(costs.units, [](const measure::UnitCost& unit) {
         Json one{{"work", kWorkKinds[static_cast<std::size_t>(unit.kind)].name},
                  {"ns", make_number_json(unit.ns)}};
         if (unit.range.is_known()) one["range"] = make_interval_json(unit.range);

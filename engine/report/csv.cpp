@@ -76,8 +76,8 @@ struct CsvFieldAdder {
     void operator()(const std::vector<double>& list) const {
         line.add_field(name, format_number_list(list), in_table);
     }
-    void operator()(const std::vector<measure::NamedMetricValueParts>& list) const {
-        for (const measure::NamedMetricValueParts& parts : list)
+    void operator()(const std::vector<measure::MetricParts>& list) const {
+        for (const measure::MetricParts& parts : list)
             for (const auto& [what, value] : parts.values)
                 line.add_field(name + "_" + parts.name + "_" + std::string(what), value, false);
     }
@@ -90,7 +90,7 @@ void CsvLine::add_field(const std::string& name, const measure::MetricValue& val
 /// Returns whether the report's table of rows has a column of this metric.
 bool is_in_rows_table(const measure::Metric& quantity) {
     return std::ranges::any_of(quantity.columns, [](const measure::MetricColumn& column) {
-        return column.table == measure::MetricTableKind::rows;
+        return column.table == measure::TableKind::rows;
     });
 }
 
@@ -99,7 +99,7 @@ bool is_in_rows_table(const measure::Metric& quantity) {
 template <class Predicate>
 void add_difference_metrics(CsvLine& line, const std::string& mask,
                             const measure::Difference& error, Predicate is_in_table) {
-    for (const measure::Metric& quantity : measure::list_difference_metrics())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         line.add_field(mask + "_" + std::string(quantity.name),
                        measure::metric_value(quantity, error), is_in_table(quantity));
 }
@@ -108,7 +108,7 @@ void add_difference_metrics(CsvLine& line, const std::string& mask,
 /// for `mirrors` mirrors, even if the row has fewer, so that all lines have the same columns.
 void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                       std::size_t mirrors) {
-    for (const measure::RowPixelMask& mask : measure::list_row_masks())
+    for (const measure::RowMask& mask : measure::row_masks())
         if (measure::has_table_columns(mask, comparison))
             add_difference_metrics(line, std::string(mask.name), row.*mask.error,
                                    [&](const measure::Metric& metric) {
@@ -125,8 +125,8 @@ void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& ro
 void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                        std::size_t mirrors) {
     bool has_errors = false;
-    for (const measure::Metric& quantity : measure::list_metrics()) {
-        if (!measure::is_metric_shown(quantity, comparison)) continue;
+    for (const measure::Metric& quantity : measure::metrics()) {
+        if (!measure::is_shown(quantity, comparison)) continue;
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
@@ -140,10 +140,10 @@ void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& r
 /// Adds the errors over the mirrors in the drawn views. Adds no columns if no views were drawn.
 void add_view_fields(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
-    for (const measure::Metric& quantity : measure::list_difference_metrics()) {
-        if (!measure::is_scalar_metric(quantity)) continue;
-        const measure::MetricOverViews over = measure::compute_metric_over_views(
-            row, measure::list_row_masks().front(), quantity);
+    for (const measure::Metric& quantity : measure::difference_metrics()) {
+        if (!measure::is_scalar(quantity)) continue;
+        const measure::MetricOverViews over = measure::metric_over_views(
+            row, measure::row_masks().front(), quantity);
         const std::string name = "views_" + std::string(quantity.name);
         line.add_field(name + "_median", over.median);
         line.add_field(name + "_low", over.ci95.low);
@@ -201,14 +201,14 @@ CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t 
     line.add_field("label", row.label);
     line.add_field("settings", format_row_settings(row));
     line.add_field("model", row.model);
-    const measure::TimeRankRange places = measure::find_time_rank_range_of_row(comparison, row);
+    const measure::RankRange places = measure::find_rank_range(comparison, row);
     const bool has_place = places.first > 0;
     line.add_field("place_first", has_place ? static_cast<double>(places.first) : NAN);
     line.add_field("place_last", has_place ? static_cast<double>(places.last) : NAN);
     add_metric_fields(line, comparison, row, mirrors);
     add_view_fields(line, comparison, row);
     line.add_field("image", report_image_path(comparison, row.image + ".png"));
-    line.add_field("on_front", measure::is_on_pareto_front(comparison, row));
+    line.add_field("on_front", measure::is_on_front(comparison, row));
     line.add_field("is_reference", row.is_reference);
     add_identity_fields(line, comparison, row);
     line.add_field("incomplete", describe_incomplete_run(comparison));

@@ -111,7 +111,7 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
     std::vector<std::string> list;
     if (!comparison.complete)
         list.push_back("Incomplete, " + describe_incomplete_run(comparison) + ".");
-    const bool by_processor_time = measure::find_judged_time(comparison) == "cpu_ms";
+    const bool by_processor_time = measure::judged_time(comparison) == "cpu_ms";
     if (comparison.device.type == "cpu")
         list.push_back(std::string("This device is a processor: ") +
                        (by_processor_time
@@ -132,7 +132,7 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
             comparison.complete ? fmt::format(", which fit into --reference-seconds {:g}",
                                               comparison.noise->most_seconds)
                                 : ", and is refined once all rows are measured"));
-    if (comparison.noise && !comparison.noise->is_noise_target_reached())
+    if (comparison.noise && !comparison.noise->is_target_reached())
         list.push_back(fmt::format(
             "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "
             "FLIP of a row. More --reference-seconds than {:g} reduce it.",

@@ -109,8 +109,7 @@ StackedBars make_cause_bars(const Comparison& comparison) {
         StackedBar& bar = chart.bars.emplace_back();
         bar.label = row.label;
         for (const BarPartKind& kind : chart.kinds) {
-            const auto cause = std::ranges::find(row.causes->list, kind.name,
-                                                 &ErrorCauseShare::name);
+            const auto cause = std::ranges::find(row.causes->list, kind.name, &CauseShare::name);
             bar.lengths.push_back(cause != row.causes->list.end() ? 100 * cause->share : 0);
         }
     }

@@ -52,15 +52,15 @@ OptionalReportSentence describe_undrawn_dielectrics(const Comparison& comparison
         format_picture_error(finding->best->error_dielectrics.flip), finding->best->label);
 }
 
-std::string describe_clear_verdict(const measure::CaptureClearCostResult& finding) {
+std::string describe_clear_verdict(const measure::ClearCost& finding) {
     switch (finding.verdict) {
-    case measure::CaptureClearCostResult::CaptureClearCostVerdict::slower_without:
+    case measure::ClearCost::Verdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on this device";
-    case measure::CaptureClearCostResult::CaptureClearCostVerdict::too_little:
+    case measure::ClearCost::Verdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does not explain the report's order on this device";
-    case measure::CaptureClearCostResult::CaptureClearCostVerdict::explains: break;
+    case measure::ClearCost::Verdict::explains: break;
     }
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "
@@ -70,7 +70,7 @@ std::string describe_clear_verdict(const measure::CaptureClearCostResult& findin
 
 OptionalReportSentence describe_clear_cost(const Comparison& comparison) {
     using measure::kSeedReportNaiveRow, measure::kSeedReportReuseRow;
-    const auto finding = measure::find_capture_clear_cost_result(comparison);
+    const auto finding = measure::find_clear_cost(comparison);
     if (!finding) return {};
     const char* order = finding->one_is_slower ? "slower than" : "not slower than";
     std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
@@ -87,7 +87,7 @@ OptionalReportSentence describe_clear_cost(const Comparison& comparison) {
 }
 
 OptionalReportSentence describe_stored_distance_formats(const Comparison& comparison) {
-    const auto finding = measure::find_stored_distance_format_result(comparison);
+    const auto finding = measure::find_distance_format(comparison);
     if (!finding) return {};
     std::string text = "Stored distance: rmse over the mirrors is " + format_rmse(*finding->plain) +
                        " without correction, " + format_rmse(*finding->full) +
@@ -108,7 +108,7 @@ OptionalReportSentence describe_stored_distance_formats(const Comparison& compar
 }
 
 OptionalReportSentence describe_bounces_versus_error(const Comparison& comparison) {
-    const auto finding = measure::find_bounces_versus_error_result(comparison);
+    const auto finding = measure::find_bounces_result(comparison);
     if (!finding) return {};
     std::vector<std::string> figures;
     for (const Row* row : finding->steps) figures.push_back(format_rmse(*row));
@@ -129,7 +129,7 @@ OptionalReportSentence describe_bounces_versus_error(const Comparison& compariso
 }
 
 OptionalReportSentence describe_parallax_correction_price(const Comparison& comparison) {
-    const auto finding = measure::find_parallax_correction_price(comparison);
+    const auto finding = measure::find_parallax_price(comparison);
     if (!finding) return {};
     std::string text = fmt::format(
         "Price of the correction: in the seed report, part three takes {:.1f} ms instead of {:.1f} ms, "
@@ -150,7 +150,7 @@ OptionalReportSentence describe_parallax_correction_price(const Comparison& comp
 
 OptionalReportSentence describe_ray_tracing_time(const Comparison& comparison) {
     using measure::kSeedReportParallaxRow, measure::kSeedReportRayTracingRow;
-    const auto finding = measure::find_ray_tracing_time_result(comparison);
+    const auto finding = measure::find_ray_tracing_time(comparison);
     if (!finding) return {};
     const Row &three = *finding->three, &traced = *finding->traced;
     std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
@@ -196,8 +196,7 @@ std::string describe_fastest_and_closest(const Comparison& comparison) {
     std::string text = (fastest.are_equal ? "" : "cannot tell: ") + describe_fastest(fastest);
     if (const Row* closest = measure::find_closest_row(comparison))
         text += ", closest is " + format_row_metrics(*closest);
-    if (const std::vector<const Row*> ties = measure::find_ties_with_closest_row(comparison);
-        !ties.empty())
+    if (const std::vector<const Row*> ties = measure::find_closest_ties(comparison); !ties.empty())
         text += ", with which tie in FLIP: " + join_labels_of_rows(ties);
     return text;
 }
@@ -266,7 +265,7 @@ std::vector<std::string> describe_pareto_front(const Comparison& comparison) {
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
         std::string("On the front, by median ") +
-        (measure::find_judged_time(comparison) == "cpu_ms" ? "processor " : "") +
+        (measure::judged_time(comparison) == "cpu_ms" ? "processor " : "") +
         "time: " + format_metrics_of_rows(standing.front) +
         ". A row beats another if it is better in time or in FLIP, and in the other better as well "
         "or equal. Times are equal if the 95 % interval of their ratio, round by round, lies within "

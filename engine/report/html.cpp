@@ -80,7 +80,7 @@ std::string make_html_headlines(const Comparison& comparison) {
                                    fastest.are_equal ? "equal"
                                                      : fmt::format("of {}", fastest.candidates));
     if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr) {
-        const std::size_t ties = measure::find_ties_with_closest_row(comparison).size();
+        const std::size_t ties = measure::find_closest_ties(comparison).size();
         html += make_html_headline("Closest", "FLIP " + format_flip(closest->error),
                                    closest->label +
                                        (ties == 0 ? "" : fmt::format(", {} more tie", ties)));
@@ -180,7 +180,7 @@ std::string make_html_row_article(const Comparison& comparison, const EncodedPic
                                    make_html_anchor_of_row(comparison, index),
                                    escape_html(row.label));
     for (const auto& [holds, name] :
-         {std::pair(measure::is_on_pareto_front(comparison, row), "on the front"),
+         {std::pair(measure::is_on_front(comparison, row), "on the front"),
           std::pair(row.is_reference, "the reference"),
           std::pair(measure::has_nonfinite_pixels(row), "failed"), std::pair(row.noisy, "noisy")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
@@ -212,7 +212,7 @@ std::string format_css_colour(const vec3& colour) {
 std::string make_html_heat_scale() {
     std::string stops;
     for (int i = 0; i <= 8; ++i)
-        stops += "," + format_css_colour(measure::heat_map_colour(static_cast<float>(i) / 8));
+        stops += "," + format_css_colour(measure::heat_colour(static_cast<float>(i) / 8));
     return "<div class=\"scale\" style=\"background:linear-gradient(90deg" + stops +
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }

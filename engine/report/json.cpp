@@ -71,7 +71,7 @@ Json to_json(const measure::SampleSummary& summary) {
             {"samples", make_number_list_json(summary.samples)}};
 }
 
-Json to_json(const measure::NamedMetricValueParts& parts) {
+Json to_json(const measure::MetricParts& parts) {
     Json json{{parts.kind, parts.name}};
     for (const auto& [name, value] : parts.values)
         json[std::string(name)] = make_metric_value_json(value);
@@ -88,15 +88,15 @@ struct JsonValueWriter {
     }
     Json operator()(const measure::SampleSummary& times) const { return to_json(times); }
     Json operator()(const std::vector<double>& list) const { return make_number_list_json(list); }
-    Json operator()(const std::vector<measure::NamedMetricValueParts>& list) const {
-        return make_list_json(
-            list, [](const measure::NamedMetricValueParts& parts) { return to_json(parts); });
+    Json operator()(const std::vector<measure::MetricParts>& list) const {
+        return make_list_json(list,
+                              [](const measure::MetricParts& parts) { return to_json(parts); });
     }
 };
 
 /// Returns an object that begins with `json` and has all metrics of a difference.
 Json add_difference_metrics_json(Json json, const measure::Difference& error) {
-    for (const measure::Metric& quantity : measure::list_difference_metrics())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         json[std::string(quantity.name)] = make_metric_value_json(
             measure::metric_value(quantity, error));
     return json;
@@ -121,7 +121,7 @@ Json make_verdict_json(const Comparison& comparison) {
 
 /// Returns the budgets, and the labels of the rows that answer them.
 Json make_budget_json(const Comparison& comparison) {
-    const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
+    const measure::BestRows answer = measure::find_best_rows(comparison);
     const auto label = [](const Row* row) { return row == nullptr ? Json() : Json(row->label); };
     std::vector<const Row*> ties = answer.equal;
     ties.insert(ties.end(), answer.open.begin(), answer.open.end());
@@ -142,7 +142,7 @@ void add_metric_to_object(Json& json, const measure::Metric& quantity,
                           const measure::MetricValue& value) {
     const std::size_t slash = quantity.name.find('/');
     Json& object = json[std::string(quantity.name.substr(0, slash))];
-    if (object.is_null() && measure::is_missing_value(value)) return;
+    if (object.is_null() && measure::is_missing(value)) return;
     if (object.is_null() && !quantity.mask.empty()) object["mask"] = quantity.mask;
     object[std::string(quantity.name.substr(slash + 1))] = make_metric_value_json(value);
 }
@@ -160,8 +160,8 @@ void add_metric_json(Json& json, const measure::Metric& quantity, const Row& row
 /// Adds all metrics of the table to a row. Metrics of differences are written together, at the
 /// place of the first of them.
 void add_row_metrics_json(Json& json, const Comparison& comparison, const Row& row) {
-    for (const measure::Metric& quantity : measure::list_metrics()) {
-        if (!measure::is_metric_shown(quantity, comparison)) continue;
+    for (const measure::Metric& quantity : measure::metrics()) {
+        if (!measure::is_shown(quantity, comparison)) continue;
         if (quantity.mask != "each")
             add_metric_json(json, quantity, row);
         else if (!json.contains("error"))
@@ -259,7 +259,7 @@ Json make_plan_json(const std::vector<PlanEntry>& plan) {
 
 Json make_row_times_json(const Row& row) {
     Json json = Json::object();
-    for (const measure::Metric& quantity : measure::list_metrics())
+    for (const measure::Metric& quantity : measure::metrics())
         if (quantity.unit == "ms" && quantity.study.empty()) add_metric_json(json, quantity, row);
     return json;
 }
@@ -291,7 +291,7 @@ Json make_report_json(const Comparison& comparison) {
     json["rows"] = make_list_json(comparison.rows,
                                   [&](const Row& row) { return to_json(comparison, row); });
     json["pareto"] = comparison.pareto;
-    json["judged_time"] = measure::find_judged_time(comparison);
+    json["judged_time"] = measure::judged_time(comparison);
     json["verdict"] = make_verdict_json(comparison);
     if (measure::has_budget(comparison)) json["budget"] = make_budget_json(comparison);
     if (comparison.lag) json["lag"] = make_lag_json(comparison);
@@ -299,7 +299,7 @@ Json make_report_json(const Comparison& comparison) {
 }
 
 void add_error_fields_json(Json& json, const measure::Errors& errors) {
-    for (const measure::RowPixelMask& mask : measure::list_row_masks())
+    for (const measure::RowMask& mask : measure::row_masks())
         json[std::string(mask.field)] = add_difference_metrics_json({{"mask", mask.name}},
                                                                     errors.*mask.error);
     Json& list = json["error_per_mirror"] = Json::array();

@@ -19,7 +19,7 @@ namespace catoptric::report {
 namespace {
 
 using measure::Difference;
-using measure::percentile_error_over_instants;
+using measure::percentile_over_instants;
 
 constexpr auto kFlipMemberOfDifference = &Difference::flip;
 
@@ -36,9 +36,8 @@ void add_lag_metrics(Json& json, const std::string& prefix, const std::vector<Di
          {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
           std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
         json[prefix + name + "_mean"] = make_number_json(
-            measure::mean_error_over_instants(errors, figure));
-        json[prefix + name] = make_number_list_json(
-            measure::list_error_metric_at_instants(errors, figure));
+            measure::mean_over_instants(errors, figure));
+        json[prefix + name] = make_number_list_json(measure::values_at_instants(errors, figure));
     }
 }
 
@@ -49,9 +48,9 @@ Json to_json(const LagAtSpeed& at) {
          {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
         const std::string prefix(name);
         json[prefix + "_median"] = make_number_json(
-            measure::percentile_error_over_instants(at.errors, figure, .5));
+            measure::percentile_over_instants(at.errors, figure, .5));
         json[prefix + "_max"] = make_number_json(
-            measure::percentile_error_over_instants(at.errors, figure, 1));
+            measure::percentile_over_instants(at.errors, figure, 1));
     }
     add_lag_metrics(json, "reference_", at.reference_errors);
     return json;
@@ -115,22 +114,18 @@ std::string describe_lag_limits(const LagResults& lag) {
 
 /// Returns the FLIP of lag over all instants as text: mean, median and largest.
 std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
-    return {
-        format_picture_error(measure::mean_error_over_instants(at.errors, kFlipMemberOfDifference)),
-        format_picture_error(
-            percentile_error_over_instants(at.errors, kFlipMemberOfDifference, .5)),
-        format_picture_error(
-            percentile_error_over_instants(at.errors, kFlipMemberOfDifference, 1))};
+    return {format_picture_error(measure::mean_over_instants(at.errors, kFlipMemberOfDifference)),
+            format_picture_error(percentile_over_instants(at.errors, kFlipMemberOfDifference, .5)),
+            format_picture_error(percentile_over_instants(at.errors, kFlipMemberOfDifference, 1))};
 }
 
 std::vector<std::string> make_lag_table_row(const LagResults& lag, const LagRow& row,
                                             const LagAtSpeed& at) {
     const auto mean = [&](double Difference::*figure) {
-        return measure::mean_error_over_instants(at.errors, figure);
+        return measure::mean_over_instants(at.errors, figure);
     };
     const auto flip_to_reference = [](const std::vector<Difference>& errors) {
-        return format_picture_error(
-            measure::mean_error_over_instants(errors, kFlipMemberOfDifference));
+        return format_picture_error(measure::mean_over_instants(errors, kFlipMemberOfDifference));
     };
     const auto [flip, median, largest] = format_flip_values(at);
     return {row.label,
@@ -141,7 +136,7 @@ std::vector<std::string> make_lag_table_row(const LagResults& lag, const LagRow&
             format_picture_error(mean(&Difference::rmse)),
             median,
             largest,
-            format_fixed(measure::find_instant_of_worst_lag(lag, at), 2),
+            format_fixed(measure::find_worst_instant(lag, at), 2),
             flip_to_reference(at.reference_errors),
             flip_to_reference(row.still_reference_errors)};
 }
@@ -176,9 +171,8 @@ std::string make_html_lag_along_path(const LagResults& lag, const LagRow& row) {
         chart.x_ticks.push_back(lag.seconds.front() + share * lag.path);
     std::erase_if(chart.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
-        chart.lines.push_back(
-            {format_motion_speed(at.speed),
-             measure::list_error_metric_at_instants(at.errors, kFlipMemberOfDifference)});
+        chart.lines.push_back({format_motion_speed(at.speed),
+                               measure::values_at_instants(at.errors, kFlipMemberOfDifference)});
     return make_html_line_chart(chart);
 }
 
@@ -192,7 +186,7 @@ std::string make_html_lag_against_speed(const LagResults& lag) {
     for (const LagRow& row : lag.rows) {
         ChartLine& line = chart.lines.emplace_back(ChartLine{row.label, {}});
         for (const LagAtSpeed& at : row.speeds)
-            line.y.push_back(measure::mean_error_over_instants(at.errors, kFlipMemberOfDifference));
+            line.y.push_back(measure::mean_over_instants(at.errors, kFlipMemberOfDifference));
     }
     return make_html_line_chart(chart);
 }

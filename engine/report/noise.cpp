@@ -21,22 +21,22 @@ std::string format_squared_error(double square) {
 }
 
 /// Returns the entry of a row's list `noise` for the mask of mirrors.
-const measure::NamedMetricValueParts* find_mirror_noise(const measure::MetricValue& value) {
-    const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
+const measure::MetricParts* find_mirror_noise(const measure::MetricValue& value) {
+    const auto* list = std::get_if<std::vector<measure::MetricParts>>(&value);
     if (list == nullptr) return nullptr;
-    const auto found = std::ranges::find(*list, measure::list_row_masks().front().name,
-                                         &measure::NamedMetricValueParts::name);
+    const auto found = std::ranges::find(*list, measure::row_masks().front().name,
+                                         &measure::MetricParts::name);
     return found == list->end() ? nullptr : &*found;
 }
 
-double find_number_of_part(const measure::NamedMetricValueParts& parts, std::string_view name) {
+double find_number_of_part(const measure::MetricParts& parts, std::string_view name) {
     for (const auto& [what, value] : parts.values)
         if (const auto* number = std::get_if<double>(&value); what == name && number != nullptr)
             return *number;
     return NAN;
 }
 
-std::string format_noise_interval(const measure::NamedMetricValueParts& parts) {
+std::string format_noise_interval(const measure::MetricParts& parts) {
     for (const auto& [what, value] : parts.values)
         if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
             return fmt::format("{:.2e} to {:.2e}", list->front(), list->back());
@@ -56,9 +56,8 @@ ReportTable make_noise_table(const Comparison& comparison) {
         "half exceeds 1 and the other does not, which clamping biases. FLIP: the mean of FLIP "
         "against A and against B. Floor: FLIP between A and B."};
     for (const Row& row : comparison.rows) {
-        const measure::MetricValue value = measure::find_row_metric_of_study(
-            row, measure::kNoiseMetricName);
-        const measure::NamedMetricValueParts* noise = find_mirror_noise(value);
+        const measure::MetricValue value = measure::study_metric(row, measure::kNoiseMetricName);
+        const measure::MetricParts* noise = find_mirror_noise(value);
         if (noise == nullptr) continue;
         const double square = find_number_of_part(*noise, "squared_error");
         const bool hidden = measure::is_below_noise(row.error) || square < 0;
@@ -84,14 +83,12 @@ const RegisteredReportPart kNoiseReportPart{
 } // namespace
 
 measure::Interval find_rmse_interval(const Row& row) {
-    const measure::MetricValue value = measure::find_row_metric_of_study(row,
-                                                                         measure::kNoiseMetricName);
-    const measure::NamedMetricValueParts* noise = find_mirror_noise(value);
+    const measure::MetricValue value = measure::study_metric(row, measure::kNoiseMetricName);
+    const measure::MetricParts* noise = find_mirror_noise(value);
     if (noise == nullptr) return {};
     for (const auto& [what, part] : noise->values)
         if (const auto* ends = std::get_if<std::vector<double>>(&part); what == "ci95" && ends)
-            return {measure::square_root_keeping_sign(ends->front()),
-                    measure::square_root_keeping_sign(ends->back())};
+            return {measure::signed_sqrt(ends->front()), measure::signed_sqrt(ends->back())};
     return {};
 }
 

@@ -19,9 +19,8 @@ namespace {
 /// Returns how many ranked rows have a FLIP over the mirrors below the limit, against the
 /// reference.
 std::size_t count_rows_with_less_flip(const std::vector<Row>& rows, double limit) {
-    return static_cast<std::size_t>(std::ranges::count_if(rows, [&](const Row& row) {
-        return measure::is_row_eligible_for_ranking(row) && row.error.flip < limit;
-    }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        rows, [&](const Row& row) { return measure::is_rankable(row) && row.error.flip < limit; }));
 }
 
 std::string describe_rows_with_less_flip(const std::vector<Row>& rows, std::size_t less) {
@@ -40,7 +39,7 @@ std::string describe_path_distance(const measure::PathDistance& distance,
                            "find out: {}, with the same options for scene and camera.",
                            distance.unknown, escape(distance.command));
     const bool shows_mirror = !std::isnan(distance.flip);
-    const measure::Interval interval = measure::find_path_distance_interval(distance);
+    const measure::Interval interval = measure::distance_interval(distance);
     const std::string where = fmt::format(
         "{}, {}x{}, {} paths a pixel{}",
         shows_mirror ? "over the mirrors" : "over the picture, which shows no mirror",
@@ -63,7 +62,7 @@ Json make_path_distance_json(const measure::PathDistance& distance) {
               {"noise", make_number_json(distance.noise)},
               {"flip_all", make_number_json(distance.flip_all)},
               {"noise_all", make_number_json(distance.noise_all)},
-              {"interval", make_interval_json(known ? measure::find_path_distance_interval(distance)
+              {"interval", make_interval_json(known ? measure::distance_interval(distance)
                                                     : measure::Interval())},
               {"size", Json::array({distance.width, distance.height})},
               {"paths", distance.paths},

@@ -176,7 +176,7 @@ std::string make_svg_row_mark(const RowPlotPoint& point) {
     const std::string title = fmt::format(
         "<title>{}: {} ms, FLIP {}</title>", escape_html(point.row->label),
         format_ms(point.row->time_ms().median), format_flip(point.row->error));
-    if (measure::is_ray_traced_row(*point.row))
+    if (measure::is_ray_traced(*point.row))
         return fmt::format(
             R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
             point.x - 4.5, point.y - 4.5, title);
@@ -234,11 +234,11 @@ std::string make_svg_labels(const std::vector<RowPlotPoint>& points) {
 } // namespace
 
 bool has_time_to_plot(const Row& row) {
-    return measure::is_row_eligible_for_ranking(row) && row.time_ms().median > 0;
+    return measure::is_rankable(row) && row.time_ms().median > 0;
 }
 
 std::string make_time_axis_name(const Comparison& comparison) {
-    const std::string_view time = measure::find_judged_time(comparison);
+    const std::string_view time = measure::judged_time(comparison);
     return time == "cpu_ms"     ? "Processor time of a frame, median, ms"
            : time == "frame_ms" ? "Time of a frame, host and GPU, median, ms"
                                 : "GPU time of a frame, median, ms";
@@ -289,7 +289,7 @@ std::string make_comparison_plot(const Comparison& comparison) {
                                              : kComparisonPlotFrame.plot_y_of_zero_value_lane(),
                           std::max(x(ci95.low), kComparisonPlotFrame.left),
                           std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
-                          measure::is_on_pareto_front(comparison, row)});
+                          measure::is_on_front(comparison, row)});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"

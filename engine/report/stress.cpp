@@ -17,16 +17,16 @@ Json to_json(const StressRow& row) {
     Json json{{"id", row.id},
               {"stimulus", row.stimulus},
               {"property", row.property},
-              {"verdict", stress_verdict_name(row.verdict)},
+              {"verdict", verdict_name(row.verdict)},
               {"remark", row.remark}};
-    const StressCase* worst = row.worst_stress_case();
+    const StressCase* worst = row.worst_case();
     json["measured"] = worst ? make_number_json(worst->measured) : Json();
     json["threshold"] = worst ? make_number_json(worst->limit) : Json();
     json["cases"] = make_list_json(row.cases, [](const StressCase& one) {
         return Json{{"what", one.what},
                     {"measured", make_number_json(one.measured)},
                     {"threshold", make_number_json(one.limit)},
-                    {"holds", one.is_case_within_limit()},
+                    {"holds", one.is_within_limit()},
                     {"quality", one.is_quality},
                     {"seen", one.seen}};
     });
@@ -34,7 +34,7 @@ Json to_json(const StressRow& row) {
         return "images/" + picture.name + ".png";
     });
     json["seconds"] = make_number_json(row.seconds);
-    json["not_run"] = make_list_json(row.not_run, [](const SkippedStressTestPart& part) {
+    json["not_run"] = make_list_json(row.not_run, [](const SkippedPart& part) {
         return Json{{"what", part.what}, {"why", part.why}};
     });
     json["turned_red_by"] = row.turned_red_by;
@@ -46,15 +46,14 @@ std::string format_short_number(double value) { return fmt::format("{:.3g}", val
 /// Returns the worst case, the parts that are not covered and those that could not be run. If
 /// nothing was run, returns the reason.
 std::string describe_stress_test_result(const StressRow& row) {
-    const StressCase* worst = row.worst_stress_case();
+    const StressCase* worst = row.worst_case();
     std::string words = worst ? worst->what : "";
     const auto add = [&](const std::string& more) {
         if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
     };
-    if (worst && !worst->is_case_within_limit()) add(worst->seen);
+    if (worst && !worst->is_within_limit()) add(worst->seen);
     add(row.remark);
-    for (const SkippedStressTestPart& part : row.not_run)
-        add("not run: " + part.what + ": " + part.why);
+    for (const SkippedPart& part : row.not_run) add("not run: " + part.what + ": " + part.why);
     return words;
 }
 
@@ -66,8 +65,8 @@ ReportTable make_stress_table(const StressResults& stress) {
                        make_text_column("Worst case"), make_text_column("Turned red by")},
                       ""};
     for (const StressRow& row : stress.rows) {
-        const StressCase* worst = row.worst_stress_case();
-        table.rows.push_back({row.id, stress_verdict_name(row.verdict),
+        const StressCase* worst = row.worst_case();
+        table.rows.push_back({row.id, verdict_name(row.verdict),
                               worst ? format_short_number(worst->measured) : "–",
                               worst ? format_short_number(worst->limit) : "–", row.stimulus,
                               row.property, describe_stress_test_result(row), row.turned_red_by});

@@ -9,13 +9,13 @@
 /// Functions that write reports about the results of `stress`.
 namespace catoptric::report {
 
-using measure::SkippedStressTestPart;
-using measure::stress_verdict_name;
+using measure::SkippedPart;
 using measure::StressCase;
 using measure::StressPicture;
 using measure::StressResults;
 using measure::StressRow;
 using measure::StressVerdict;
+using measure::verdict_name;
 
 /// Returns the results as JSON, schema "catoptric/stress/1".
 std::string to_json(const StressResults& stress);

@@ -34,7 +34,7 @@ const Row* find_row_of_this_program(const Comparison& comparison,
         return measure::find_parallax_row(comparison);
     if (seed.part == TechniqueTraits::SeedPart::rays)
         return measure::find_ray_traced_row(comparison);
-    return measure::find_row_of_seed_part(comparison, seed.part);
+    return measure::find_seed_row(comparison, seed.part);
 }
 
 std::vector<std::string> make_seed_report_cells(const measure::SeedReportRow& seed) {
@@ -52,7 +52,7 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             std::to_string(row.scene_draws),
             format_fixed(row.time_ms().median, decimals),
             format_median_interval(row.time_ms(), decimals),
-            format_time_places(measure::find_time_rank_range_of_row(comparison, row)),
+            format_time_places(measure::find_rank_range(comparison, row)),
             format_fps(row.elapsed_ms().median),
             format_flip(row.error),
             format_fixed(100 * row.error.off, 2),
@@ -80,10 +80,10 @@ std::string make_report_row_remark(const Comparison& comparison, const Row& row)
     std::vector<std::string> remarks;
     if (measure::has_nonfinite_pixels(row)) remarks.push_back("failed");
     if (row.is_reference) remarks.push_back("reference");
-    if (measure::is_on_pareto_front(comparison, row)) remarks.push_back("front");
+    if (measure::is_on_front(comparison, row)) remarks.push_back("front");
     if (row.noisy) remarks.push_back("noisy");
     if (row.model != "everything") remarks.push_back("model " + row.model);
-    for (std::string& note : measure::list_row_notes(comparison, row))
+    for (std::string& note : measure::row_notes(comparison, row))
         remarks.push_back(std::move(note));
     return join_texts(remarks, ", ");
 }
@@ -91,13 +91,13 @@ std::string make_report_row_remark(const Comparison& comparison, const Row& row)
 /// Returns a cell of a metric's column. `decimals` is that of times in the whole table.
 std::string format_metric_cell(const measure::MetricColumn& column,
                                const measure::MetricValue& value, int decimals) {
-    using measure::MetricValueFormat;
-    if (measure::is_missing_value(value)) return make_empty_cell();
+    using measure::ValueFormat;
+    if (measure::is_missing(value)) return make_empty_cell();
     if (const auto* times = std::get_if<measure::SampleSummary>(&value)) {
-        if (column.style == MetricValueFormat::time_interval)
+        if (column.style == ValueFormat::time_interval)
             return format_median_interval(*times, decimals);
-        return column.style == MetricValueFormat::times ? format_fixed(times->median, decimals)
-                                                        : format_ms(times->median);
+        return column.style == ValueFormat::times ? format_fixed(times->median, decimals)
+                                                  : format_ms(times->median);
     }
     if (const auto* mark = std::get_if<bool>(&value)) return *mark ? "yes" : "no";
     const auto* number = std::get_if<double>(&value);
@@ -115,7 +115,7 @@ std::string format_flip_cell(const measure::Difference& error) {
 struct MetricTableColumn {
     const measure::Metric* quantity;
     measure::MetricColumn column;
-    const measure::RowPixelMask* mask = nullptr;
+    const measure::RowMask* mask = nullptr;
 
     int metric_column_order() const { return column.order != 0 ? column.order : quantity->order; }
     measure::MetricValue metric_value_of_row(const Row& row) const {
@@ -131,20 +131,20 @@ struct MetricTableColumn {
 
 /// Returns the columns of the metrics in a table, by order. Columns over other masks follow all
 /// columns over the mirrors.
-std::vector<MetricTableColumn> list_metric_columns(measure::MetricTableKind table,
+std::vector<MetricTableColumn> list_metric_columns(measure::TableKind table,
                                                    const Comparison& comparison) {
     std::vector<MetricTableColumn> columns;
     int last = 0; // the last order of a metric of differences
-    for (const measure::Metric& quantity : measure::list_difference_metrics())
-        if (quantity.order < measure::kFirstMetricOrderAfterDifferences) last = quantity.order;
-    for (const measure::Metric& quantity : measure::list_metrics())
+    for (const measure::Metric& quantity : measure::difference_metrics())
+        if (quantity.order < measure::kOrderAfterDifferences) last = quantity.order;
+    for (const measure::Metric& quantity : measure::metrics())
         for (const measure::MetricColumn& column : quantity.columns) {
-            if (column.table != table || !measure::is_metric_shown(quantity, comparison)) continue;
+            if (column.table != table || !measure::is_shown(quantity, comparison)) continue;
             if (quantity.mask != "each") {
                 columns.push_back({&quantity, column});
                 continue;
             }
-            for (const measure::RowPixelMask& mask : measure::list_row_masks()) {
+            for (const measure::RowMask& mask : measure::row_masks()) {
                 if (!mask.title.empty() && !quantity.each_mask_in_table) continue;
                 if (!measure::has_table_columns(mask, comparison)) continue;
                 columns.push_back({&quantity, column, &mask});
@@ -236,18 +236,18 @@ constexpr UnsupportedFeatureText kUnsupportedFeatureTexts[] = {
 } // namespace
 
 std::string format_metric_number(double value, const measure::MetricColumn& column, int decimals) {
-    using measure::MetricValueFormat;
+    using measure::ValueFormat;
     switch (column.style) {
-    case MetricValueFormat::fixed: return format_fixed(value, column.decimals);
-    case MetricValueFormat::percent: return format_fixed(100 * value, column.decimals);
-    case MetricValueFormat::mebibytes: return format_mebibytes(static_cast<std::uint64_t>(value));
-    case MetricValueFormat::times: return format_fixed(value, decimals);
-    case MetricValueFormat::own_times: return format_ms(value);
+    case ValueFormat::fixed: return format_fixed(value, column.decimals);
+    case ValueFormat::percent: return format_fixed(100 * value, column.decimals);
+    case ValueFormat::mebibytes: return format_mebibytes(static_cast<std::uint64_t>(value));
+    case ValueFormat::times: return format_fixed(value, decimals);
+    case ValueFormat::own_times: return format_ms(value);
     default: return format_picture_error(value);
     }
 }
 
-std::string format_time_places(const measure::TimeRankRange& places) {
+std::string format_time_places(const measure::RankRange& places) {
     if (places.first == 0) return std::string(kEmptyCellText);
     const std::string first = std::to_string(places.first);
     return places.first == places.last ? first : first + "–" + std::to_string(places.last);
@@ -295,8 +295,8 @@ ReportTable make_rows_table(const Comparison& comparison) {
     if (measure::find_undrawn_dielectrics(comparison))
         table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
                       "mirror.";
-    const std::vector<MetricTableColumn> columns = list_metric_columns(
-        measure::MetricTableKind::rows, comparison);
+    const std::vector<MetricTableColumn> columns = list_metric_columns(measure::TableKind::rows,
+                                                                       comparison);
     add_metric_columns(table, columns);
     table.columns.push_back(make_text_column("Remark"));
     const int decimals = choose_ms_decimals(comparison);
@@ -304,32 +304,32 @@ ReportTable make_rows_table(const Comparison& comparison) {
         std::vector<std::string>& cells = table.rows.emplace_back(
             format_row_cells(row, columns, decimals));
         cells.insert(cells.begin() + 1,
-                     format_time_places(measure::find_time_rank_range_of_row(comparison, row)));
+                     format_time_places(measure::find_rank_range(comparison, row)));
         cells.push_back(make_report_row_remark(comparison, row));
-        table.marked.push_back(measure::is_on_pareto_front(comparison, row));
+        table.marked.push_back(measure::is_on_front(comparison, row));
     }
     return table;
 }
 
 std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& comparison) {
-    using measure::MetricValueFormat;
-    const std::string_view ranked = measure::find_judged_time(comparison);
+    using measure::ValueFormat;
+    const std::string_view ranked = measure::judged_time(comparison);
     std::vector<RowMetricColumn> list;
     for (const MetricTableColumn& column :
-         list_metric_columns(measure::MetricTableKind::rows, comparison)) {
-        const MetricValueFormat style = column.column.style;
-        if (style == MetricValueFormat::time_interval || column.quantity->name == ranked) continue;
+         list_metric_columns(measure::TableKind::rows, comparison)) {
+        const ValueFormat style = column.column.style;
+        if (style == ValueFormat::time_interval || column.quantity->name == ranked) continue;
         const bool is_over_mirrors = column.mask != nullptr && column.mask->title.empty();
         RowMetricColumn numbers{
             column.metric_column_title() + (is_over_mirrors ? " over the mirrors" : ""), {}, {}};
-        const double scale = style == MetricValueFormat::percent     ? 100
-                             : style == MetricValueFormat::mebibytes ? 1.0 / (1 << 20)
-                                                                     : 1;
+        const double scale = style == ValueFormat::percent     ? 100
+                             : style == ValueFormat::mebibytes ? 1.0 / (1 << 20)
+                                                               : 1;
         for (const Row& row : comparison.rows) {
             const measure::MetricValue value = column.metric_value_of_row(row);
             const auto* times = std::get_if<measure::SampleSummary>(&value);
             const auto* number = std::get_if<double>(&value);
-            const bool is_missing = measure::is_missing_value(value);
+            const bool is_missing = measure::is_missing(value);
             numbers.values.push_back(is_missing          ? NAN
                                      : times != nullptr  ? times->median
                                      : number != nullptr ? scale * *number
@@ -372,8 +372,8 @@ ReportTable make_lookup_table(const Comparison& comparison) {
         "mirror, in whichever capture the row looked; wrong object: the capture shows "
         "another one there; unknown and miss: what the search says of itself; traced: of "
         "all mirror pixels."};
-    const std::vector<MetricTableColumn> columns = list_metric_columns(
-        measure::MetricTableKind::lookup, comparison);
+    const std::vector<MetricTableColumn> columns = list_metric_columns(measure::TableKind::lookup,
+                                                                       comparison);
     add_metric_columns(table, columns);
     const int decimals = choose_ms_decimals(comparison);
     for (const Row& row : comparison.rows)

@@ -56,7 +56,7 @@ std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& compariso
 /// Unknown for a reference without noise.
 measure::Interval find_rmse_interval(const Row& row);
 /// Returns the places of a row in the order of time, as "3" or "3–5"; "–" for a row without a time.
-std::string format_time_places(const measure::TimeRankRange& places);
+std::string format_time_places(const measure::RankRange& places);
 /// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
 /// empty.
 ReportTable make_plan_table(const Comparison& comparison);

@@ -73,7 +73,7 @@ int choose_ms_decimals(const Comparison& comparison) {
 }
 
 std::string describe_judged_time(const Comparison& comparison) {
-    return measure::find_judged_time(comparison) == "cpu_ms" ? ", by processor time" : "";
+    return measure::judged_time(comparison) == "cpu_ms" ? ", by processor time" : "";
 }
 
 std::string format_fps(double ms) {

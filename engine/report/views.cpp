@@ -24,15 +24,15 @@ struct DrawnViewMetric {
 /// Returns the metrics of differences that the table of rows shows, too.
 std::vector<DrawnViewMetric> list_view_metrics() {
     std::vector<DrawnViewMetric> list;
-    for (const measure::Metric& quantity : measure::list_difference_metrics())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         for (const measure::MetricColumn& column : quantity.columns)
-            if (measure::is_scalar_metric(quantity)) list.push_back({&quantity, &column});
+            if (measure::is_scalar(quantity)) list.push_back({&quantity, &column});
     return list;
 }
 
 std::string format_view_cell(const Row& row, const DrawnViewMetric& figure) {
-    const measure::MetricOverViews over = measure::compute_metric_over_views(
-        row, measure::list_row_masks().front(), *figure.quantity);
+    const measure::MetricOverViews over = measure::metric_over_views(
+        row, measure::row_masks().front(), *figure.quantity);
     const measure::MetricColumn& column = *figure.column;
     const std::string median = format_metric_number(over.median, column);
     if (!over.ci95.is_known()) return median;
@@ -45,7 +45,7 @@ std::optional<measure::SharedInstants> find_effect_of_shared_instants(const Comp
                                                                       const Row& row) {
     std::vector<double> values;
     for (const measure::Errors& view : row.views) values.push_back(view.error.flip);
-    return measure::estimate_effect_of_shared_instants(comparison.views, values);
+    return measure::estimate_shared_instants(comparison.views, values);
 }
 
 /// Returns the title of the metric's column without the unit.
@@ -54,13 +54,13 @@ std::string_view title_of_report_metric(const measure::Metric& quantity) {
     return title.substr(0, title.find(','));
 }
 
-std::string format_pairs_of_rows(const measure::MetricRowOrder::RowPairs& list) {
+std::string format_pairs_of_rows(const measure::RowOrder::RowPairs& list) {
     std::vector<std::string> pairs;
     for (const auto& [a, b] : list) pairs.push_back(a->label + " and " + b->label);
     return join_texts(pairs, "; ");
 }
 
-std::string format_tied_rows(const measure::MetricRowOrder& order) {
+std::string format_tied_rows(const measure::RowOrder& order) {
     const std::size_t pairs = order.rows.size() * (order.rows.size() - 1) / 2;
     if (order.ties.size() == pairs) return "No two of them are apart.";
     std::string text = order.ties.empty() ? "Every two of them are apart."
@@ -73,12 +73,11 @@ std::string format_tied_rows(const measure::MetricRowOrder& order) {
 
 /// Returns a JSON object with the summary over views of each metric that is one number, for one
 /// mask of pixels.
-Json make_view_metrics_json(const Row& row, const measure::RowPixelMask& mask) {
+Json make_view_metrics_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
-    for (const measure::Metric& quantity : measure::list_difference_metrics()) {
-        if (!measure::is_scalar_metric(quantity)) continue;
-        const measure::MetricOverViews over = measure::compute_metric_over_views(row, mask,
-                                                                                 quantity);
+    for (const measure::Metric& quantity : measure::difference_metrics()) {
+        if (!measure::is_scalar(quantity)) continue;
+        const measure::MetricOverViews over = measure::metric_over_views(row, mask, quantity);
         figures[std::string(quantity.name)] = {{"median", make_number_json(over.median)},
                                                {"ci95", make_interval_json(over.ci95)},
                                                {"values", make_metric_value_json(over.values)}};
@@ -124,7 +123,7 @@ Json make_views_json(const Comparison& comparison) {
 Json make_views_json(const Comparison& comparison, const Row& row) {
     if (row.views.empty()) return nullptr;
     Json json = Json::object();
-    for (const measure::RowPixelMask& mask : measure::list_row_masks())
+    for (const measure::RowMask& mask : measure::row_masks())
         json[std::string(mask.field)] = make_view_metrics_json(row, mask);
     json["shared_instants"] = nullptr;
     if (const auto shared = find_effect_of_shared_instants(comparison, row))
@@ -185,7 +184,7 @@ ReportTable make_views_table(const Comparison& comparison) {
 
 std::vector<std::string> describe_drawn_views(const Comparison& comparison) {
     std::vector<std::string> sentences;
-    for (const measure::MetricRowOrder& order : measure::order_rows_over_views(comparison))
+    for (const measure::RowOrder& order : measure::order_rows(comparison))
         sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
                                         title_of_report_metric(*order.figure),
                                         join_labels_of_rows(order.rows), format_tied_rows(order)));

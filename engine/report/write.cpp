@@ -106,7 +106,7 @@ public:
         : comparison_(comparison), images_(images) {}
 
     void encode(std::string& png, const measure::Picture& picture, const std::string& file) const {
-        std::string bytes = picture.pixels.empty() ? "" : measure::encode_picture_png(picture);
+        std::string bytes = picture.pixels.empty() ? "" : measure::encode_png(picture);
         if (!bytes.empty()) write(file, [&] { return bytes; });
         png = std::move(bytes); // after a failed write, the picture still counts as new
     }

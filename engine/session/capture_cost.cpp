@@ -23,7 +23,7 @@ void CaptureCostEstimate::add(double ms, std::uint32_t mirrors) {
 std::uint32_t CaptureCostEstimate::count_affordable_captures(double budget_ms,
                                                              std::uint32_t mirrors) const {
     if (each_ms_.empty()) return mirrors;
-    const double fit = std::floor(budget_ms / measure::compute_percentile(each_ms_, .5));
+    const double fit = std::floor(budget_ms / measure::percentile(each_ms_, .5));
     // If the time of a capture is too short to be measured, all captures fit into the budget.
     if (!(fit < mirrors)) return mirrors;
     return std::max(1u, static_cast<std::uint32_t>(fit));

@@ -19,8 +19,7 @@ double choose_exposure_for_picture(const measure::Picture& picture) {
         if (std::isfinite(its)) luminances.push_back(its);
     }
     if (luminances.empty()) return 0;
-    const double bright = measure::compute_percentile(std::move(luminances),
-                                                      kAutoExposurePercentile);
+    const double bright = measure::percentile(std::move(luminances), kAutoExposurePercentile);
     if (!(bright > 0)) return 0;
     const double stops = std::round(kExposureStepsPerStop * std::log2(kTargetValue / bright)) /
                          kExposureStepsPerStop;

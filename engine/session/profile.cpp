@@ -89,22 +89,21 @@ std::string make_profile_file_name(const DeviceInfo& device) {
 }
 
 std::string make_profile_text(const DeviceInfo& device,
-                              const std::vector<measure::ShaderVariantTrial>& tried) {
+                              const std::vector<measure::VariantTrial>& tried) {
     Json document{{"schema", kProfileSchema}, {"version", version()}, {"commit", commit()}};
     document["device"] = make_device_json(device);
     document["variants"] = Json::object();
     document["measured"] = Json::array();
-    for (const measure::ShaderVariantTrial& one : tried) {
-        document["variants"][one.variant] = one.is_faster_than_default() ? one.choice
-                                                                         : one.standard;
-        const measure::BenchmarkCostRatio ratio = one.time_ratio_to_default();
+    for (const measure::VariantTrial& one : tried) {
+        document["variants"][one.variant] = one.is_faster() ? one.choice : one.standard;
+        const measure::CostRatio ratio = one.time_ratio();
         document["measured"].push_back({{"variant", one.variant},
                                         {"choice", one.choice},
                                         {"against", one.standard},
                                         {"benchmark", one.benchmark},
                                         {"ratio", report::make_number_json(ratio.median)},
                                         {"ci95", report::make_interval_json(ratio.ci95)},
-                                        {"taken", one.is_faster_than_default()}});
+                                        {"taken", one.is_faster()}});
     }
     return report::serialise_json(document);
 }

@@ -18,7 +18,7 @@ std::string make_profile_file_name(const DeviceInfo& device);
 /// Returns the text of a profile. `tried`: measured variants in the table's order; the profile
 /// chooses those that are taken.
 std::string make_profile_text(const DeviceInfo& device,
-                              const std::vector<measure::ShaderVariantTrial>& tried);
+                              const std::vector<measure::VariantTrial>& tried);
 /// Reads the choices from the text of `file`. Throws `bad_data` if the text is no profile, or
 /// belongs to another device or driver.
 gpu::VariantChoices parse_device_profile(const std::string& text, const std::string& file,

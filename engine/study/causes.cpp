@@ -187,7 +187,7 @@ public:
 
     /// Returns the parts of the row's error. `errors`: squared errors of the mirrors' pixels in all
     /// listed pictures. `disagree`: pixels where rasteriser and rays see different mirrors.
-    std::vector<measure::PixelErrorCause>
+    std::vector<measure::PixelCause>
     split_error(const std::map<PictureWithHistory, MirrorPixelValues>& errors,
                 const std::vector<bool>& disagree) const {
         const auto of = [&](const HistorySourceFrames& history,
@@ -197,8 +197,7 @@ public:
         const auto shapley_values = [&](std::size_t players, const auto& picture_of) {
             measure::ShapleyValues values(players, disagree.size());
             for (std::uint32_t coalition = 0; coalition < 1U << players; ++coalition)
-                values.add_coalition_value(coalition,
-                                           of(histories_.settled, picture_of(coalition)));
+                values.add(coalition, of(histories_.settled, picture_of(coalition)));
             return values;
         };
         const auto negate = [&](const MirrorPixelValues& values) {
@@ -208,7 +207,7 @@ public:
                                 &left = of(histories_.settled,
                                            picture_of_coalition(kAllErrorCausesMask)),
                                 format = subtract_pixel_values(row, of(histories_.stored));
-        std::vector<measure::PixelErrorCause> parts{
+        std::vector<measure::PixelCause> parts{
             {"storage format", format, format},
             {"last frame", subtract_pixel_values(of(histories_.stored), of(histories_.settled)),
              subtract_pixel_values(row, of(histories_.row_settled))}};
@@ -225,15 +224,14 @@ public:
         if (has_noise_ && lookup_ == LobeLookup::in_filtered_levels) {
             add_step("filter", {0, true}, shared::kAblateFilter);
             const measure::ShapleyValues values = shapley_values(2, picture_of_lobe_coalition);
-            parts.push_back({"distance law", negate(values.shapley_values_of_player(0)), {}});
-            parts.push_back({"lobe shape", negate(values.shapley_values_of_player(1)), {}});
+            parts.push_back({"distance law", negate(values.worth(0)), {}});
+            parts.push_back({"lobe shape", negate(values.worth(1)), {}});
         }
         const measure::ShapleyValues values = shapley_values(
             kAblatableCauseCount,
             [this](std::uint32_t coalition) { return picture_of_coalition(coalition); });
         for (std::size_t i = 0; i < kAblatableCauseCount; ++i) {
-            parts.push_back(
-                {kAblatableCauses[i].name, negate(values.shapley_values_of_player(i)), {}});
+            parts.push_back({kAblatableCauses[i].name, negate(values.worth(i)), {}});
             if (!has_noise_)
                 parts.back().alone = subtract_pixel_values(
                     row, of(histories_.row, {combine_ablation_flags(1U << i)}));
@@ -378,9 +376,9 @@ void render_ablated_pictures(Session& session, const Request& request,
 ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
                                    const measure::Picture& truth,
                                    const std::vector<std::uint32_t>& hits, const Watcher& watcher,
-                                   const measure::NoisyReferenceHalves* halves)
+                                   const measure::NoisyHalves* halves)
     : study_session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
-      halves_(halves), pixels_(measure::list_mirror_pixels(hits)) {
+      halves_(halves), pixels_(measure::mirror_pixels(hits)) {
     // This technique follows no ray through other mirrors. Its look-ups therefore name the mirror
     // that the rasteriser draws in each pixel.
     Request request = make_history_request(base, {"naive:bounces=1,face=1,shadow=none", false});
@@ -392,7 +390,7 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
         const std::uint32_t drawn = looked.w > 0
                                         ? (static_cast<std::uint32_t>(looked.w) - 1) / 8 + 1
                                         : 0;
-        disagree_.push_back(drawn != measure::first_mirror_of_hit_word(hits[place]).number());
+        disagree_.push_back(drawn != measure::first_mirror(hits[place]).number());
     }
 }
 
@@ -407,7 +405,7 @@ double ErrorCauseFinder::pixel_error(const measure::Picture& a, const measure::P
     const vec3 values[] = {shown(a), shown(b), halves_->a.pixels[place], halves_->b.pixels[place]};
     if (!std::ranges::all_of(values, measure::is_finite_pixel)) return NAN;
     dvec3 in_range[4];
-    std::ranges::transform(values, in_range, measure::clamp_pixel_to_unit_range);
+    std::ranges::transform(values, in_range, measure::clamp_pixel);
     const auto& [x, y, truth_a, truth_b] = in_range;
     return (glm::dot(x - truth_a, y - truth_b) + glm::dot(x - truth_b, y - truth_a)) / 6;
 }
@@ -429,7 +427,7 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
         }
         std::array<measure::PictureMean, 2> means;
         const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
-            means[ablated[entry] >> shared::kAblateDrawBits & 1U].add_picture(picture);
+            means[ablated[entry] >> shared::kAblateDrawBits & 1U].add(picture);
             if (entry + 1 < shown.size() && shown[entry + 1] == shown[entry]) return;
             const measure::Picture a = means[0].mean(),
                                    b = shown[entry].is_mean ? means[1].mean() : a;
@@ -447,8 +445,8 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
         render_ablated_pictures(study_session_, make_history_request(base_, history), ablated,
                                 judge, watcher_);
     }
-    return measure::summarise_error_causes(hits_, off, errors.at(ladder.row()),
-                                           ladder.split_error(errors, disagree_));
+    return measure::summarise_causes(hits_, off, errors.at(ladder.row()),
+                                     ladder.split_error(errors, disagree_));
 }
 
 } // namespace catoptric::study

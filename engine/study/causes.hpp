@@ -33,7 +33,7 @@ public:
     /// All objects passed by reference must outlive the finder.
     ErrorCauseFinder(Session& session, const Request& base, const measure::Picture& truth,
                      const std::vector<std::uint32_t>& hits, const Watcher& watcher = {},
-                     const measure::NoisyReferenceHalves* halves = nullptr);
+                     const measure::NoisyHalves* halves = nullptr);
 
     /// Finds how much each cause contributes to the error of `technique`. Five causes share their
     /// joint error by Shapley values, per pixel, from pictures of all 32 sets of ablated causes.
@@ -61,8 +61,8 @@ private:
     const measure::Picture& truth_;
     const std::vector<std::uint32_t>& hits_;
     Watcher watcher_;
-    const measure::NoisyReferenceHalves* halves_; ///< null: the reference has no noise
-    std::vector<std::size_t> pixels_;             ///< indices of the pixels that show mirrors
+    const measure::NoisyHalves* halves_; ///< null: the reference has no noise
+    std::vector<std::size_t> pixels_;    ///< indices of the pixels that show mirrors
     /// For each of `pixels_`: whether the rasteriser draws no mirror, or another mirror than the
     /// one that the camera ray meets.
     std::vector<bool> disagree_;

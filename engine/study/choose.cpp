@@ -97,8 +97,8 @@ std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
                         .exposure = comparison.exposure};
         const std::vector<double>& errors = proof.plan.errors;
         proof.failures = count_views_above_limit(request, proof.plan);
-        const double seen_share = measure::lower_bound_of_passing_view_share(
-            proof.failures, errors.size(), request.confidence);
+        const double seen_share = measure::passing_share_bound(proof.failures, errors.size(),
+                                                               request.confidence);
         proof.share_bound = std::max(0.0, 1 - (1 - seen_share) /
                                                   (1 - find_noise_miss_probability(request)));
         proof.error_bound = measure::upper_tolerance_limit(errors, find_share_to_prove(request),
@@ -202,8 +202,8 @@ double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& m
 double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
     if (mirrors.nonfinite > 0) return INFINITY;
     if (mirrors.pixels == 0) return 0;
-    return quantity == ErrorQuantity::flip ? measure::find_lower_flip_bound(mirrors)
-                                           : measure::find_lower_rmse_bound(mirrors);
+    return quantity == ErrorQuantity::flip ? measure::lower_flip_bound(mirrors)
+                                           : measure::lower_rmse_bound(mirrors);
 }
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::string& plan) {

@@ -22,7 +22,7 @@ const char* error_quantity_name(ErrorQuantity quantity);
 
 /// Returns the error of a view, from the difference of the pictures over the mirrors: 0 if the view
 /// shows no mirror, and infinite if any mirror pixel is not finite. Against a reference with noise,
-/// it is a bound that includes the noise (measure::find_flip_bound and find_rmse_bound).
+/// it is a bound that includes the noise (measure::flip_bound and rmse_bound).
 double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
 /// Returns the same error, but against a reference with noise a bound that it is not below.
 double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
@@ -50,7 +50,7 @@ enum class TimeVerdict : std::uint8_t { keeps, may_keep, breaks };
 struct PlanProof {
     JudgedPlan plan;
     std::size_t failures = 0; ///< views above the limit of error; 0 without a limit
-    /// measure::lower_bound_of_passing_view_share of the failures. With noise, it is lowered for
+    /// measure::passing_share_bound of the failures. With noise, it is lowered for
     /// the failures that the noise may hide (measure::kNoiseMissProbability).
     double share_bound = 0;
     /// Error that the share `share` of all views does not exceed, with confidence `confidence`
@@ -85,7 +85,7 @@ struct PlanChoice {
 /// Chooses a plan in five steps. First, all candidates are measured in the comparison's own view,
 /// and a candidate is dropped if another is faster and errs less by a wide margin. Second, the
 /// remaining candidates are drawn in the first training views. Third, a mix of techniques by mirror
-/// is computed from their errors (measure::find_fastest_technique_mix). Fourth, the plans that keep
+/// is computed from their errors (measure::find_fastest_mix). Fourth, the plans that keep
 /// the limits, and the mix, are drawn in the other training views. Fifth, up to four plans and the
 /// mix are tested on fresh views (measure/proof_order.hpp). If no plan keeps the limits in the
 /// training views, the nearest plan is tested alone. Throws `usage` for limits out of range, and

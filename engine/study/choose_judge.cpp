@@ -21,7 +21,7 @@ namespace {
 measure::Interval find_predicted_range(const measure::DeviceCosts& costs,
                                        const measure::PredictedTime& time) {
     if (time.low < time.high) return {time.low, time.high};
-    const measure::Interval ratios = measure::find_prediction_error(costs);
+    const measure::Interval ratios = measure::prediction_error(costs);
     if (!ratios.is_known()) return {};
     return {time.ms * ratios.low, time.ms * ratios.high};
 }
@@ -74,9 +74,9 @@ std::string format_milliseconds_with_range(const JudgedPlan& plan) {
 }
 
 int count_fewest_proof_views(const ChooseRequest& request) {
-    return static_cast<int>(std::max(measure::count_views_needed_for_certificate(
-                                         find_share_to_prove(request), request.confidence, 0),
-                                     measure::kMinIntervalSamples));
+    return static_cast<int>(
+        std::max(measure::needed_views(find_share_to_prove(request), request.confidence, 0),
+                 measure::kMinIntervalSamples));
 }
 
 int count_proof_views(const ChooseRequest& request) {
@@ -93,8 +93,8 @@ std::uint64_t seed_of_further_training_views(const ChooseRequest& request) {
 }
 
 double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error) {
-    return quantity == ErrorQuantity::flip ? measure::find_flip_bound(error)
-                                           : measure::find_rmse_bound(error);
+    return quantity == ErrorQuantity::flip ? measure::flip_bound(error)
+                                           : measure::rmse_bound(error);
 }
 
 std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
@@ -102,8 +102,7 @@ std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
                                           const std::vector<std::string>& texts) {
     std::vector<measure::PredictedTime> predicted;
     if (request.device_costs)
-        predicted =
-            measure::find_predicted_pareto_front(*request.device_costs, comparison.rows).times;
+        predicted = measure::predict_front(*request.device_costs, comparison.rows).times;
     std::vector<JudgedPlan> plans;
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const measure::Row& row = comparison.rows[i];
@@ -154,8 +153,7 @@ void drop_clearly_beaten_plans(const ResolvedChooseRequest& request,
     constexpr double kMargin = 1.5; // ratio of times and errors in the own view that counts as a
                                     // wide margin
     for (std::size_t i = 0; i < plans.size(); ++i)
-        if (!measure::is_row_eligible_for_ranking(comparison.rows[i]) ||
-            std::isnan(plans[i].largest_error)) {
+        if (!measure::is_rankable(comparison.rows[i]) || std::isnan(plans[i].largest_error)) {
             plans[i].largest_error = NAN;
             plans[i].why = "shows no reflections that can be judged";
         }

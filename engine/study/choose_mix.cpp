@@ -34,12 +34,12 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
     if (!request.max_error) return "";
     const bool squares = request.quantity == ErrorQuantity::rmse; // squared errors can be added
                                                                   // over pixels
-    std::vector<measure::TechniqueCandidateForMix> candidates;
+    std::vector<measure::MixCandidate> candidates;
     std::vector<std::string> texts;
     std::vector<std::vector<double>> pixels;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (!read_technique_plan(plans[i].text).is_technique) continue;
-        measure::TechniqueCandidateForMix candidate{plans[i].ms, {}};
+        measure::MixCandidate candidate{plans[i].ms, {}};
         pixels.clear();
         for (const measure::Errors& view : training.rows[i].views) {
             std::vector<double>& sums = candidate.error_sums.emplace_back();
@@ -56,8 +56,7 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
         texts.push_back(plans[i].text);
     }
     const double limit = squares ? *request.max_error * *request.max_error : *request.max_error;
-    const std::vector<std::size_t> mix = measure::find_fastest_technique_mix(candidates, pixels,
-                                                                             limit);
+    const std::vector<std::size_t> mix = measure::find_fastest_mix(candidates, pixels, limit);
     return make_plan_text_from_technique_mix(texts, mix);
 }
 

@@ -34,7 +34,7 @@ std::optional<NoiseOfViews> find_reference_noise_of_views(const ChooseRequest& r
     std::vector<double> floors = comparison.noise->view_floors;
     std::erase_if(floors, [](double floor) { return std::isnan(floor); }); // no mirror is seen
     if (floors.empty()) return {};
-    NoiseOfViews noise{.median_floor = measure::compute_percentile(floors, .5),
+    NoiseOfViews noise{.median_floor = measure::percentile(floors, .5),
                        .largest_floor = std::ranges::max(floors),
                        .wanted_floor = {}};
     if (const std::optional<NoiseFloorTarget> target = find_noise_target(request)) {

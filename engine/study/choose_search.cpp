@@ -16,9 +16,8 @@ namespace {
 /// Returns the most failures among the proof views with which a proof succeeds.
 std::size_t find_most_failures_of_proof(const ResolvedChooseRequest& request, std::size_t views) {
     std::size_t failures = 0;
-    while (failures < views &&
-           measure::count_views_needed_for_certificate(find_share_to_prove(request),
-                                                       request.confidence, failures + 1) <= views)
+    while (failures < views && measure::needed_views(find_share_to_prove(request),
+                                                     request.confidence, failures + 1) <= views)
         ++failures;
     return failures;
 }
@@ -37,11 +36,11 @@ std::vector<JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
     const std::size_t failures = find_most_failures_of_proof(request, views);
     std::vector<measure::ProofCandidate> candidates;
     for (JudgedPlan* plan : plans)
-        candidates.push_back({std::max(plan->ms, 1e-9), measure::estimate_probability_of_proof(
-                                                            plan->errors, *request.max_error, views,
-                                                            failures, kAddedDeviation)});
+        candidates.push_back({std::max(plan->ms, 1e-9),
+                              measure::proof_probability(plan->errors, *request.max_error, views,
+                                                         failures, kAddedDeviation)});
     std::vector<JudgedPlan*> chain;
-    for (const std::size_t i : measure::find_best_proof_order(candidates, max_count, kNoPlanFactor))
+    for (const std::size_t i : measure::find_best_order(candidates, max_count, kNoPlanFactor))
         chain.push_back(plans[i]);
     if (chain.empty()) chain.push_back(plans.front());
     return chain;

@@ -187,7 +187,7 @@ private:
                                         warnings.end());
         comparison_.warnings.insert(comparison_.warnings.end(), study_warnings_.begin(),
                                     study_warnings_.end());
-        comparison_.pareto = measure::find_pareto_front_of_rows(comparison_.rows);
+        comparison_.pareto = measure::find_pareto_front(comparison_.rows);
     }
 
     /// Returns the times of clearing the cubes of all mirrors without drawing, for as many frames
@@ -206,8 +206,7 @@ private:
 
     /// Fills the figures of the reference that change while its noise is reduced.
     void fill_reference_noise() {
-        comparison_.reference_gpu_ms = measure::summarise_samples(
-            truths_.get_reference("1").gpu_ms);
+        comparison_.reference_gpu_ms = measure::summarise(truths_.get_reference("1").gpu_ms);
         comparison_.reference_hdr = truths_.get_reference("1").part.hdr;
         comparison_.reference_display = truths_.get_reference("1").part.display;
         comparison_.mirror_hits = truths_.find_mirror_hits();
@@ -216,7 +215,7 @@ private:
         comparison_.noise->most_seconds = compare_request_.reference_seconds;
         std::vector<const report::Row*> rows;
         for (const report::Row& row : comparison_.rows) rows.push_back(&row);
-        comparison_.noise->wanted_floor = measure::choose_target_noise_floor(rows);
+        comparison_.noise->wanted_floor = measure::target_noise_floor(rows);
     }
 
     /// Adds frames to a reference with noise, and judges the rows again. Rows with another number
@@ -231,8 +230,7 @@ private:
         for (const auto& [samples, rows] : groups)
             while (truths_.grow_reference(
                 samples, compare_request_.reference_seconds / static_cast<double>(groups.size()),
-                noise_target_.value_or(
-                    NoiseFloorTarget{.floor = choose_target_noise_floor(rows)}))) {
+                noise_target_.value_or(NoiseFloorTarget{.floor = target_noise_floor(rows)}))) {
                 for (const std::size_t row : rows)
                     compute_errors_of_measured_row(row, judged_[row].part, judged_[row].number);
                 fill_reference_noise();
@@ -257,13 +255,13 @@ private:
         const std::vector<float> map = compute_flip_map(truths_.get_reference("1").part.hdr, area,
                                                         compare_request_.base.exposure);
         comparison_.reference_area_flip = measure::flip_mean(
-            map, measure::mask_mirror_pixels(truths_.find_mirror_hits()));
+            map, measure::mask_mirrors(truths_.find_mirror_hits()));
     }
 
-    double choose_target_noise_floor(const std::vector<std::size_t>& indices) const {
+    double target_noise_floor(const std::vector<std::size_t>& indices) const {
         std::vector<const report::Row*> rows;
         for (const std::size_t index : indices) rows.push_back(&comparison_.rows[index]);
-        return measure::choose_target_noise_floor(rows);
+        return measure::target_noise_floor(rows);
     }
 
     /// The result of a row's last frame and its number, to compute the row's errors again later.
@@ -344,7 +342,7 @@ private:
     void measure_round_of_rows(int round) {
         clear_ms_.push_back(
             measure_cube_clear_times(round, round == 0 ? compare_request_.base.warmup : 0));
-        comparison_.clear_ms = measure::summarise_samples(clear_ms_);
+        comparison_.clear_ms = measure::summarise(clear_ms_);
         const std::vector<std::vector<std::string>> all = group_rows_rendered_together();
         // Every second round measures the rows in reverse order. The same row then never always
         // follows another, whose remaining work could disturb it.
@@ -397,7 +395,7 @@ private:
             runs_[group]->suspend_frames();
         }
         clear_ms_.front() = std::move(clear_ms);
-        comparison_.clear_ms = measure::summarise_samples(clear_ms_);
+        comparison_.clear_ms = measure::summarise(clear_ms_);
         for (std::size_t group = 0; group < runs_.size(); ++group) {
             runs_[group]->replace_first_round();
             for (std::size_t i = 0; i < runs_[group]->technique_count(); ++i)

@@ -26,7 +26,7 @@ measure::SampleSummary summarise_over_frames(const FrameTimesByRound& rounds, Va
         samples.emplace_back();
         for (const FrameTimes& frame : round) samples.back().push_back(value(frame));
     }
-    return measure::summarise_samples(samples);
+    return measure::summarise(samples);
 }
 
 HostTimes summarise_host_times(const FrameTimesByRound& rounds) {
@@ -70,7 +70,7 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
                          const std::vector<std::uint32_t>& hits) {
     std::size_t pixels = 0, black = 0, wanted_black = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(hits[i])) continue;
+        if (!measure::first_mirror(hits[i])) continue;
         ++pixels;
         black += picture.pixels[i] == vec3(0);
         wanted_black += truth.pixels[i] == vec3(0);
@@ -82,14 +82,13 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 }
 
 /// Sets the row's estimates against the halves of a reference with noise, over all masks.
-void estimate_row_noise(report::Row& row, const measure::NoisyReferenceHalves& halves,
+void estimate_row_noise(report::Row& row, const measure::NoisyHalves& halves,
                         const std::vector<std::uint32_t>& hits, double exposure) {
     const measure::Picture found = measure::apply_exposure(row.hdr, exposure);
-    std::vector<measure::NoiseFreeErrorEstimate> estimates;
-    for (const measure::Mask& mask : measure::compute_row_masks(hits))
-        estimates.push_back(
-            measure::estimate_noise_free_error_by_halves(found, halves, mask, row.flip_map));
-    measure::set_noise_of_row(row, estimates);
+    std::vector<measure::NoiseFreeError> estimates;
+    for (const measure::Mask& mask : measure::compute_masks(hits))
+        estimates.push_back(measure::estimate_noise_free(found, halves, mask, row.flip_map));
+    measure::set_noise(row, estimates);
 }
 
 } // namespace
@@ -97,7 +96,7 @@ void estimate_row_noise(report::Row& row, const measure::NoisyReferenceHalves& h
 std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedReference& truth,
                                     double exposure) {
     if (truth.halves != nullptr)
-        return measure::compute_flip_against_halves(picture, *truth.halves, exposure);
+        return measure::flip_against_halves(picture, *truth.halves, exposure);
     return measure::flip(measure::to_unrounded_display(picture, exposure),
                          measure::to_unrounded_display(truth.hdr, exposure));
 }
@@ -107,7 +106,7 @@ measure::Difference compute_masked_error(const measure::Picture& picture,
                                          std::span<const float> flip_map, double exposure) {
     const measure::Picture found = measure::apply_exposure(picture, exposure);
     if (truth.halves != nullptr)
-        return measure::compute_difference_from_halves(found, *truth.halves, mask, flip_map);
+        return measure::difference_from_halves(found, *truth.halves, mask, flip_map);
     return measure::difference(found, measure::apply_exposure(truth.hdr, exposure), mask, flip_map);
 }
 
@@ -122,9 +121,9 @@ measure::Errors compute_masked_errors(const measure::Picture& picture,
         return compute_masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
     };
     measure::Errors errors;
-    const std::vector<measure::Mask> masks = measure::compute_row_masks(hits);
+    const std::vector<measure::Mask> masks = measure::compute_masks(hits);
     for (std::size_t i = 0; i < masks.size(); ++i)
-        errors.*measure::list_row_masks()[i].error = against(masks[i]);
+        errors.*measure::row_masks()[i].error = against(masks[i]);
     for (std::size_t i = 0; i < mirrors; ++i)
         errors.error_per_mirror.push_back(
             against(measure::mask_one_mirror(hits, MirrorId::from_index(i))));

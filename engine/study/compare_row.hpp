@@ -24,7 +24,7 @@ void fill_row_times(report::Row& row, const std::vector<std::vector<FrameTimes>>
 struct ComparedReference {
     const measure::Picture& hdr; ///< linear; of a reference with noise, the mean of its halves
     /// Halves of a reference with noise, at the comparison's exposure; null: no noise.
-    const measure::NoisyReferenceHalves* halves = nullptr;
+    const measure::NoisyHalves* halves = nullptr;
 };
 
 /// Returns the FLIP of both pictures for each pixel. The pictures are as displayed at `exposure`

@@ -18,7 +18,7 @@ struct NoiseFloorTarget {
 
 /// Compares as `compare` does. Adds frames to the references of the comparison's own view and of
 /// all drawn views until they reach the target, or until CompareRequest::reference_seconds are
-/// over. Without a target, the errors of the rows decide (measure::choose_target_noise_floor). The
+/// over. Without a target, the errors of the rows decide (measure::target_noise_floor). The
 /// noise floor of each drawn view, by the target's quantity, is in ReferenceNoise::view_floors.
 measure::Comparison compare_to_noise_target(Engine& engine, const CompareRequest& request,
                                             const std::optional<NoiseFloorTarget>& target);

@@ -35,24 +35,24 @@ bool does_list_contain_index(const std::vector<std::size_t>& list, std::size_t i
 }
 
 void set_row_costs(std::vector<report::Row>& rows, const std::vector<measure::DeviceCosts>& all) {
-    std::vector<std::vector<measure::NamedMetricValueParts>> lists(rows.size());
+    std::vector<std::vector<measure::MetricParts>> lists(rows.size());
     for (const measure::DeviceCosts& costs : all) {
-        const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
+        const measure::PredictedFront front = measure::predict_front(
             costs, rows, find_row_times_on_device(rows, costs.device));
         for (std::size_t i = 0; i < rows.size(); ++i)
-            lists[i].push_back({"device",
-                                describe_device_costs(costs),
-                                {{"ms", front.times[i].ms},
-                                 {"low_ms", front.times[i].low},
-                                 {"high_ms", front.times[i].high},
-                                 {"on_front", does_list_contain_index(front.rows, i)},
-                                 {"on_front_if_rays_are_cheap",
-                                  does_list_contain_index(front.rows_if_rays_are_cheap, i)},
-                                 {"on_front_if_rays_are_dear",
-                                  does_list_contain_index(front.rows_if_rays_are_dear, i)}}});
+            lists[i].push_back(
+                {"device",
+                 describe_device_costs(costs),
+                 {{"ms", front.times[i].ms},
+                  {"low_ms", front.times[i].low},
+                  {"high_ms", front.times[i].high},
+                  {"on_front", does_list_contain_index(front.rows, i)},
+                  {"on_front_if_rays_are_cheap", does_list_contain_index(front.rows_cheap_rays, i)},
+                  {"on_front_if_rays_are_dear",
+                   does_list_contain_index(front.rows_dear_rays, i)}}});
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        measure::set_row_metric_of_study(rows[i], kPredictedCostsMetricName, std::move(lists[i]));
+        measure::set_study_metric(rows[i], kPredictedCostsMetricName, std::move(lists[i]));
 }
 
 void predict_row_times(const StudyInput& input) {
@@ -77,10 +77,9 @@ struct PredictedCostCells {
 
 std::vector<PredictedCostCells> list_cost_cells(const report::Row& row) {
     std::vector<PredictedCostCells> cells;
-    const measure::MetricValue value = measure::find_row_metric_of_study(row,
-                                                                         kPredictedCostsMetricName);
-    if (const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value))
-        for (const measure::NamedMetricValueParts& parts : *list)
+    const measure::MetricValue value = measure::study_metric(row, kPredictedCostsMetricName);
+    if (const auto* list = std::get_if<std::vector<measure::MetricParts>>(&value))
+        for (const measure::MetricParts& parts : *list)
             cells.push_back(
                 {parts.name, std::get<double>(parts.values[0].second),
                  std::get<double>(parts.values[1].second), std::get<double>(parts.values[2].second),
@@ -127,7 +126,7 @@ std::string describe_predicted_front(const report::Comparison& comparison, std::
         const std::vector<PredictedCostCells> cells = list_cost_cells(row);
         if (device >= cells.size() || !(cells[device].*is_on)) continue;
         front.emplace_back(cells[device].ms, &row);
-        captured += !measure::is_ray_traced_row(row);
+        captured += !measure::is_ray_traced(row);
     }
     std::ranges::stable_sort(front, {}, [](const auto& one) { return one.first; });
     std::vector<const report::Row*> rows;
@@ -215,7 +214,7 @@ const RegisteredStudy kCostsStudy{
                   .help = "predicted time on each device of --costs, with the ends of its range",
                   .better = measure::BetterDirection::less,
                   .order = 790,
-                  .get = measure::Metric::IsMetricOfStudy{}}},
+                  .get = measure::Metric::FromStudy{}}},
      .part = {.order = 700,
               .tables = make_cost_tables,
               .sentences = describe_predicted_fronts,

@@ -220,7 +220,7 @@ private:
         std::vector<std::uint32_t> hits =
             !reference.hits.empty() ? reference.hits
                                     : render_still_picture("raytrace:depth=1", seconds).part.hits;
-        const measure::Mask mirrors = measure::mask_mirror_pixels(hits);
+        const measure::Mask mirrors = measure::mask_mirrors(hits);
         instants_.push_back({seconds, std::move(hits), mirrors, reference.hdr});
     }
 

@@ -33,7 +33,7 @@ measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
                                                     const std::vector<vec4>& lookup,
                                                     const TrueHitFinder& oracle, double exposure) {
     measure::Mask there = oracle.find_pixels_at_light_edges(lookup, list_capture_edges(row));
-    measure::Mask elsewhere = measure::mask_mirror_pixels(hits);
+    measure::Mask elsewhere = measure::mask_mirrors(hits);
     for (std::size_t i = 0; i < there.size(); ++i) {
         there[i] = there[i] & elsewhere[i];
         elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
@@ -41,7 +41,7 @@ measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
     const auto over = [&](const measure::Mask& mask) {
         return compute_masked_error(row.hdr, truth, mask, row.flip_map, exposure);
     };
-    return measure::split_error_by_light_edges(over(there), over(elsewhere));
+    return measure::split_by_light_edges(over(there), over(elsewhere));
 }
 
 } // namespace catoptric::study

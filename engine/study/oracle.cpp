@@ -107,9 +107,9 @@ int TrueHitFinder::find_captured_object(std::uint32_t mirror, const vec3& direct
     return kNoObjectIndex;
 }
 
-std::vector<measure::LookupDirectionError>
-TrueHitFinder::judge_lookups(const std::vector<vec4>& lookup, bool left_out) const {
-    std::vector<measure::LookupDirectionError> judged;
+std::vector<measure::LookupError> TrueHitFinder::judge_lookups(const std::vector<vec4>& lookup,
+                                                               bool left_out) const {
+    std::vector<measure::LookupError> judged;
     for (const FirstOrderPixel& target : targets_) {
         if (judged.size() % kRaysBetweenLooks == 0) look_at_stop();
         const vec4& pixel = lookup[target.pixel];

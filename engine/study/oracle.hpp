@@ -23,8 +23,8 @@ public:
     /// Judges the first-order mirror pixels of `lookup`, a row-major picture of where mirrors
     /// looked (shaders/lib/mirror.glsl). Each pixel is judged in the capture that the row looked
     /// into. `left_out`: captures lack the mirrors that are exact spheres.
-    std::vector<measure::LookupDirectionError> judge_lookups(const std::vector<vec4>& lookup,
-                                                             bool left_out = false) const;
+    std::vector<measure::LookupError> judge_lookups(const std::vector<vec4>& lookup,
+                                                    bool left_out = false) const;
 
     /// Returns the pixels that looked within one texel of a light's outline. `faces`: texels along
     /// an edge of each mirror's capture, entry n-1 of mirror n.

@@ -106,14 +106,12 @@ public:
     /// Adds a frame to one half. Both halves of a reference without noise are one picture.
     void add_frame(std::size_t half) {
         add_frame_of_technique(paths_[half], kPathsOfFrameTechnique, true);
-        if (reference_has_noise_ || references_[0].picture_count() == 0)
+        if (reference_has_noise_ || references_[0].count() == 0)
             add_frame_of_technique(references_[half], reference_frame_, reference_has_noise_);
     }
-    bool has_both_halves() const { return paths_[1].picture_count() > 0; }
-    int path_count() const {
-        return kPathsOfFrame * (paths_[0].picture_count() + paths_[1].picture_count());
-    }
-    int frame_count() const { return paths_[0].picture_count(); }
+    bool has_both_halves() const { return paths_[1].count() > 0; }
+    int path_count() const { return kPathsOfFrame * (paths_[0].count() + paths_[1].count()); }
+    int frame_count() const { return paths_[0].count(); }
 
     void fill_distance(measure::PathDistance& distance) const {
         std::vector<float> flip_map = compute_flip(references_, paths_),
@@ -124,8 +122,7 @@ public:
                                                            show(references_[1].mean()));
             for (std::size_t i = 0; i < added.size(); ++i) noise_map[i] += added[i];
         }
-        const measure::Mask mirrors = measure::mask_mirror_pixels(hits_),
-                            all = measure::mask_all_pixels(hits_);
+        const measure::Mask mirrors = measure::mask_mirrors(hits_), all = measure::mask_all(hits_);
         distance.flip = measure::flip_mean(flip_map, mirrors);
         distance.noise = measure::flip_mean(noise_map, mirrors);
         distance.flip_all = measure::flip_mean(flip_map, all);
@@ -142,7 +139,7 @@ private:
                                               : technique};
         RunResult result = run(path_session_, path_request_, path_watcher_);
         if (hits_.empty()) hits_ = std::move(result.parts.front().hits);
-        half.add_picture(result.parts.front().hdr);
+        half.add(result.parts.front().hdr);
     }
 
     measure::Picture show(const measure::Picture& picture) const {
@@ -152,7 +149,7 @@ private:
     /// Returns the mean of both halves; of the first half alone if the second has no picture.
     static measure::Picture mean_of_halves(const Halves& halves) {
         measure::Picture mean = halves[0].mean();
-        if (halves[1].picture_count() == 0) return mean;
+        if (halves[1].count() == 0) return mean;
         const measure::Picture other = halves[1].mean();
         for (std::size_t i = 0; i < mean.pixels.size(); ++i)
             mean.pixels[i] = (mean.pixels[i] + other.pixels[i]) / 2.0f;
@@ -219,8 +216,7 @@ void trace_path_distance(const Engine& engine, PathPictures& pictures, const Wat
         pictures.fill_distance(distance);
         distance.seconds = used();
         last = distance.seconds - before;
-    } while (!measure::is_path_distance_precise(distance) &&
-             distance.seconds + last <= distance.most_seconds);
+    } while (!measure::is_precise(distance) && distance.seconds + last <= distance.most_seconds);
 }
 
 } // namespace
@@ -250,7 +246,7 @@ measure_path_distance(Engine& engine, Session& session, const Request& base,
                                                       : find_path_distance_file(folder, key);
     if (!file.empty())
         if (auto kept = read_path_distance(file, key, warn);
-            kept && (kept->most_seconds >= seconds || measure::is_path_distance_precise(*kept))) {
+            kept && (kept->most_seconds >= seconds || measure::is_precise(*kept))) {
             kept->command = distance.command;
             return kept;
         }

@@ -194,10 +194,9 @@ measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
     FrameSpec spec = traced;
     measure::PictureMean a, b;
     measure::Mask mirrors;
-    measure::NoisyReferenceHalves halves;
+    measure::NoisyHalves halves;
     double floor = INFINITY;
-    while (a.picture_count() < kMostFramesOfHalf &&
-           floor > kNoiseShareOfLimit * request_.max_error) {
+    while (a.count() < kMostFramesOfHalf && floor > kNoiseShareOfLimit * request_.max_error) {
         for (measure::PictureMean* half : {&a, &b}) {
             do {
                 lobe_seed_ = lobe_seed_ % kLargestLobeSeed + 1;
@@ -205,17 +204,17 @@ measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
             spec.techniques = {set_lobe_seed(request_.reference, lobe_seed_)};
             const TechniqueResult truth = session.frame(spec).read();
             check_reference_is_traced(truth);
-            half->add_picture(truth.hdr);
-            if (mirrors.empty()) mirrors = measure::mask_mirror_pixels(truth.hits);
+            half->add(truth.hdr);
+            if (mirrors.empty()) mirrors = measure::mask_mirrors(truth.hits);
         }
-        halves = measure::make_noisy_reference_halves(a.mean(), b.mean(), spec.exposure);
+        halves = measure::make_halves(a.mean(), b.mean(), spec.exposure);
         floor = request_.quantity == ErrorQuantity::flip
                     ? measure::flip_mean(halves.floor_map, mirrors)
                     : measure::difference(halves.a, halves.b, mirrors, halves.floor_map).rmse;
     }
-    return measure::compute_difference_from_halves(
+    return measure::difference_from_halves(
         measure::apply_exposure(samples, spec.exposure), halves, mirrors,
-        measure::compute_flip_against_halves(samples, halves, spec.exposure));
+        measure::flip_against_halves(samples, halves, spec.exposure));
 }
 
 /// Throws `usage` for a reference without first hits of camera rays, which would count all pixels
@@ -238,7 +237,7 @@ measure::Difference RunningPlanAudit::compare_with_one_picture(Session& session,
                             measure::to_unrounded_display(truth.hdr, traced.exposure));
     return measure::difference(measure::apply_exposure(samples, traced.exposure),
                                measure::apply_exposure(truth.hdr, traced.exposure),
-                               measure::mask_mirror_pixels(truth.hits), map);
+                               measure::mask_mirrors(truth.hits), map);
 }
 
 /// Ray traces the samples of a frame and returns the difference over the mirrors. The session's
@@ -275,7 +274,7 @@ void RunningPlanAudit::prepare(Session& session, const FrameSpec& spec) {
     compare_with_traced_frame(session, black, spec);
     const Clock::time_point begin = Clock::now();
     compare_with_traced_frame(session, black, spec);
-    schedule_.expect_audit_time(milliseconds_between(begin, Clock::now()));
+    schedule_.expect_audit(milliseconds_between(begin, Clock::now()));
     is_prepared_ = true;
     ended_ = Clock::now();
 }
@@ -318,12 +317,12 @@ void RunningPlanAudit::audit_frame(Session& session, const Frame& frame, const F
 }
 
 /// Changes to the next plan with less error. The audit of this plan begins without evidence.
-void RunningPlanAudit::step_to_plan_with_less_error(double seconds, AuditState& state) {
-    state.has_new_plan = ladder_.step_to_plan_with_less_error(seconds);
+void RunningPlanAudit::step(double seconds, AuditState& state) {
+    state.has_new_plan = ladder_.step(seconds);
     if (state.is_alarm)
-        state.message = fmt::format("audit: {} of {} frames break {} <= {:g}",
-                                    alarm_.failure_count(), alarm_.frame_count(),
-                                    error_quantity_name(request_.quantity), request_.max_error);
+        state.message = fmt::format("audit: {} of {} frames break {} <= {:g}", alarm_.failures(),
+                                    alarm_.frame_count(), error_quantity_name(request_.quantity),
+                                    request_.max_error);
     if (state.has_new_plan) {
         state.message += (state.is_alarm ? "; " : "audit: ") +
                          fmt::format("the plan is now {}", plan());
@@ -350,13 +349,13 @@ AuditState RunningPlanAudit::watch_frame(Session& session, const Frame& frame,
     if (is_counted && schedule_.count_frame(milliseconds_between(ended_, begin))) {
         if (request_.before_audit) request_.before_audit();
         audit_frame(session, frame, spec, state);
-        schedule_.add_audit_time(milliseconds_between(begin, Clock::now()));
+        schedule_.add_audit(milliseconds_between(begin, Clock::now()));
     }
-    if (is_of_plan && is_alarmed()) step_to_plan_with_less_error(seconds, state);
+    if (is_of_plan && is_alarmed()) step(seconds, state);
     updates_ = Access::session_counters(session).updates;
     ended_ = Clock::now();
     state.plan = ladder_.place();
-    state.frames = audit_.frame_count(), state.failures = audit_.failure_count();
+    state.frames = audit_.frame_count(), state.failures = audit_.failures();
     state.assured_share = assured_share_;
     state.time_share = share_of_audit_time();
     return state;
@@ -370,9 +369,8 @@ std::string RunningPlanAudit::describe() const {
     const std::size_t frames = audit_.frame_count();
     return fmt::format("audit: {} of {} frames keep {} <= {:g}; assured share {:.3f}; {:.1f} % of "
                        "the frames' time{}{}",
-                       frames - audit_.failure_count(), frames,
-                       error_quantity_name(request_.quantity), request_.max_error, assured_share_,
-                       100 * share_of_audit_time(),
+                       frames - audit_.failures(), frames, error_quantity_name(request_.quantity),
+                       request_.max_error, assured_share_, 100 * share_of_audit_time(),
                        is_alarmed() ? "; alarm: too many frames fail" : "",
                        is_paused_ ? "; paused, because a surface is rough" : "");
 }

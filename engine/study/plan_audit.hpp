@@ -111,7 +111,7 @@ private:
                                             const FrameSpec& traced);
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                      AuditState& state);
-    void step_to_plan_with_less_error(double seconds, AuditState& state);
+    void step(double seconds, AuditState& state);
     double share_of_audit_time() const;
 
     PlanAuditRequest request_;

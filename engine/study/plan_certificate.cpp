@@ -61,12 +61,12 @@ std::optional<std::string> describe_certificate(const Json& certificate) {
 }
 
 /// Returns the certificate in the results of a row, or null.
-const measure::NamedMetricValueParts* find_certificate(const measure::MetricValue& value) {
-    const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
+const measure::MetricParts* find_certificate(const measure::MetricValue& value) {
+    const auto* list = std::get_if<std::vector<measure::MetricParts>>(&value);
     return list != nullptr && !list->empty() ? &list->front() : nullptr;
 }
 
-bool is_certificate_of_this_scene(const measure::NamedMetricValueParts& certificate) {
+bool is_certificate_of_this_scene(const measure::MetricParts& certificate) {
     return std::get<bool>(certificate.values.front().second);
 }
 
@@ -80,8 +80,7 @@ std::vector<ReportTable> make_certificate_tables(const report::Comparison& compa
         {},
         {}};
     for (const report::Row& row : comparison.rows) {
-        const measure::MetricValue value = measure::find_row_metric_of_study(
-            row, kCertificateMetricName);
+        const measure::MetricValue value = measure::study_metric(row, kCertificateMetricName);
         if (const auto* certificate = find_certificate(value))
             table.rows.push_back({row.label, certificate->name,
                                   is_certificate_of_this_scene(*certificate) ? "yes" : "no"});
@@ -92,8 +91,7 @@ std::vector<ReportTable> make_certificate_tables(const report::Comparison& compa
 std::string quote_certificates(const report::Comparison& comparison) {
     std::string sentences;
     for (const report::Row& row : comparison.rows) {
-        const measure::MetricValue value = measure::find_row_metric_of_study(
-            row, kCertificateMetricName);
+        const measure::MetricValue value = measure::study_metric(row, kCertificateMetricName);
         const auto* certificate = find_certificate(value);
         if (certificate == nullptr) continue;
         sentences += (sentences.empty() ? "" : " ") + row.label + " was chosen" +
@@ -108,7 +106,7 @@ const measure::RegisteredMetric kCertificateMetric{
      .help = "statement of the certificate of a chosen plan, and whether it is for this scene",
      .order = 795,
      .study = kCertificateMetricName,
-     .get = measure::Metric::IsMetricOfStudy{}}};
+     .get = measure::Metric::FromStudy{}}};
 const report::RegisteredReportPart kCertificatePart{{.name = kCertificateMetricName,
                                                      .order = 650,
                                                      .tables = make_certificate_tables,
@@ -136,12 +134,11 @@ void add_plan_certificates(const std::vector<std::optional<PlanCertificate>>& ce
                            measure::Comparison& comparison) {
     for (std::size_t i = 0; i < std::min(certificates.size(), comparison.rows.size()); ++i) {
         if (!certificates[i]) continue;
-        std::vector<measure::NamedMetricValueParts> list{
+        std::vector<measure::MetricParts> list{
             {"statement",
              certificates[i]->statement,
              {{"of_this_scene", certificates[i]->scene_hash == comparison.scene.hash}}}};
-        measure::set_row_metric_of_study(comparison.rows[i], kCertificateMetricName,
-                                         std::move(list));
+        measure::set_study_metric(comparison.rows[i], kCertificateMetricName, std::move(list));
         if (std::ranges::find(comparison.studies, kCertificateMetricName) ==
             comparison.studies.end())
             comparison.studies.emplace_back(kCertificateMetricName);

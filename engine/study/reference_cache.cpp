@@ -147,8 +147,8 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
         return false;
     }
     noisy.used.insert(noisy.used.end(), seeds.begin(), seeds.end());
-    noisy.a.add_picture(results[0].parts.front().hdr);
-    noisy.b.add_picture(results[1].parts.front().hdr);
+    noisy.a.add(results[0].parts.front().hdr);
+    noisy.b.add(results[1].parts.front().hdr);
     for (const RunResult& result : results)
         reference.gpu_ms.push_back(result.frames.front().gpu_ms);
     if (reference.part.hdr.pixels.empty())
@@ -165,7 +165,7 @@ bool ReferenceCache::refine_reference(ReferencePicture& reference, int wanted, d
     NoisyReference& noisy = *reference.noisy;
     const int rays = find_lobe_rays(noisy.technique),
               refined = choose_refined_rays(wanted, rays, noisy.frame_seconds, kMargin * seconds);
-    if (noisy.a.picture_count() > 1 || refined < kLeastGain * rays) return false;
+    if (noisy.a.count() > 1 || refined < kLeastGain * rays) return false;
     ReferencePicture finer;
     finer.part = reference.part;
     finer.noisy = std::make_shared<NoisyReference>(noisy.seeds);
@@ -180,12 +180,11 @@ bool ReferenceCache::refine_reference(ReferencePicture& reference, int wanted, d
 
 void ReferenceCache::update_picture(ReferencePicture& reference) const {
     NoisyReference& noisy = *reference.noisy;
-    noisy.halves = measure::make_noisy_reference_halves(noisy.a.mean(), noisy.b.mean(),
-                                                        base_.exposure);
+    noisy.halves = measure::make_halves(noisy.a.mean(), noisy.b.mean(), base_.exposure);
     // The mean of both halves of the reference, before exposure.
     measure::PictureMean both;
-    both.add_picture(noisy.a.mean());
-    both.add_picture(noisy.b.mean());
+    both.add(noisy.a.mean());
+    both.add(noisy.b.mean());
     reference.part.hdr = both.mean();
     reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
 }
@@ -254,10 +253,10 @@ const ReferencePicture& ReferenceCache::get_reference(const std::string& samples
 }
 
 double ReferenceCache::measure_noise_floor(const std::string& samples, ErrorQuantity quantity) {
-    const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
+    const measure::Mask mirrors = measure::mask_mirrors(find_mirror_hits());
     const ReferencePicture& reference = get_reference(samples);
     check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
-    const measure::NoisyReferenceHalves& halves = reference.noisy->halves;
+    const measure::NoisyHalves& halves = reference.noisy->halves;
     return quantity == ErrorQuantity::flip
                ? measure::flip_mean(halves.floor_map, mirrors)
                : measure::difference(halves.a, halves.b, mirrors, halves.floor_map).rmse;
@@ -279,7 +278,7 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
     const auto is_done = [&] { // a floor of NaN, without a mirror pixel, is done, too
         const NoisyReference& noisy = *reference.noisy;
         const double floor = measure_noise_floor(samples, target.quantity);
-        const bool is_coarse = find_lobe_rays(noisy.technique) * noisy.a.picture_count() < wanted;
+        const bool is_coarse = find_lobe_rays(noisy.technique) * noisy.a.count() < wanted;
         return std::isnan(floor) || noisy.seconds + 2 * noisy.frame_seconds >= seconds ||
                !(is_coarse || floor > target.floor);
     };
@@ -287,7 +286,7 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
         const NoisyReference& noisy = *reference.noisy;
         report_row_to_watcher(watcher_,
                               "reference " + noisy.technique + ", " +
-                                  std::to_string(noisy.a.picture_count()) + " frames a half",
+                                  std::to_string(noisy.a.count()) + " frames a half",
                               has_grown ? static_cast<std::size_t>(noisy.seconds) : 0, whole);
     };
     bool has_grown = false;
@@ -306,10 +305,10 @@ measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples
     const ReferencePicture& reference = get_reference(samples);
     check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
     const NoisyReference& noisy = *reference.noisy;
-    const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
-    const measure::NoiseFreeErrorEstimate between = measure::estimate_noise_free_error_by_halves(
+    const measure::Mask mirrors = measure::mask_mirrors(find_mirror_hits());
+    const measure::NoiseFreeError between = measure::estimate_noise_free(
         noisy.halves.a, noisy.halves, mirrors, noisy.halves.floor_map);
-    return {.frames = noisy.a.picture_count(),
+    return {.frames = noisy.a.count(),
             .rays = find_lobe_rays(noisy.technique),
             .wanted_rays = find_lobe_rays(reference_),
             .seconds = noisy.seconds,

@@ -57,9 +57,9 @@ struct NoisyReference {
     std::string technique;
     std::vector<int> used; ///< seeds of all frames
     measure::PictureMean a, b;
-    measure::NoisyReferenceHalves halves; ///< halves of these means, after exposure
-    double seconds = 0;       ///< time in which all frames were rendered, dropped ones too
-    double frame_seconds = 0; ///< time of the last frame
+    measure::NoisyHalves halves; ///< halves of these means, after exposure
+    double seconds = 0;          ///< time in which all frames were rendered, dropped ones too
+    double frame_seconds = 0;    ///< time of the last frame
 };
 
 /// Picture that a row is judged against: the reference at the row's own sample count.

@@ -67,18 +67,17 @@ void write_reference_file(const StoredReference& reference, const ReferenceKey& 
     json["seeds"] = reference.seeds;
     json["gpu_ms"] = reference.gpu_ms;
     json["rays"] = reference.rays;
-    measure::write_picture_layers({{{kReferenceFileLayerNames[0], reference.a.mean()},
-                                    {kReferenceFileLayerNames[1], reference.b.mean()},
-                                    {kReferenceFileLayerNames[2], reference.a.variance()},
-                                    {kReferenceFileLayerNames[3], reference.b.variance()}},
-                                   json.dump()},
-                                  path);
+    measure::write_layers({{{kReferenceFileLayerNames[0], reference.a.mean()},
+                            {kReferenceFileLayerNames[1], reference.b.mean()},
+                            {kReferenceFileLayerNames[2], reference.a.variance()},
+                            {kReferenceFileLayerNames[3], reference.b.variance()}},
+                           json.dump()},
+                          path);
 }
 
 StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const measure::LayeredPictureFile stored = measure::read_picture_layers(
-        path, kReferenceFileLayerNames);
+    const measure::LayeredFile stored = measure::read_layers(path, kReferenceFileLayerNames);
     const Json json = parse_reference_description(stored.description, file);
     for (const auto& [name, value] : key) {
         const Json found = json["key"].contains(name) ? json["key"][name] : Json();

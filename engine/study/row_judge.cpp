@@ -70,7 +70,7 @@ std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row&
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
         const TrueHitFinder& oracle = find_true_hit_finder(number);
-        row.lookup = std::make_shared<measure::LookupErrorSummary>(measure::summarise_lookup_errors(
+        row.lookup = std::make_shared<measure::LookupSummary>(measure::summarise_lookups(
             oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out"))));
         row.light_edges = std::make_shared<measure::LightEdgeErrors>(
             split_error_at_light_edges(row, truth, hits, looked.lookup, oracle, base_.exposure));

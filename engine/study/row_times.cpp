@@ -58,13 +58,13 @@ std::vector<std::vector<double>> split_into_rounds(const std::vector<double>& li
 /// comparison's own device.
 void add_row_times(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
-    std::vector<std::vector<measure::NamedMetricValueParts>> lists(rows.size());
+    std::vector<std::vector<measure::MetricParts>> lists(rows.size());
     for (const std::string& file : input.texts) {
         const report::PictureRowTimes times = report::read_row_times_file(file);
         for (const auto& [name, list] : times.rows) {
             const auto row = std::ranges::find(rows, name, &report::Row::label);
             check(row != rows.end(), Failure::internal, "times of rows: no row ", name);
-            const measure::SampleSummary summary = measure::summarise_samples(
+            const measure::SampleSummary summary = measure::summarise(
                 split_into_rounds(list, std::max(static_cast<std::size_t>(input.comparison.rounds),
                                                  measure::kMinIntervalSamples)));
             if (times.device == input.comparison.device.name) row->gpu_ms = row->frame_ms = summary;
@@ -79,17 +79,17 @@ void add_row_times(const StudyInput& input) {
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (!lists[i].empty())
-            measure::set_row_metric_of_study(rows[i], kRowTimesMetricName, std::move(lists[i]));
+            measure::set_study_metric(rows[i], kRowTimesMetricName, std::move(lists[i]));
     input.tell();
 }
 
-std::vector<measure::NamedMetricValueParts> list_row_times(const measure::Row& row) {
-    const measure::MetricValue value = measure::find_row_metric_of_study(row, kRowTimesMetricName);
-    const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
-    return list != nullptr ? *list : std::vector<measure::NamedMetricValueParts>();
+std::vector<measure::MetricParts> list_row_times(const measure::Row& row) {
+    const measure::MetricValue value = measure::study_metric(row, kRowTimesMetricName);
+    const auto* list = std::get_if<std::vector<measure::MetricParts>>(&value);
+    return list != nullptr ? *list : std::vector<measure::MetricParts>();
 }
 
-double read_time_part(const measure::NamedMetricValueParts& parts, std::size_t index) {
+double read_time_part(const measure::MetricParts& parts, std::size_t index) {
     return std::get<double>(parts.values[index].second);
 }
 
@@ -102,7 +102,7 @@ std::vector<ReportTable> make_row_time_tables(const report::Comparison& comparis
                       {},
                       {}};
     for (const report::Row& row : comparison.rows)
-        for (const measure::NamedMetricValueParts& time : list_row_times(row)) {
+        for (const measure::MetricParts& time : list_row_times(row)) {
             const double low = read_time_part(time, 1), high = read_time_part(time, 2);
             table.rows.push_back(
                 {row.label, time.name, report::format_ms(read_time_part(time, 0)),
@@ -129,7 +129,7 @@ const RegisteredStudy kRowTimesStudy{
                   .help = "time on each device of --row-times, with its interval",
                   .better = measure::BetterDirection::less,
                   .order = 785,
-                  .get = measure::Metric::IsMetricOfStudy{}}},
+                  .get = measure::Metric::FromStudy{}}},
      .part = {.order = 690, .tables = make_row_time_tables, .title = "Other renderers"}}};
 
 } // namespace
@@ -138,7 +138,7 @@ std::vector<std::optional<measure::PredictedTime>>
 find_row_times_on_device(const std::vector<measure::Row>& rows, const std::string& device) {
     std::vector<std::optional<measure::PredictedTime>> times(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const measure::NamedMetricValueParts& time : list_row_times(rows[i])) {
+        for (const measure::MetricParts& time : list_row_times(rows[i])) {
             if (time.name != device) continue;
             const double ms = read_time_part(time, 0), low = read_time_part(time, 1),
                          high = read_time_part(time, 2);

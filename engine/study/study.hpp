@@ -60,10 +60,10 @@ struct Study {
                     report::Comparison& comparison) = nullptr;
     /// Adds the results to the rows or to the comparison. After an exception (a signal, a failure
     /// of the engine) the results so far stay. Results without a member of their own go into
-    /// measure::set_row_metric_of_study, by the name of a metric.
+    /// measure::set_study_metric, by the name of a metric.
     void (*run)(const StudyInput& input);
-    /// Metrics that `run` sets by measure::set_row_metric_of_study. JSON, CSV and tables show them
-    /// if the study was asked for. Their member `get` is Metric::IsMetricOfStudy.
+    /// Metrics that `run` sets by measure::set_study_metric. JSON, CSV and tables show them
+    /// if the study was asked for. Their member `get` is Metric::FromStudy.
     std::vector<measure::Metric> metrics = {};
     /// The study's part of report.md and report.html, if it has `tables`. Its name is that of the
     /// study.

@@ -115,15 +115,15 @@ public:
 
     /// Adds a frame to each half. Does nothing for a reference without noise that has its picture.
     void add_frames(ReferenceSeeds& seeds) {
-        if (!has_noise_ && halves_[0].picture_count() > 0) return;
+        if (!has_noise_ && halves_[0].count() > 0) return;
         for (measure::PictureMean& half : halves_) {
             request_.techniques = {has_noise_ ? set_lobe_seed(technique_, seeds.next())
                                               : technique_};
-            half.add_picture(run(chain_session_, request_, watcher_).parts.front().hdr);
+            half.add(run(chain_session_, request_, watcher_).parts.front().hdr);
             if (!has_noise_) return;
         }
     }
-    int frame_count() const { return halves_[0].picture_count(); }
+    int frame_count() const { return halves_[0].count(); }
     /// Returns the mean of the first or the second half; the one picture of a reference without
     /// noise.
     measure::Picture half(std::size_t index) const {
@@ -169,8 +169,8 @@ ChainDistance measure_chain_distance(const ShownHalves& x, const ShownHalves& tr
         if (mask[i] == 0) continue;
         std::array<dvec3, 2> error;
         for (std::size_t half = 0; half < 2; ++half)
-            error[half] = measure::clamp_pixel_to_unit_range(x.light[half].pixels[i]) -
-                          measure::clamp_pixel_to_unit_range(truth.light[half].pixels[i]);
+            error[half] = measure::clamp_pixel(x.light[half].pixels[i]) -
+                          measure::clamp_pixel(truth.light[half].pixels[i]);
         const dvec3 product = error[0] * error[1],
                     noise = (error[0] + error[1]) / 2.0 * (error[0] - error[1]);
         sum += product.x + product.y + product.z;
@@ -215,8 +215,8 @@ std::vector<CausePart> split_chain_distance(const std::vector<ShownHalves>& chai
     return parts;
 }
 
-measure::NamedMetricValueParts list_part_values(const std::string& cause, const CausePart& all,
-                                                const CausePart& mirrors) {
+measure::MetricParts list_part_values(const std::string& cause, const CausePart& all,
+                                      const CausePart& mirrors) {
     return {"cause",
             cause,
             {{"share", all.share},
@@ -239,14 +239,13 @@ void set_truth_causes(const StudyInput& input, const std::vector<std::string>& c
     for (const std::unique_ptr<ChainPictures>& pictures : chain)
         shown.push_back(show_halves(*pictures, input.request.base.exposure));
     const std::vector<std::uint32_t>& hits = input.truth.find_mirror_hits();
-    const std::vector<CausePart> all = split_chain_distance(shown, measure::mask_all_pixels(hits)),
-                                 mirrors = split_chain_distance(shown,
-                                                                measure::mask_mirror_pixels(hits));
-    std::vector<measure::NamedMetricValueParts> list;
+    const std::vector<CausePart> all = split_chain_distance(shown, measure::mask_all(hits)),
+                                 mirrors = split_chain_distance(shown, measure::mask_mirrors(hits));
+    std::vector<measure::MetricParts> list;
     for (std::size_t i = 0; i < causes.size(); ++i)
         list.push_back(list_part_values(causes[i], all[i], mirrors[i]));
     for (report::Row& row : input.comparison.rows)
-        measure::set_row_metric_of_study(row, kTruthCausesMetricName, list);
+        measure::set_study_metric(row, kTruthCausesMetricName, list);
 }
 
 void split_distance_to_path_tracing(const StudyInput& input) {
@@ -276,7 +275,7 @@ void split_distance_to_path_tracing(const StudyInput& input) {
     input.tell();
 }
 
-double find_part_number(const measure::NamedMetricValueParts& parts, const std::string& name) {
+double find_part_number(const measure::MetricParts& parts, const std::string& name) {
     for (const auto& [what, value] : parts.values)
         if (const auto* number = std::get_if<double>(&value); what == name && number != nullptr)
             return *number;
@@ -305,11 +304,11 @@ report::ReportTable make_truth_cause_table(const report::Comparison& comparison,
         "squared error by noise. FLIP includes noise; the last cell is the noise of path tracing. "
         "Light between surfaces includes caustics and the error of --ambient."};
     if (comparison.rows.empty()) return table;
-    const measure::MetricValue value = measure::find_row_metric_of_study(comparison.rows.front(),
-                                                                         kTruthCausesMetricName);
-    const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
+    const measure::MetricValue value = measure::study_metric(comparison.rows.front(),
+                                                             kTruthCausesMetricName);
+    const auto* list = std::get_if<std::vector<measure::MetricParts>>(&value);
     if (list == nullptr) return table;
-    for (const measure::NamedMetricValueParts& parts : *list) {
+    for (const measure::MetricParts& parts : *list) {
         const auto number = [&](const char* name) {
             return find_part_number(parts, prefix + name);
         };
@@ -340,7 +339,7 @@ const RegisteredStudy kTruthCausesStudy{
                   .help = "distance of simple ray tracing to path tracing, by cause; the same "
                           "in each row",
                   .order = 795,
-                  .get = measure::Metric::IsMetricOfStudy{}}},
+                  .get = measure::Metric::FromStudy{}}},
      .part = {.order = 710, .tables = make_truth_cause_tables}}};
 
 } // namespace

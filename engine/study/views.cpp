@@ -264,7 +264,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
             const double floor = truths.back()->render(
                 texts, seconds_left / static_cast<double>(count - i),
                 request.noise_target.value_or(
-                    NoiseFloorTarget{.floor = measure::choose_target_noise_floor(rows)}));
+                    NoiseFloorTarget{.floor = measure::target_noise_floor(rows)}));
             if (comparison.noise) comparison.noise->view_floors.push_back(floor);
             seconds_left = std::max(0.0, seconds_left -
                                              truths.back()->cache.seconds_of_noisy_references());

@@ -19,7 +19,7 @@ std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) 
     std::vector<std::size_t> kinds;
     for (std::size_t kind = 0; kind < kWorkKindCount; ++kind)
         for (const report::Row& row : comparison.rows)
-            if (measure::total_work_counts_of_row(row).values[kind].value_or(0) > 0) {
+            if (measure::total_work(row).values[kind].value_or(0) > 0) {
                 kinds.push_back(kind);
                 break;
             }
@@ -30,7 +30,7 @@ std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) 
     }
     for (const report::Row& row : comparison.rows) {
         if (!measure::has_counted_work(row)) continue;
-        const WorkCounts counts = measure::total_work_counts_of_row(row);
+        const WorkCounts counts = measure::total_work(row);
         std::vector<std::string> cells{row.label};
         for (const std::size_t kind : kinds)
             cells.push_back(counts.values[kind] ? std::to_string(*counts.values[kind])
@@ -46,7 +46,7 @@ const RegisteredStudy kWorkStudy{
              "vertices, draws, bytes",
      .order = 40,
      .run = count_row_work,
-     .metrics = measure::list_work_metrics(),
+     .metrics = measure::work_metrics(),
      .part = {.order = 600, .tables = make_work_tables}}};
 
 } // namespace
@@ -61,8 +61,7 @@ void count_row_work(const StudyInput& input) {
         request.model = rows[i].model == rendered_work_name(RenderedWork::required)
                             ? RenderedWork::required
                             : RenderedWork::everything;
-        measure::set_row_work(rows[i],
-                              count_frame_work(input.session, request, input.request.watcher));
+        measure::set_work(rows[i], count_frame_work(input.session, request, input.request.watcher));
         input.tell();
     }
 }

@@ -186,7 +186,7 @@ void bind_pictures(nb::module_& module) {
     module.def(
         "encode_png",
         [](const PictureArgument& array, double exposure) {
-            const std::string file = measure::encode_picture_png(
+            const std::string file = measure::encode_png(
                 measure::to_display(copy_picture(array), exposure));
             return nb::bytes(file.data(), file.size());
         },

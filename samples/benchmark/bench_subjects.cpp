@@ -50,8 +50,8 @@ private:
         const WorkCounts work = sum_work(count_frame_work(*benchmark_session_, request_));
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (work.values[i])
-                work_[measure::kWorkCounterPrefix + std::string(kWorkKinds[i].name)] =
-                    static_cast<double>(*work.values[i]);
+                work_[measure::kWorkPrefix + std::string(kWorkKinds[i].name)] = static_cast<double>(
+                    *work.values[i]);
     }
 
     std::shared_ptr<Session> benchmark_session_;

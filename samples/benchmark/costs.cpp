@@ -37,14 +37,13 @@ double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& ro
         for (const FrameTimes& frame : round)
             samples.back().push_back(threads > 0 ? frame.cpu_ms / threads : frame.gpu_ms);
     }
-    return measure::summarise_samples(samples).median;
+    return measure::summarise(samples).median;
 }
 
 /// Measures the rows of one size and model, and appends them to `samples`. `device`: as
 /// Engine::device returns it.
 void measure_cost_rows(Session& session, const Request& request, const DeviceInfo& device,
-                       const BenchOptions& options,
-                       std::vector<measure::TimedWorkSample>& samples) {
+                       const BenchOptions& options, std::vector<measure::TimedWork>& samples) {
     const std::vector<Request> rows = split_request_by_technique(request);
     const int rounds = study::choose_round_count(options.iterations, options.rounds);
     const int repeated_frames = must_repeat_first_round(device.type)
@@ -81,10 +80,10 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
 
 } // namespace
 
-std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const Request& request,
-                                                           const BenchOptions& options) {
+std::vector<measure::TimedWork> measure_cost_samples(Engine& engine, const Request& request,
+                                                     const BenchOptions& options) {
     Session session(engine, request.scene);
-    std::vector<measure::TimedWorkSample> samples;
+    std::vector<measure::TimedWork> samples;
     for (const RenderedWork model : {RenderedWork::everything, RenderedWork::required})
         for (const std::uint32_t divisor : {1u, 2u}) {
             Request part = request;
@@ -96,10 +95,10 @@ std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const
     return samples;
 }
 
-std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const Request& request,
-                                                         const Watcher& watcher) {
+std::vector<measure::TimedWork> count_work_samples(Engine& engine, const Request& request,
+                                                   const Watcher& watcher) {
     Session session(engine, request.scene);
-    std::vector<measure::TimedWorkSample> samples;
+    std::vector<measure::TimedWork> samples;
     for (const Request& row : split_request_by_technique(request))
         samples.push_back(
             {make_cost_sample_name(row), sum_work(count_frame_work(session, row, watcher)), 0});

@@ -19,12 +19,12 @@ using namespace study;
 /// work of one frame. On a processor, the time is processor time divided by the device's threads,
 /// which other programs hardly change. On other devices it is the device's time. Names of samples
 /// are "SCENE/WxH/MODEL/TECHNIQUE". `iterations` and `rounds` are those of each row.
-std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const Request& request,
-                                                           const BenchOptions& options);
+std::vector<measure::TimedWork> measure_cost_samples(Engine& engine, const Request& request,
+                                                     const BenchOptions& options);
 
 /// Counts the work of one frame of each technique of the request. The times of the samples are 0.
-std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const Request& request,
-                                                         const Watcher& watcher);
+std::vector<measure::TimedWork> count_work_samples(Engine& engine, const Request& request,
+                                                   const Watcher& watcher);
 
 /// Returns the kinds of work whose unit costs are fitted to measured times: all kinds. The counts
 /// of lanes depend on the number of lanes in a subgroup, and their costs hold only on devices with

@@ -14,7 +14,7 @@ using namespace session;
 inline constexpr const char* kTuningTechnique = "raytrace:depth=4";
 
 struct TuningResult {
-    std::vector<measure::ShaderVariantTrial> tried; ///< tried variants in the table's order
+    std::vector<measure::VariantTrial> tried; ///< tried variants in the table's order
     /// Other processes used the processors during the measurement, and may have changed the time
     /// ratios.
     bool noisy = false;

@@ -94,10 +94,10 @@ std::string describe_aovs() {
     return text;
 }
 
-std::vector<measure::ExtraPictureChannel>
+std::vector<measure::ExtraChannel>
 make_aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
                   const std::optional<session::ReflectionTiers>& tiers) {
-    std::vector<measure::ExtraPictureChannel> channels;
+    std::vector<measure::ExtraChannel> channels;
     for (const PictureAov aov : aovs) {
         const AovRow& row = list_aov_rows()[static_cast<std::size_t>(aov)];
         for (std::size_t i = 0; i < row.channels.size(); ++i)

@@ -20,7 +20,7 @@ std::vector<PictureAov> parse_aov_list(const std::string& text);
 std::string describe_aovs();
 
 /// Returns the channels of the layers. `tiers`: set if `aovs` has PictureAov::tier.
-std::vector<measure::ExtraPictureChannel>
+std::vector<measure::ExtraChannel>
 make_aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
                   const std::optional<session::ReflectionTiers>& tiers);
 

@@ -185,11 +185,11 @@ void warn_of_different_circumstances(const measure::BenchmarkRun& before,
 int report_benchmark_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
                              const measure::BenchmarkRun& after) {
     warn_of_different_circumstances(before, after);
-    const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(before, after);
+    const measure::BenchmarkChanges changes = measure::compare_runs(before, after);
     if (options.against.empty() &&
         std::ranges::any_of(changes.list, [](const measure::BenchmarkChange& change) {
-            return change.cost != measure::BenchmarkCostKind::cycles &&
-                   change.cost != measure::BenchmarkCostKind::instructions;
+            return change.cost != measure::CostKind::cycles &&
+                   change.cost != measure::CostKind::instructions;
         }))
         print_warning(
             "the files hold times, not cycles: what the machine did otherwise when the second was "

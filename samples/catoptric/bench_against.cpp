@@ -74,7 +74,7 @@ bench_programs_in_turn(const std::array<std::string, 2>& programs,
             const measure::BenchmarkRun found = report::read_benchmarks(
                 run_and_read_output(command, watcher.stop ? *watcher.stop : kNeverStop),
                 program + ": its stdout");
-            runs[which] = round == 0 ? found : join_benchmark_runs(runs[which], found);
+            runs[which] = round == 0 ? found : join_runs(runs[which], found);
             report_frame_to_watcher(watcher, 1, 1);
         }
     return runs;

@@ -45,15 +45,15 @@ measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments,
                                               session::Engine& engine,
                                               const std::vector<session::Request>& requests,
                                               const session::Watcher& watcher) {
-    std::vector<measure::TimedWorkSample> samples;
+    std::vector<measure::TimedWork> samples;
     for (const session::Request& request : requests)
-        for (measure::TimedWorkSample& sample : benchmark::measure_cost_samples(
+        for (measure::TimedWork& sample : benchmark::measure_cost_samples(
                  engine, request,
                  {.iterations = request.frames, .rounds = arguments.rounds, .watcher = watcher}))
             samples.push_back(std::move(sample));
     const measure::DeviceFacts device = session::make_device_facts(engine);
-    return measure::fit_unit_costs(device.name + ", " + device.driver, std::move(samples),
-                                   benchmark::list_fitted_kinds());
+    return measure::fit_costs(device.name + ", " + device.driver, std::move(samples),
+                              benchmark::list_fitted_kinds());
 }
 
 /// Fits unit costs of another device. The file gives the times of rows on that device, and the work
@@ -65,26 +65,25 @@ measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments,
     request.techniques.clear();
     for (const report::OtherDeviceTimes::TimedRowElsewhere& row : times.rows)
         request.techniques.push_back(row.technique);
-    std::vector<measure::TimedWorkSample> samples = benchmark::count_work_samples(engine, request,
-                                                                                  watcher);
+    std::vector<measure::TimedWork> samples = benchmark::count_work_samples(engine, request,
+                                                                            watcher);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ms = times.rows[i].ms;
-    measure::DeviceCosts costs = measure::fit_unit_costs(times.device, std::move(samples),
-                                                         times.kinds);
+    measure::DeviceCosts costs = measure::fit_costs(times.device, std::move(samples), times.kinds);
     costs.note = times.note;
     return costs;
 }
 
 std::string make_costs_text(const measure::DeviceCosts& costs) {
     std::string text = costs.device + "\n";
-    for (const measure::WorkUnitCost& unit : costs.units) {
+    for (const measure::UnitCost& unit : costs.units) {
         const WorkKindInfo& kind = kWorkKinds[static_cast<std::size_t>(unit.kind)];
         text += fmt::format("  {:<17} {:>12.5g} ns  {}\n", kind.name, unit.ns, kind.help);
     }
-    const measure::UnitCostFitQuality& fit = *costs.fit;
+    const measure::FitQuality& fit = *costs.fit;
     text += fmt::format("{} rows, each predicted by costs that were fitted to the others: {:.0f} % "
                         "within 20 %, {:.0f} % within 50 %\n",
-                        fit.samples.size(), 100 * fit.share_of_predictions_within_factor(1.2),
-                        100 * fit.share_of_predictions_within_factor(1.5));
+                        fit.samples.size(), 100 * fit.share_within(1.2),
+                        100 * fit.share_within(1.5));
     return text;
 }
 

@@ -18,7 +18,7 @@ struct CostsArguments {
 
 /// Runs `bench --costs`: fits the unit costs of a device to the times and the counted work of rows,
 /// prints the costs and writes them to a file. Returns the exit code. Throws as
-/// benchmark::measure_cost_samples and measure::fit_unit_costs do.
+/// benchmark::measure_cost_samples and measure::fit_costs do.
 int run_cost_fit(const CostsArguments& arguments);
 
 } // namespace catoptric::cli

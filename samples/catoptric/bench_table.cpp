@@ -14,9 +14,9 @@ namespace catoptric::cli {
 namespace {
 
 using measure::BenchmarkChange;
-using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
 using measure::BenchmarkRun;
+using measure::CostKind;
 
 using BenchmarkTableCells = std::vector<std::vector<std::string>>;
 
@@ -25,38 +25,37 @@ std::string format_benchmark_number(double value) { return fmt::format("{:.3f}",
 /// Adds the median and its interval, in `unit`.
 void add_median_cells(std::vector<std::string>& cells, const std::vector<double>& values,
                       double unit = 1) {
-    cells.push_back(format_benchmark_number(measure::compute_percentile(values, .5) / unit));
-    cells.push_back(format_interval(measure::median_confidence_interval(values), unit));
+    cells.push_back(format_benchmark_number(measure::percentile(values, .5) / unit));
+    cells.push_back(format_interval(measure::median_interval(values), unit));
 }
 
 std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, bool counted) {
     std::vector<std::string> cells{escape(benchmark.name)};
-    add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time));
-    add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time));
+    add_median_cells(cells, round_costs(benchmark, CostKind::real_time));
+    add_median_cells(cells, round_costs(benchmark, CostKind::cpu_time));
     if (!counted) return cells;
-    add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cycles),
-                     1e6);
+    add_median_cells(cells, round_costs(benchmark, CostKind::cycles), 1e6);
     std::vector<double> instructions;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         instructions.push_back(round.instructions.value_or(0));
-    cells.push_back(format_benchmark_number(measure::compute_percentile(instructions, .5) / 1e6));
+    cells.push_back(format_benchmark_number(measure::percentile(instructions, .5) / 1e6));
     return cells;
 }
 
-bool is_cost_in_cycles_or_instructions(BenchmarkCostKind cost) {
-    return cost == BenchmarkCostKind::cycles || cost == BenchmarkCostKind::instructions;
+bool is_cost_in_cycles_or_instructions(CostKind cost) {
+    return cost == CostKind::cycles || cost == CostKind::instructions;
 }
 
 /// Returns a cost as text, in millions of cycles or instructions, or in milliseconds.
-std::string format_cost(double cost, BenchmarkCostKind of) {
+std::string format_cost(double cost, CostKind of) {
     return format_benchmark_number(is_cost_in_cycles_or_instructions(of) ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost (cycles, time) that a comparison of two measurements covers, as text.
 std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     std::string text;
-    for (const BenchmarkCostKind cost : {BenchmarkCostKind::cycles, BenchmarkCostKind::instructions,
-                                         BenchmarkCostKind::cpu_time, BenchmarkCostKind::real_time})
+    for (const CostKind cost :
+         {CostKind::cycles, CostKind::instructions, CostKind::cpu_time, CostKind::real_time})
         if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
             text += (text.empty() ? "" : " or ") + cost_kind_name(cost) +
                     (is_cost_in_cycles_or_instructions(cost) ? " in user mode, millions" : ", ms");
@@ -70,7 +69,7 @@ std::string format_count_changes(const measure::BenchmarkChanges& changes) {
     BenchmarkTableCells cells{{"counted work", "count", "before", "after", "ratio"}};
     for (const BenchmarkChange& change : changes.list) {
         compared += change.compared_counts;
-        for (const measure::CountedWorkChange& count : change.counts)
+        for (const measure::WorkChange& count : change.counts)
             cells.push_back(
                 {escape(change.name), escape(count.name), fmt::format("{:.0f}", count.before),
                  fmt::format("{:.0f}", count.after),
@@ -120,12 +119,12 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes) {
     BenchmarkTableCells cells{
         {"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
     for (const BenchmarkChange& change : changes.list)
-        cells.push_back(
-            {escape(change.name), format_cost(change.medians[0], change.cost),
-             format_cost(change.medians[1], change.cost),
-             format_benchmark_number(change.ratio.median), format_interval(change.ratio.ci95),
-             format_benchmark_number(change.real_ratio.median),
-             format_interval(change.real_ratio.ci95), benchmark_outcome_name(change.outcome())});
+        cells.push_back({escape(change.name), format_cost(change.medians[0], change.cost),
+                         format_cost(change.medians[1], change.cost),
+                         format_benchmark_number(change.ratio.median),
+                         format_interval(change.ratio.ci95),
+                         format_benchmark_number(change.real_ratio.median),
+                         format_interval(change.real_ratio.ci95), outcome_name(change.outcome())});
     return (changes.list.empty()
                 ? "nothing is in both\n"
                 : "compared by " + list_cost_kinds(changes) + "\n" + align_columns(cells, 7)) +
@@ -136,8 +135,8 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes) {
 std::string describe_grown_work(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const BenchmarkChange& change : changes.list)
-        for (const measure::CountedWorkChange& count : change.counts)
-            if (count.is_work_growth())
+        for (const measure::WorkChange& count : change.counts)
+            if (count.has_grown())
                 text += fmt::format("{}{} {} {:.0f} instead of {:.0f}", text.empty() ? "" : ", ",
                                     change.name, count.name, count.after, count.before);
     return text;
@@ -146,7 +145,7 @@ std::string describe_grown_work(const measure::BenchmarkChanges& changes) {
 std::string describe_slower_benchmarks(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const BenchmarkChange& change : changes.list)
-        if (change.outcome() == BenchmarkChange::BenchmarkChangeOutcome::slower)
+        if (change.outcome() == BenchmarkChange::Outcome::slower)
             text += fmt::format("{}{} {:.3f} {}", text.empty() ? "" : ", ", change.name,
                                 change.ratio.median, format_interval(change.ratio.ci95));
     return text;

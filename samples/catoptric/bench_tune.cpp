@@ -45,14 +45,13 @@ fs::path choose_profile_path(const std::string& output, const session::DeviceInf
 } // namespace
 
 std::string make_tuning_table(const session::DeviceInfo& device,
-                              const std::vector<measure::ShaderVariantTrial>& tried) {
+                              const std::vector<measure::VariantTrial>& tried) {
     std::vector<std::vector<std::string>> cells{
         {"variant", "choice", "default", "ratio", "[95 %]", ""}};
-    for (const measure::ShaderVariantTrial& one : tried) {
-        const measure::BenchmarkCostRatio ratio = one.time_ratio_to_default();
+    for (const measure::VariantTrial& one : tried) {
+        const measure::CostRatio ratio = one.time_ratio();
         cells.push_back({one.variant, one.choice, one.standard, fmt::format("{:.3f}", ratio.median),
-                         format_interval(ratio.ci95),
-                         one.is_faster_than_default() ? "taken" : "not taken"});
+                         format_interval(ratio.ci95), one.is_faster() ? "taken" : "not taken"});
     }
     return fmt::format("{}, {}; {}, {} rounds; device time over the default's\n", device.name,
                        device.driver, escape(tried.front().benchmark), tried.front().ms.size()) +

@@ -11,7 +11,7 @@ namespace catoptric::cli {
 /// Returns a table with one line per variant: its ratio to the default, the interval, and whether
 /// the variant is chosen.
 std::string make_tuning_table(const session::DeviceInfo& device,
-                              const std::vector<measure::ShaderVariantTrial>& tried);
+                              const std::vector<measure::VariantTrial>& tried);
 
 /// Runs `bench --tune`: measures variants in `rounds`, prints the results and writes the profile.
 /// An empty `output` writes it to the path where the engine looks for it. Returns the exit code.

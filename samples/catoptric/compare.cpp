@@ -233,7 +233,7 @@ public:
         for (std::size_t i = known; i < comparison.warnings.size(); ++i)
             print_warning(comparison.warnings[i]);
         for (const report::Row& row : comparison.rows)
-            for (const std::string& what : measure::list_row_notes(comparison, row))
+            for (const std::string& what : measure::row_notes(comparison, row))
                 print_note_unless_quiet(output_options, row.label + ": " + what);
         for (const std::string& sentence :
              list_axes_without_effect(comparison, compare_options_.axes))
@@ -362,7 +362,7 @@ int run_compare(const CompareOptions& options) {
         gate.judge_scene_against_baseline(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_budget(comparison) ||
-                                          measure::find_best_rows_within_budget(comparison).row);
+                                          measure::find_best_rows(comparison).row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
     if (const std::string verdict = gate.finish(); !verdict.empty())

@@ -48,7 +48,7 @@ void check_difference_threshold(PictureDiffFacts& facts, const char* option, dou
 
 PictureDiffFacts compare_files(const DiffOptions& options) {
     const std::string layer = options.layer.empty() ? "" : ":" + options.layer;
-    const measure::PictureFileDifference found = measure::compare_picture_files(
+    const measure::FileDifference found = measure::compare_files(
         options.a + layer, options.b + layer, options.mask, options.exposure);
     PictureDiffFacts facts{
         options.a,
@@ -78,7 +78,7 @@ std::string format_mean_of_picture(const char* name, const measure::Mean& mean,
 }
 
 std::string format_metric_value(const measure::MetricValue& value) {
-    if (measure::is_missing_value(value)) return "none";
+    if (measure::is_missing(value)) return "none";
     if (const auto* place = std::get_if<measure::PixelPosition>(&value))
         return fmt::format("({}, {})", place->x, place->y);
     const double number = std::get<double>(value);
@@ -88,7 +88,7 @@ std::string format_metric_value(const measure::MetricValue& value) {
 
 std::string format_diff_facts(const PictureDiffFacts& facts) {
     std::string text;
-    for (const measure::Metric& quantity : measure::list_difference_metrics())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
                             format_metric_value(measure::metric_value(quantity, facts.difference)),
                             quantity.unit.empty() ? "" : " ", quantity.unit);

@@ -137,7 +137,7 @@ void FilmWriter::write_all_bytes(const std::vector<std::uint8_t>& bytes) {
 }
 
 void FilmWriter::add_frame(const measure::Picture& display) {
-    write_all_bytes(measure::convert_display_to_bytes(display));
+    write_all_bytes(measure::to_bytes(display));
 }
 
 void FilmWriter::finish() {

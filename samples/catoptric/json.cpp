@@ -95,7 +95,7 @@ std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
     document["flip_source"] = facts.flip_source;
-    for (const measure::Metric& quantity : measure::list_difference_metrics())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         document[std::string(quantity.name)] = report::make_metric_value_json(
             measure::metric_value(quantity, facts.difference));
     document["mean"] = {{"a", vector_to_json(facts.a_mean.rgb)},
@@ -237,7 +237,7 @@ std::string make_named_list_json(const std::string& kind,
 
 std::string make_metrics_json() {
     Json rows = Json::array();
-    for (const measure::Metric& quantity : measure::list_metrics())
+    for (const measure::Metric& quantity : measure::metrics())
         rows.push_back({{"name", quantity.name},
                         {"summary", quantity.help},
                         {"unit", quantity.unit},

@@ -128,7 +128,7 @@ std::string describe_metric(const measure::Metric& quantity) {
 
 std::string format_metric_list() {
     std::string text;
-    for (const measure::Metric& quantity : measure::list_metrics())
+    for (const measure::Metric& quantity : measure::metrics())
         text += fmt::format("{:<32} {}{}\n", quantity.name, quantity.help,
                             describe_metric(quantity));
     return text;

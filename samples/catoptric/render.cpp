@@ -228,7 +228,7 @@ public:
     /// The frame cannot be read afterwards.
     void write_frame(std::size_t number, const session::Frame& frame,
                      const session::FrameSpec& spec, const session::TechniqueResult& part) {
-        if (files_.empty()) return print_picture_bytes(measure::encode_picture_png(part.display));
+        if (files_.empty()) return print_picture_bytes(measure::encode_png(part.display));
         if (film_) return film_->add_frame(part.display);
         const std::string& file = files_.at(std::min(number, files_.size() - 1));
         if (!writes_exr(options_)) return measure::write_png(part.display, file);
@@ -254,8 +254,8 @@ private:
             tiers = session::Access::read_reflection_tiers(frame);
         const session::FirstSurfaces surfaces = session::Access::trace_first_surfaces(session_,
                                                                                       spec);
-        return measure::encode_exr_with_channels(
-            part.hdr, make_aov_channels(options_.aovs, surfaces, tiers), text);
+        return measure::encode_exr(part.hdr, make_aov_channels(options_.aovs, surfaces, tiers),
+                                   text);
     }
 
     const RenderOptions& options_;
@@ -316,7 +316,7 @@ void print_render_summary(const RenderOptions& options, const session::Request& 
                                      result.frames.size() == 1 ? "" : "s");
     if (request.until_settled && !result.settled) frames += " (the next would still differ)";
     if (!request.until_settled) {
-        const measure::SampleSummary ms = measure::summarise_samples(list_gpu_times(result));
+        const measure::SampleSummary ms = measure::summarise(list_gpu_times(result));
         frames = fmt::format("{:.4g} ms [{:.4g} - {:.4g}]", ms.median, ms.p05, ms.p95);
     }
     print_note_unless_quiet(output_options,

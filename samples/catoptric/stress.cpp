@@ -40,9 +40,9 @@ std::string make_stress_text(const report::StressResults& stress) {
     std::vector<std::vector<std::string>> cells{
         {"id", "verdict", "measured", "threshold", "seconds", "what"}};
     for (const report::StressRow& row : stress.rows) {
-        const report::StressCase* worst = row.worst_stress_case();
+        const report::StressCase* worst = row.worst_case();
         const auto figure = [](double value) { return fmt::format("{:.3g}", value); };
-        cells.push_back({row.id, report::stress_verdict_name(row.verdict),
+        cells.push_back({row.id, report::verdict_name(row.verdict),
                          worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
                          fmt::format("{:.1f}", row.seconds), worst ? worst->what : row.remark});
     }
@@ -86,10 +86,10 @@ int run_stress(const StressOptions& options) {
         throw_incomplete_run(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty())
         print_note_unless_quiet(options.output_options, "written: " + options.folder);
-    for (const std::string& part : found.list_stress_parts_not_run())
+    for (const std::string& part : found.parts_not_run())
         print_note_unless_quiet(options.output_options, "not run: " + part);
     if (options.device.validate) engine.check_validation();
-    return found.has_failed_stress_row() ? static_cast<int>(Failure::threshold) : 0;
+    return found.has_failed_row() ? static_cast<int>(Failure::threshold) : 0;
 }
 
 } // namespace

@@ -69,7 +69,7 @@ SweepSummary summarise(std::vector<double> values) {
     summary.median = median_of_sorted(values);
     summary.least = values.front();
     summary.largest = values.back();
-    summary.ci95 = measure::median_confidence_interval(values);
+    summary.ci95 = measure::median_interval(values);
     return summary;
 }
 
@@ -97,8 +97,7 @@ bool has_dependent_views(const SweepGroup& group) {
 SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values) {
     SweepSummary summary = summarise(values);
     if (has_dependent_views(group))
-        summary.ci95 = measure::median_confidence_interval(
-            average_values_per_instant(group, values));
+        summary.ci95 = measure::median_interval(average_values_per_instant(group, values));
     return summary;
 }
 

@@ -577,11 +577,11 @@ void check_sweep_result(const SweepJson& result, const SweepPiece& piece,
 
 std::vector<std::string> list_sweep_metrics() {
     std::vector<std::string> names;
-    for (const measure::Metric& metric : measure::list_difference_metrics()) {
+    for (const measure::Metric& metric : measure::difference_metrics()) {
         const bool is_count = metric.name == "pixels" || metric.name == "nonfinite";
         // Without an error, the signal-to-noise ratio (psnr) is infinite, and otherwise it follows
         // from the rmse. Therefore it is not merged.
-        if (!is_count && metric.name != "psnr" && measure::is_scalar_metric(metric))
+        if (!is_count && metric.name != "psnr" && measure::is_scalar(metric))
             names.emplace_back(metric.name);
     }
     return names;

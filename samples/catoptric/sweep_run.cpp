@@ -358,7 +358,7 @@ private:
                             {"rounds", report::make_number_list_json(times.rounds)},
                             {"waited", report::make_number_json(row.waited)},
                             {"noisy", row.noisy},
-                            {"ranked", measure::is_row_eligible_for_ranking(row)}});
+                            {"ranked", measure::is_rankable(row)}});
         }
         return {{"rows", sort_members(rows)},
                 {"machine", read_host_name()},

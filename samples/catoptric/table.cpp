@@ -76,15 +76,15 @@ std::string align_columns(const std::vector<std::vector<std::string>>& rows,
 
 std::string make_compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
-        {"technique", "R", measure::find_judged_time(comparison) == "cpu_ms" ? "cpu ms" : "ms",
-         "[95 %]", "place", "flip", "off %", "mae", "rmse", "mean"}};
+        {"technique", "R", measure::judged_time(comparison) == "cpu_ms" ? "cpu ms" : "ms", "[95 %]",
+         "place", "flip", "off %", "mae", "rmse", "mean"}};
     const bool has_notes = std::ranges::any_of(comparison.rows, [&](const report::Row& row) {
-        return !measure::list_row_notes(comparison, row).empty();
+        return !measure::row_notes(comparison, row).empty();
     });
     if (has_notes) rows.front().emplace_back("not as asked");
     const std::size_t notes_at = rows.front().size() - (has_notes ? 1 : 0);
     for (const report::Row& row : comparison.rows) {
-        const measure::TimeRankRange places = measure::find_time_rank_range_of_row(comparison, row);
+        const measure::RankRange places = measure::find_rank_range(comparison, row);
         rows.push_back(
             {row.label, std::to_string(row.scene_passes), format_milliseconds(row.time_ms().median),
              format_time_spread(row.time_ms()),
@@ -96,16 +96,15 @@ std::string make_compare_table(const report::Comparison& comparison) {
              format_five_decimals(row.mean_clamped.all)});
         if (has_notes)
             rows.back().push_back(
-                fmt::format("{}", fmt::join(measure::list_row_notes(comparison, row), "; ")));
+                fmt::format("{}", fmt::join(measure::row_notes(comparison, row), "; ")));
     }
     const std::size_t noisy = measure::find_noisy_rows(comparison).size();
     const std::string caution =
-        noisy == 0
-            ? ""
-            : fmt::format("noisy: {} of {} rows had to wait for a processor, others were at "
-                          "work beside; their {}times are not to be trusted\n",
-                          noisy, comparison.rows.size(),
-                          measure::find_judged_time(comparison) == "cpu_ms" ? "device " : "");
+        noisy == 0 ? ""
+                   : fmt::format("noisy: {} of {} rows had to wait for a processor, others were at "
+                                 "work beside; their {}times are not to be trusted\n",
+                                 noisy, comparison.rows.size(),
+                                 measure::judged_time(comparison) == "cpu_ms" ? "device " : "");
     return caution +
            fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "
                        "{}\n",

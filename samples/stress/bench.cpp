@@ -90,11 +90,11 @@ void StressTestBench::add_mean_flip_case(const std::string& what,
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
     row_.cases.push_back({what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit,
                           !seen.empty(), seen});
-    if (row_.cases.back().is_case_within_limit()) return;
+    if (row_.cases.back().is_within_limit()) return;
     const std::string name = row_.id + "-" + make_picture_file_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
         row_.pictures.push_back({name + which, part->display.width, part->display.height,
-                                 measure::encode_picture_png(part->display)});
+                                 measure::encode_png(part->display)});
 }
 
 void StressTestBench::add_nonfinite_pixel_case(const std::string& what,

@@ -124,7 +124,7 @@ void judge_face_sizes(StressTestBench& bench) {
         return bench.render_technique(request);
     };
     const session::TechniqueResult truth = render("raytrace");
-    const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
+    const measure::Mask mirrors = measure::mask_mirrors(truth.hits);
     const auto mean_of = [&](const session::TechniqueResult& part) {
         return measure::mean_of(part.hdr, measure::ValueRange::clamped, mirrors).all;
     };
@@ -180,8 +180,7 @@ void judge_moving_ball(StressTestBench& bench) {
         if (k > kWarmupFrames) steps.push_back(measure::flip_mean(measure::flip(now, last)));
         last = std::move(now);
     }
-    const double most = *std::ranges::max_element(steps),
-                 median = measure::summarise_samples(steps).median;
+    const double most = *std::ranges::max_element(steps), median = measure::summarise(steps).median;
     bench.add_measured_case("largest FLIP from frame to frame over the median", most / median, 3);
 }
 
@@ -204,7 +203,7 @@ void judge_parallax_correction(StressTestBench& bench) {
         bench.add_measured_case(fmt::format("ball {}: rmse over uncorrected", ball),
                                 share(measure::mask_one_mirror(truth.hits, MirrorId(ball))), .65);
     bench.add_measured_case("together: rmse over uncorrected",
-                            share(measure::mask_mirror_pixels(truth.hits)), .5);
+                            share(measure::mask_mirrors(truth.hits)), .5);
 }
 
 const RegisteredStressProperty kParallaxCorrectionProperty{

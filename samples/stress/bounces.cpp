@@ -33,7 +33,7 @@ TracedBouncePictures render_bounces(StressTestBench& bench, session::Request req
         request.techniques = {technique};
         return bench.render_technique(request);
     };
-    TracedBouncePictures bounces{{}, measure::mask_mirror_pixels(render("raytrace:depth=1").hits)};
+    TracedBouncePictures bounces{{}, measure::mask_mirrors(render("raytrace:depth=1").hits)};
     for (int k = 0; k <= kMaxBounces; ++k)
         bounces.pictures.push_back(render(fmt::format("naive:face={},bounces={}", face, k)).hdr);
     return bounces;
@@ -86,7 +86,7 @@ double compute_added_light(const TracedBouncePictures& bounces, std::size_t k) {
             for (int channel = 0; channel < 3; ++channel)
                 sum += std::min(bounces.pictures[k].pixels[i][channel], 1.f) -
                        std::min(bounces.pictures[k - 1].pixels[i][channel], 1.f);
-    return sum / (3 * double(measure::count_mask_pixels(bounces.mirrors)));
+    return sum / (3 * double(measure::count_pixels(bounces.mirrors)));
 }
 
 /// Judges a room with small balls. A third image covers one or two of about 4,000 pixels, and
@@ -163,8 +163,7 @@ void judge_mirror_wedge(StressTestBench& bench) {
         strange += bounces.mirrors[i] != 0 &&
                    !wedge.is_explained_by_mirrors(bounces.pictures.back().pixels[i].x, kMaxBounces);
     bench.add_measured_case(where + ": share of pixels that no number of mirrors explains",
-                            double(strange) / double(measure::count_mask_pixels(bounces.mirrors)),
-                            .2);
+                            double(strange) / double(measure::count_pixels(bounces.mirrors)), .2);
 }
 
 void judge_bounces(StressTestBench& bench) {

@@ -65,7 +65,7 @@ void judge_mirrors_in_cells(StressTestBench& bench) {
         if (hits.empty()) hits = part.hits;
         std::vector<int> own(std::size_t{kBallsPerEdge} * kBallsPerEdge);
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            const auto mirror = measure::first_mirror_of_hit_word(hits[i]).number();
+            const auto mirror = measure::first_mirror(hits[i]).number();
             if (mirror == 0) continue;
             const vec3 off = abs(
                 part.hdr.pixels[i] / choose_ball_colour(static_cast<int>(mirror) - 1) - vec3(1));

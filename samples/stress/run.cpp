@@ -17,7 +17,7 @@ report::StressVerdict judge_stress_row(const report::StressRow& row) {
     if (row.cases.empty()) return report::StressVerdict::unsupported;
     bool looks_worse = false;
     for (const report::StressCase& one : row.cases) {
-        if (one.is_case_within_limit()) continue;
+        if (one.is_within_limit()) continue;
         if (!one.is_quality) return report::StressVerdict::fail;
         looks_worse = true;
     }

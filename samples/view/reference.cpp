@@ -67,7 +67,7 @@ measure::Difference ProgressiveReference::compare_with_reference(const measure::
                                                  measure::to_unrounded_display(judged_, exposure));
     return measure::difference(measure::apply_exposure(hdr, exposure),
                                measure::apply_exposure(judged_, exposure),
-                               measure::mask_mirror_pixels(hits_), map);
+                               measure::mask_mirrors(hits_), map);
 }
 
 } // namespace catoptric::view

@@ -27,8 +27,7 @@ TimeTableRow TimeStatistics::make_time_row(const std::string& name, const Get& g
     std::vector<double> values;
     for (const FrameTimeSample& sample : samples_) values.push_back(get(sample));
     if (values.empty()) return {name, 0, {}};
-    return {name, measure::compute_percentile(values, .5),
-            measure::median_confidence_interval(values)};
+    return {name, measure::percentile(values, .5), measure::median_interval(values)};
 }
 
 std::vector<TimeTableRow> TimeStatistics::list_pass_times() const {

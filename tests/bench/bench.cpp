@@ -64,8 +64,7 @@ PairedFrameTimes measure_paired_frames(const ComparedConfiguration& a,
                               b_ms = list_gpu_ms_of_rounds(found[1]);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < a_ms.size(); ++i) ratios.push_back(a_ms[i] / b_ms[i]);
-    return {measure::summarise_samples(a_ms), measure::summarise_samples(b_ms),
-            measure::summarise_samples(ratios)};
+    return {measure::summarise(a_ms), measure::summarise(b_ms), measure::summarise(ratios)};
 }
 
 void compare_two_configurations(const char* title, const ComparedConfiguration& a,
@@ -135,8 +134,7 @@ void compare_processor_rules(const session::Request& base) {
     for (const measure::BenchmarkResult& found : benchmark::measure_benchmarks_in_rounds(
              subjects, meter,
              {.iterations = kRepetitions, .rounds = kRepetitions, .watcher = {}})) {
-        const double ms = measure::compute_percentile(
-            list_benchmark_cost_per_round(found, measure::BenchmarkCostKind::real_time), .5);
+        const double ms = measure::percentile(round_costs(found, measure::CostKind::real_time), .5);
         const std::size_t bar = found.name.find('|');
         std::printf("| %s| %.3f |%s |\n", found.name.substr(0, bar).c_str(), ms,
                     found.name.substr(bar + 1).c_str());

@@ -53,7 +53,7 @@ std::size_t count_differing_hits(const std::vector<DeviceHit>& a, const std::vec
 }
 
 double processor_ms_of_round(const measure::BenchmarkResult& found, std::size_t round) {
-    return list_benchmark_cost_per_round(found, measure::BenchmarkCostKind::cpu_time)[round];
+    return round_costs(found, measure::CostKind::cpu_time)[round];
 }
 
 /// Prints the processor time of the ray query as a multiple of that of the engine's walk.
@@ -83,11 +83,11 @@ void compare_with_ray_query(const char* name, std::span<const bvh::Triangle> tri
         theirs.push_back(processor_ms_of_round(found[2], i) - processor_ms_of_round(found[3], i));
         ratios.push_back(theirs.back() / ours.back());
     }
-    const measure::SampleSummary ratio = measure::summarise_samples(ratios);
+    const measure::SampleSummary ratio = measure::summarise(ratios);
     std::printf(
         "%-10s %zu rays: ours %.1f ms, ray query %.1f ms, which is %.2f times [%.2f - %.2f]; %zu rays differ\n",
-        name, rays.size(), measure::summarise_samples(ours).median,
-        measure::summarise_samples(theirs).median, ratio.median, ratio.p05, ratio.p95, other);
+        name, rays.size(), measure::summarise(ours).median, measure::summarise(theirs).median,
+        ratio.median, ratio.p05, ratio.p95, other);
 }
 
 } // namespace

@@ -52,7 +52,7 @@ void repeat_comparison_of_rows(int times, const std::vector<std::string>& rows) 
         const auto [least, most] = std::ranges::minmax(count.ratios);
         std::printf("| %s | %s | %d | %d | %d | %.3f [%.3f - %.3f] |\n", rows[pair.second].c_str(),
                     rows[pair.first].c_str(), count.faster, count.slower,
-                    times - count.faster - count.slower,
-                    measure::summarise_samples(count.ratios).median, least, most);
+                    times - count.faster - count.slower, measure::summarise(count.ratios).median,
+                    least, most);
     }
 }

@@ -248,7 +248,7 @@ TEST_F(BenchAgainstProgramCliTest, ProgramsAlternateTheirOrderAndEachRoundIsKept
               "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
               "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
               "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n");
-    const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(runs[0], runs[1]);
+    const measure::BenchmarkChanges changes = measure::compare_runs(runs[0], runs[1]);
     EXPECT_EQ(cli::describe_slower_benchmarks(changes), "frame/x 1.200 [1.200 - 1.200]");
     EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
 }

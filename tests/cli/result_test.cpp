@@ -28,9 +28,8 @@ TEST_F(CommandLineTest, ListJsonIsValid) {
 /// compares two pictures.
 TEST_F(CommandLineTest, ListMetricsShowsEveryMetric) {
     std::vector<std::string> names, of_differences;
-    for (const auto& quantity : catoptric::measure::list_metrics())
-        names.emplace_back(quantity.name);
-    for (const auto& quantity : catoptric::measure::list_difference_metrics())
+    for (const auto& quantity : catoptric::measure::metrics()) names.emplace_back(quantity.name);
+    for (const auto& quantity : catoptric::measure::difference_metrics())
         of_differences.emplace_back(quantity.name);
     std::vector<std::string> found;
     const json metrics = json::parse(run_cli({"list", "metrics", "--json"}).out)["metrics"];

@@ -194,7 +194,7 @@ protected:
 
     void SetUp() override {
         write_input_file("a.bin", make_gltf_buffer());
-        write_input_file("p.png", catoptric::measure::encode_picture_png(make_test_picture()));
+        write_input_file("p.png", catoptric::measure::encode_png(make_test_picture()));
         write_input_file("good.exr", catoptric::measure::encode_exr(make_test_picture()));
         write_input_file("m.mtl", make_mtl_text());
         write_input_file("good.obj", make_obj_text());

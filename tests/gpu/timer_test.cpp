@@ -51,12 +51,11 @@ TEST_P(SessionClosingTest, IsolatedPassesAddUpToTheFrame) {
     }
     // Other programs can interrupt a frame between its passes, which lowers its share. So the least
     // disturbed frame shows whether passes leave out a part of the frame.
-    const double largest = std::ranges::max(shares),
-                 median = measure::summarise_samples(shares).median;
+    const double largest = std::ranges::max(shares), median = measure::summarise(shares).median;
     std::cout << "[ MEASURED ] passes are " << 100 * median << " % (median) and up to "
-              << 100 * largest << " % of a frame of " << measure::summarise_samples(walls).median
+              << 100 * largest << " % of a frame of " << measure::summarise(walls).median
               << " ms\n";
-    if (cpu && measure::summarise_samples(walls).median < 20)
+    if (cpu && measure::summarise(walls).median < 20)
         GTEST_SKIP() << "frames below 20 ms: the cost of a submit is not small beside them";
     EXPECT_GE(largest, .95);
     EXPECT_LE(median, 1.01);
@@ -154,10 +153,9 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
             if (pass.name.starts_with("four")) four.push_back(pass.elapsed_ms());
         }
     }
-    const double ratio = measure::summarise_samples(four).median /
-                         measure::summarise_samples(one).median;
-    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x ("
-              << measure::summarise_samples(one).median << " ms)\n";
+    const double ratio = measure::summarise(four).median / measure::summarise(one).median;
+    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x (" << measure::summarise(one).median
+              << " ms)\n";
     EXPECT_GE(ratio, 2.5);
     EXPECT_LE(ratio, 6);
 }

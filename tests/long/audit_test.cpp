@@ -57,7 +57,7 @@ void run_audited_loop(uvec2 size) {
                                                      CLOCKS_PER_SEC;
         }
     EXPECT_FALSE(audit.audit().is_alarmed());
-    EXPECT_EQ(audit.audit().failure_count(), 0u);
+    EXPECT_EQ(audit.audit().failures(), 0u);
     EXPECT_GT(audit.audit().frame_count(), 1u);
     std::printf(
         "%ux%u, %d frames: %.3f ms a frame with audit, %.3f ms without, ratio %.3f (of processor time %.3f); blocks "

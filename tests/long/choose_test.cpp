@@ -230,10 +230,8 @@ struct DeviceTimes {
 DeviceTimes predict_times_of_bank(const ViewBank& bank, const std::string& name,
                                   const std::string& costs) {
     DeviceTimes device{name, costs, {}};
-    const std::vector<measure::PredictedTime> times = measure::find_predicted_pareto_front(
-                                                          report::read_costs_file(costs),
-                                                          bank.comparison.rows)
-                                                          .times;
+    const std::vector<measure::PredictedTime> times =
+        measure::predict_front(report::read_costs_file(costs), bank.comparison.rows).times;
     for (std::size_t i = 0; i < bank.plans.size(); ++i) device.ms[bank.plans[i]] = times[i].ms;
     return device;
 }
@@ -266,9 +264,8 @@ double measure_oracle_regret(const ViewBank& bank, const DeviceTimes& device, in
         least = std::min(least, ms);
         const auto failures = std::ranges::count_if(
             drawn, [&](std::size_t view) { return !(bank.flips[i][view] <= limit); });
-        if (measure::lower_bound_of_passing_view_share(static_cast<std::size_t>(failures),
-                                                       static_cast<std::size_t>(proof_views),
-                                                       .95) >= kShare)
+        if (measure::passing_share_bound(static_cast<std::size_t>(failures),
+                                         static_cast<std::size_t>(proof_views), .95) >= kShare)
             proved = std::min(proved, ms);
     }
     return std::isfinite(proved) ? proved / least : NAN;

@@ -21,7 +21,7 @@ TEST(OutsideFigures, MeansAndErrorsOfEachDepthEqualTheFigures) {
                                                 {3, 0, 0, .0044, .05},
                                                 {4, .120648, .049291, .0007, .30}};
     const session::TechniqueResult deep = trace_cornell_mirrors(8, 400);
-    const measure::Mask mirrors = measure::mask_mirror_pixels(trace_cornell_mirrors(0, 1).hits);
+    const measure::Mask mirrors = measure::mask_mirrors(trace_cornell_mirrors(0, 1).hits);
     const auto mean = [](const session::TechniqueResult& part, measure::ValueRange range) {
         return measure::mean_of(part.hdr, range).all;
     };

@@ -34,7 +34,7 @@ TEST_P(RasterTracerAgreementTest, RasterisationEqualsRayTracingBesideMirrors) {
         const session::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
         const double error = test::rmse_of_pictures(
             test::render_technique(scene, raster, {512, 512}).hdr, truth.hdr,
-            measure::mask_non_mirror_pixels(truth.hits));
+            measure::mask_non_mirrors(truth.hits));
         std::cout << "[ MEASURED ] " << scene.name << ", shadows " << name << ": rmse " << error
                   << " on non-mirror pixels\n";
         EXPECT_LE(error, most) << scene.name;
@@ -51,7 +51,7 @@ std::pair<std::size_t, std::size_t> count_lamp_pixels(const scene::Scene& scene,
     std::pair<std::size_t, std::size_t> found{0, 0};
     for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
         if (part.hdr.pixels[i].x > 4)
-            ++(measure::first_mirror_of_hit_word(truth.hits[i]) ? found.first : found.second);
+            ++(measure::first_mirror(truth.hits[i]) ? found.first : found.second);
     return found;
 }
 
@@ -107,7 +107,7 @@ double share_of_differing_pixels_outside_mirrors(const session::TechniqueResult&
         const vec3 apart = abs(clamp(raster.hdr.pixels[i], 0.0f, 1.0f) -
                                clamp(traced.hdr.pixels[i], 0.0f, 1.0f));
         off += !(std::max({apart.x, apart.y, apart.z}) <=
-                 static_cast<float>(measure::kMaxInvisibleChannelDifference));
+                 static_cast<float>(measure::kMaxInvisibleDifference));
     }
     return static_cast<double>(off) / static_cast<double>(traced.hits.size());
 }
@@ -150,7 +150,7 @@ TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
     const double error = test::rmse_of_pictures(
         test::render_technique(scene::make_cornell(), "naive:bounces=0,shadow_map=64", {256, 256})
             .hdr,
-        truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
+        truth.hdr, measure::mask_non_mirrors(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
     EXPECT_LE(error, .0052); // measured .0049; with twice the offset .0055
 }

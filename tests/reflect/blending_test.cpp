@@ -124,7 +124,7 @@ TEST(Blending, CapturesShowVeils) {
     const measure::Picture found = test::render_technique(scene, "pyramid", size, 6).hdr;
     int off = 0, mirrors = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(traced.hits[i])) continue;
+        if (!measure::first_mirror(traced.hits[i])) continue;
         ++mirrors;
         off += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]) > .1f;
     }
@@ -167,8 +167,7 @@ TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
                    {1.5, -1.8, -1.2}, {1.5, .6, -1.2}, {-1.5, .6, -1.2});
     const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=4", size);
     std::size_t mirrors = 0;
-    for (const std::uint32_t hit : traced.hits)
-        mirrors += bool(measure::first_mirror_of_hit_word(hit));
+    for (const std::uint32_t hit : traced.hits) mirrors += bool(measure::first_mirror(hit));
     EXPECT_GT(mirrors, 300u) << "the mask shows mirrors behind the veil";
     for (const char* technique :
          {"hybrid:force=unknown", "1=raytrace:depth=4,first=raster *=hybrid:force=unknown"}) {
@@ -215,7 +214,7 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
     const session::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
     scene::Scene without = scene;
     for (scene::Material& material : without.materials) material.alpha = material.blended ? 0 : 1;
-    const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);
+    const measure::Mask mask = measure::mask_mirrors(traced.hits);
     const auto error = [&](const scene::Scene& of) {
         return test::rmse_of_pictures(test::render_technique(of, "planar", size, 2).hdr, traced.hdr,
                                       mask);
@@ -223,7 +222,7 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
     const double found = error(scene), invisible = error(without);
     std::cout << "[ MEASURED ] veils in a flat mirror: rmse " << found << ", without veils "
               << invisible << '\n';
-    EXPECT_GT(measure::count_mask_pixels(mask), 500u);
+    EXPECT_GT(measure::count_pixels(mask), 500u);
     // Opaque veils of alpha .5 hide the part of the mirror that would show them.
     EXPECT_LT(found, test::has_blended_surfaces() ? .1 * invisible : 1e-5);
 }

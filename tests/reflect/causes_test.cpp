@@ -31,8 +31,8 @@ struct ErrorCauseSplit {
     double error_of_cause_alone(const std::string& name) const {
         return find_cause(name).alone / causes.squared_error;
     }
-    const report::ErrorCauseShare& find_cause(const std::string& name) const {
-        const auto found = std::ranges::find(causes.list, name, &report::ErrorCauseShare::name);
+    const report::CauseShare& find_cause(const std::string& name) const {
+        const auto found = std::ranges::find(causes.list, name, &report::CauseShare::name);
         if (found == causes.list.end()) throw std::runtime_error("no cause '" + name + "'");
         return *found;
     }
@@ -75,16 +75,16 @@ double mean_squared_mirror_error(const scene::Scene& scene, const std::string& t
                                                                kCausesPictureSize);
     request.until_settled = true;
     const session::RunResult row = session::run(test::get_test_engine(), request);
-    return std::pow(test::rmse_of_pictures(row.parts.front().hdr, truth.hdr,
-                                           measure::mask_mirror_pixels(truth.hits)),
-                    2);
+    return std::pow(
+        test::rmse_of_pictures(row.parts.front().hdr, truth.hdr, measure::mask_mirrors(truth.hits)),
+        2);
 }
 
 /// Expects that the shares of all causes add up to the whole error. The shares of a cause by pixel
 /// class, and by mirror, must add up to its whole share.
 void expect_cause_shares_add_up(const ErrorCauseSplit& found) {
     double all = 0;
-    for (const report::ErrorCauseShare& cause : found.causes.list) {
+    for (const report::CauseShare& cause : found.causes.list) {
         all += cause.share;
         EXPECT_NEAR(cause.share_first_order + cause.share_mirror_in_mirror, cause.share, 1e-12);
         double mirrors = 0;
@@ -203,8 +203,7 @@ TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
     const auto squared = [&](const measure::Mask& mask) {
         return std::pow(test::rmse_of_pictures(row.hdr, truth.hdr, mask), 2);
     };
-    EXPECT_NEAR(found.causes.squared_error, squared(measure::mask_mirror_pixels(truth.hits)),
-                1e-12);
+    EXPECT_NEAR(found.causes.squared_error, squared(measure::mask_mirrors(truth.hits)), 1e-12);
     for (std::uint32_t i = 0; i < 4; ++i)
         EXPECT_NEAR(found.causes.squared_error_per_mirror[i],
                     squared(measure::mask_one_mirror(truth.hits, MirrorId(i + 1))), 1e-12);
@@ -316,9 +315,9 @@ TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     std::size_t mirrored = 0, by_direction = 0;
     for (std::size_t i = 0; i < painted.size(); ++i) {
         if (painted[i] == 0) continue;
-        EXPECT_TRUE(measure::first_mirror_of_hit_word(found.hits[i])) << "pixel " << i;
+        EXPECT_TRUE(measure::first_mirror(found.hits[i])) << "pixel " << i;
         if (painted[i] == read_json_number_member("mirror in mirror")) {
-            EXPECT_TRUE(measure::second_mirror_of_hit_word(found.hits[i])) << "pixel " << i;
+            EXPECT_TRUE(measure::second_mirror(found.hits[i])) << "pixel " << i;
             ++mirrored;
         }
         by_direction += painted[i] == read_json_number_member("direction");

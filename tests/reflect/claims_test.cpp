@@ -47,11 +47,10 @@ WrongPixelsByReflectedObject count_wrong_pixels_by_reflected_object(
     const WrongPixelsByReflectedObject found{
         test::compare_pixels_of_mirrors(picture, truth,
                                         [](std::uint32_t hit, const vec3& colour) {
-                                            return !measure::second_mirror_of_hit_word(hit) &&
-                                                   colour.x < .01f;
+                                            return !measure::second_mirror(hit) && colour.x < .01f;
                                         }),
         test::compare_pixels_of_mirrors(picture, truth, [](std::uint32_t hit, const vec3&) {
-            return bool(measure::second_mirror_of_hit_word(hit));
+            return bool(measure::second_mirror(hit));
         })};
     std::cout << "[ MEASURED ] " << search << ": board " << found.board << ", other ball "
               << found.ball << "\n";
@@ -148,8 +147,7 @@ TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
                                          .hdr;
     const test::PixelComparison once = test::compare_pixels_of_mirrors(
         picture, truth, [](std::uint32_t hit, const vec3&) {
-            return measure::first_mirror_of_hit_word(hit) == MirrorId(1) &&
-                   !measure::second_mirror_of_hit_word(hit);
+            return measure::first_mirror(hit) == MirrorId(1) && !measure::second_mirror(hit);
         });
     std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
     EXPECT_GT(once.pixels, 1000u);
@@ -200,11 +198,11 @@ CaptureAnswerCounts count_capture_answers(const scene::Scene& scene, const std::
     };
     CaptureAnswerCounts found;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         if (!is_unknown(0, i) || is_unknown(1, i)) continue;
         const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
         const bool is_off = test::do_pixel_channels_differ(all, truth.hdr.pixels[i]),
-                   meets = bool(measure::second_mirror_of_hit_word(truth.hits[i]));
+                   meets = bool(measure::second_mirror(truth.hits[i]));
         ++found.all, found.off += is_off;
         found.mirrors += meets, found.mirrors_off += meets && is_off;
         found.black += all == vec3(0) && own != vec3(0);

@@ -34,8 +34,8 @@ ColourError measure_continued_search_error(const scene::Scene& scene,
     const auto of = [&](const measure::Mask& mask) {
         return test::rmse_of_pictures(picture, truth.hdr, mask);
     };
-    const ColourError error{of(measure::mask_mirror_pixels(truth.hits)),
-                            of(measure::mask_first_order_pixels(truth.hits)),
+    const ColourError error{of(measure::mask_mirrors(truth.hits)),
+                            of(measure::mask_first_order(truth.hits)),
                             of(measure::mask_mirror_in_mirror(truth.hits))};
     std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": rmse " << error.all
               << ", first order " << error.first_order << ", mirror in mirror "
@@ -96,7 +96,7 @@ TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
         const auto judged = test::measure_search_errors(scene::make_cornell(),
                                                         test::list_search_test_views().front(),
                                                         {search, search + ",captures=all"});
-        const measure::LookupErrorSummary &own = judged[0].lookup, &all = judged[1].lookup;
+        const measure::LookupSummary &own = judged[0].lookup, &all = judged[1].lookup;
         EXPECT_LE(all.unknown, .75 * own.unknown) << search;
         EXPECT_LE(all.wrong_object, own.wrong_object)
             << search << ": an answer from elsewhere is no guess";

@@ -179,10 +179,9 @@ TEST(EnvironmentShadows, NoiseFallsWithTheRootOfTheNumberOfSeeds) {
         add_black_board(scene);
         std::array<measure::PictureMean, 2> halves;
         for (int seed = 0; seed < 2 * seeds; ++seed)
-            halves[seed % 2].add_picture(
-                test::render_without_ambient(scene, "raytrace:seed=" + std::to_string(seed),
-                                             {24, 24})
-                    .hdr);
+            halves[seed % 2].add(test::render_without_ambient(
+                                     scene, "raytrace:seed=" + std::to_string(seed), {24, 24})
+                                     .hdr);
         return measure_picture_rms(halves[0].mean(), halves[1].mean());
     };
     const double one = noise(4, 1), mean_of_16 = noise(4, 16), more_rays = noise(16, 1);

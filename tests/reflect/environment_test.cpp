@@ -232,10 +232,10 @@ double share_of_mirror_pixels_off(const scene::Scene& scene, const std::string& 
                                                                  kEnvironmentPictureSize, 3);
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         ++all;
         off += test::max_channel_difference(part.hdr.pixels[i], truth.hdr.pixels[i]) >
-               float(measure::kMaxInvisibleChannelDifference);
+               float(measure::kMaxInvisibleDifference);
     }
     EXPECT_GT(all, 300u);
     return double(off) / double(all);
@@ -317,9 +317,9 @@ TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
         session::Access::render_frame(session, spec, {.ablated = causes}).read().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         ++all, off += test::max_channel_difference(ablated.pixels[i], truth.hdr.pixels[i]) >
-                      float(measure::kMaxInvisibleChannelDifference);
+                      float(measure::kMaxInvisibleDifference);
     }
     std::cout << "[ MEASURED ] off " << off << " of " << all << "\n";
     EXPECT_LE(double(off), .01 * double(all));

@@ -79,7 +79,7 @@ TEST(ExactSpheres, SpheresEqualTheirMeshesExceptAtOutlines) {
     int off = 0;
     for (std::size_t i = 0; i < exact.pixels.size(); ++i)
         off += !(test::max_channel_difference(exact.pixels[i], mesh.pixels[i]) <=
-                 float(measure::kMaxInvisibleChannelDifference));
+                 float(measure::kMaxInvisibleDifference));
     EXPECT_LE(off, 120);
 }
 

@@ -59,7 +59,7 @@ void expect_forced_hybrid_is_traced(const scene::Scene& scene, const std::string
     const session::TechniqueResult part = render_hybrid_with_lookups(
         scene, "hybrid:force=unknown" + settings, size);
     expect_traced_pixel_count(part, true);
-    const measure::Mask mirrors = measure::mask_mirror_pixels(traced.hits);
+    const measure::Mask mirrors = measure::mask_mirrors(traced.hits);
     std::size_t both = 0, one = 0, different = 0;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const bool here = part.lookup[i].w != 0, there = mirrors[i];

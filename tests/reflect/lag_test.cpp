@@ -49,16 +49,14 @@ void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t 
         for (const report::LagAtSpeed& at : row.speeds) {
             for (const auto figure :
                  {kFlipMetric, &Difference::off, &Difference::mae, kRmseMember}) {
-                const std::vector<double> errors = measure::list_error_metric_at_instants(at.errors,
-                                                                                          figure);
+                const std::vector<double> errors = measure::values_at_instants(at.errors, figure);
                 EXPECT_THAT(errors, testing::Each(0.0)) << row.label << " at " << at.speed;
                 EXPECT_EQ(errors.size(), lag.seconds.size());
-                EXPECT_EQ(
-                    measure::list_error_metric_at_instants(at.reference_errors, figure),
-                    measure::list_error_metric_at_instants(row.still_reference_errors, figure))
+                EXPECT_EQ(measure::values_at_instants(at.reference_errors, figure),
+                          measure::values_at_instants(row.still_reference_errors, figure))
                     << row.label << " at " << at.speed;
             }
-            EXPECT_EQ(measure::percentile_error_over_instants(at.errors, kFlipMetric, 1), 0);
+            EXPECT_EQ(measure::percentile_over_instants(at.errors, kFlipMetric, 1), 0);
         }
     }
 }
@@ -156,7 +154,7 @@ TEST(Lag, LagGrowsWithSpeed) {
     ASSERT_EQ(speeds.size(), 3u);
     for (const auto figure : {kRmseMember, kFlipMetric}) {
         const auto mean = [&](std::size_t i) {
-            return measure::mean_error_over_instants(speeds[i].errors, figure);
+            return measure::mean_over_instants(speeds[i].errors, figure);
         };
         std::cout << "[ MEASURED ] lag of reuse, " << (figure == kFlipMetric ? "FLIP" : "rmse")
                   << " at 2x " << mean(0) << ", 4x " << mean(1) << ", 8x " << mean(2) << "\n";
@@ -175,7 +173,7 @@ TEST(Lag, LagGrowsWithSpeed) {
     EXPECT_EQ(worst.flip, largest);
     EXPECT_EQ(worst.speed, speed);
     EXPECT_EQ(worst.seconds, instant);
-    const measure::Mask mirrors = measure::mask_mirror_pixels(worst.mirror_hits);
+    const measure::Mask mirrors = measure::mask_mirrors(worst.mirror_hits);
     const auto flip_from = [&](const measure::Picture& other) {
         return measure::difference(worst.moving, other, mirrors,
                                    measure::flip(measure::to_unrounded_display(worst.moving),
@@ -207,7 +205,7 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
                                                      kLagPictureSize),
                      traced = test::make_test_request(scene, {"raytrace"}, kLagPictureSize);
     still.time = traced.time = instant;
-    const measure::Mask mirrors = measure::mask_mirror_pixels(
+    const measure::Mask mirrors = measure::mask_mirrors(
         session::run(test::get_test_engine(), traced).parts.front().hits);
     const session::TechniqueResult
         at_speed = session::run(test::get_test_engine(), moving).parts.front(),
@@ -239,7 +237,7 @@ TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
                                       request.base.size)
             .hdr;
     };
-    const measure::Mask mirrors = measure::mask_mirror_pixels(
+    const measure::Mask mirrors = measure::mask_mirrors(
         test::render_technique(scene, "raytrace", request.base.size).hits);
     const measure::Picture converged = naive(8);
     int rmse_settled = 0,

@@ -174,7 +174,7 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
     };
     std::size_t mirror = 0, hidden = 0, found = 0, wrong_secant = 0, wrong_layered = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         const std::size_t wanted = seen(truth.hdr.pixels[i]);
         ++mirror;
         wrong_secant += seen(secant.pixels[i]) != wanted;
@@ -201,7 +201,7 @@ TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
             test::render_technique(scene::make_cornell(),
                                    "layered:face=128,distance=unorm8,range=" + range, {256, 256}, 4)
                 .hdr,
-            truth.hdr, measure::mask_mirror_pixels(truth.hits));
+            truth.hdr, measure::mask_mirrors(truth.hits));
     };
     // On the device the built-in scene is divided by 1024. With a range of 1024 world units, stored
     // distances therefore equal distances in scene units. A range of 1023 avoids this special case.

@@ -81,8 +81,8 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
     std::vector<double> rmse, predicted;
     int seed = 0;
     for (int frames = 1; frames <= 16; ++frames) {
-        a.add_picture(tracer.trace_picture(64, ++seed));
-        b.add_picture(tracer.trace_picture(64, ++seed));
+        a.add(tracer.trace_picture(64, ++seed));
+        b.add(tracer.trace_picture(64, ++seed));
         if (frames != 1 && frames != 4 && frames != 16) continue;
         rmse.push_back(test::rmse_of_pictures(a.mean(), b.mean()));
         double sum = 0;
@@ -108,17 +108,17 @@ TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     SeededTracer tracer(make_metal_floor_below_patches(.4f), {64, 64});
     const measure::Picture row = tracer.trace_picture(1, 1000);
     const auto estimate = [&](int rays, int seed) {
-        return measure::estimate_noise_free_error_by_halves(
+        return measure::estimate_noise_free(
             row,
-            measure::make_noisy_reference_halves(tracer.trace_picture(rays, seed),
-                                                 tracer.trace_picture(rays, seed + 1), 0),
+            measure::make_halves(tracer.trace_picture(rays, seed),
+                                 tracer.trace_picture(rays, seed + 1), 0),
             {}, std::vector<float>(row.pixels.size(), 0.f));
     };
     const double truth = estimate(16 * kRaysPerPixel, 2000).squared_error;
     int held = 0, held_by_deviation = 0;
     double width = 0, deviation = 0;
     for (int k = 0; k < 20; ++k) {
-        const measure::NoiseFreeErrorEstimate found = estimate(kRaysPerPixel, 1 + 2 * k);
+        const measure::NoiseFreeError found = estimate(kRaysPerPixel, 1 + 2 * k);
         held += found.ci95.low <= truth && truth <= found.ci95.high;
         width += (found.ci95.high - found.ci95.low) / 20;
         held_by_deviation += std::abs(found.squared_error - truth) <= 1.96 * found.deviation;
@@ -170,18 +170,17 @@ TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
     ASSERT_FALSE(found.stopped);
     EXPECT_GT(found.noise->frames, 1);
     EXPECT_LT(found.noise->seconds, 60);
-    EXPECT_TRUE(found.noise->is_noise_target_reached());
+    EXPECT_TRUE(found.noise->is_target_reached());
     EXPECT_DOUBLE_EQ(found.noise->wanted_floor, .2 * found.rows[0].error.flip);
     EXPECT_EQ(found.rows[0].error.flip_floor, found.noise->flip_floor);
     EXPECT_NEAR(found.noise->predicted_rmse / found.noise->halves_rmse, 1, .2);
     EXPECT_THAT(told, testing::Contains(testing::HasSubstr("frames a half")));
-    EXPECT_GT(measure::find_row_metric_of_study(found.rows[0], measure::kNoiseMetricName).index(),
-              0u);
+    EXPECT_GT(measure::study_metric(found.rows[0], measure::kNoiseMetricName).index(), 0u);
 
     request.reference_seconds = 0;
     const report::Comparison brief = study::compare(test::get_test_engine(), request);
     EXPECT_EQ(brief.noise->frames, 1);
-    EXPECT_FALSE(brief.noise->is_noise_target_reached());
+    EXPECT_FALSE(brief.noise->is_target_reached());
     EXPECT_GT(brief.noise->flip_floor, found.noise->flip_floor);
 }
 

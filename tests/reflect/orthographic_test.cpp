@@ -67,7 +67,7 @@ TEST(Orthographic, MirrorsReflectParallelViewRays) {
     constexpr uvec2 kOrthographicPictureSize{96, 96};
     const session::TechniqueResult truth = test::render_technique(scene, "raytrace",
                                                                   kOrthographicPictureSize);
-    const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
+    const measure::Mask mirrors = measure::mask_mirrors(truth.hits);
     for (const auto& [technique, most] :
          {std::pair{"hybrid", .02}, {"secant:face=auto", .1}, {"layered", .05}}) {
         const session::TechniqueResult part = test::render_technique(scene, technique,
@@ -77,7 +77,7 @@ TEST(Orthographic, MirrorsReflectParallelViewRays) {
             if (mirrors[i] == 0) continue;
             ++all;
             off += test::max_channel_difference(part.hdr.pixels[i], truth.hdr.pixels[i]) >
-                   float(measure::kMaxInvisibleChannelDifference);
+                   float(measure::kMaxInvisibleDifference);
         }
         ASSERT_GT(all, 500u);
         const double share = double(off) / double(all);

@@ -30,7 +30,7 @@ TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
                   << " (reuse), share " << with / without << "\n";
         EXPECT_LE(with, most * without) << where;
     };
-    expect_share("all mirrors", measure::mask_mirror_pixels(truth.hits), .50);
+    expect_share("all mirrors", measure::mask_mirrors(truth.hits), .50);
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
         expect_share("ball " + std::to_string(ball),
                      measure::mask_one_mirror(truth.hits, MirrorId(ball)), .65);
@@ -69,7 +69,7 @@ TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
     const scene::Scene scene = scene::make_cornell();
     const session::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
                                                                   kParallaxPictureSize);
-    const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
+    const measure::Mask mask = measure::mask_mirrors(truth.hits);
     const auto error = [&](const std::string& technique) {
         const double value = test::rmse_of_pictures(
             test::render_technique(scene, technique, kParallaxPictureSize, kParallaxWarmupFrames)

@@ -58,8 +58,8 @@ TEST(PathDistance, LampInAClosedRoomLeavesTheReferenceFarAway) {
     const DistanceRun run = measure_distance(test::get_test_engine(), make_room_with_lamp(),
                                              kAmpleSeconds);
     ASSERT_TRUE(run.distance && run.distance->is_known()) << run.distance->unknown;
-    EXPECT_GT(measure::find_path_distance_interval(*run.distance).low, .1);
-    EXPECT_TRUE(measure::is_path_distance_precise(*run.distance));
+    EXPECT_GT(measure::distance_interval(*run.distance).low, .1);
+    EXPECT_TRUE(measure::is_precise(*run.distance));
     EXPECT_GT(run.distance->flip_all, .1);
     EXPECT_EQ(run.distance->paths % 8, 0) << "both halves have as many frames of four paths";
     EXPECT_EQ(run.frames, run.distance->paths / 4 + 1) << "and the reference has one frame";
@@ -82,7 +82,7 @@ TEST(PathDistance, NoiseOfARoughReferenceIsNoDistance) {
     const DistanceRun run = measure_distance(test::get_test_engine(), furnace, kAmpleSeconds,
                                              "raytrace:depth=16,rays=64");
     ASSERT_TRUE(run.distance && run.distance->is_known()) << run.distance->unknown;
-    EXPECT_LE(measure::find_path_distance_interval(*run.distance).low, 0);
+    EXPECT_LE(measure::distance_interval(*run.distance).low, 0);
     EXPECT_LT(run.distance->flip, .05);
 }
 

@@ -487,9 +487,9 @@ TEST(PlanAudit, RoughSceneIsAuditedByTwoHalves) {
         const auto kept = audit_rough_room(quantity, .9, 24),
                    broken = audit_rough_room(quantity, 0, 24);
         EXPECT_GT(kept->audit().frame_count(), 5u);
-        EXPECT_EQ(kept->audit().failure_count(), 0u);
+        EXPECT_EQ(kept->audit().failures(), 0u);
         EXPECT_FALSE(kept->is_alarmed());
-        EXPECT_EQ(broken->audit().failure_count(), broken->audit().frame_count());
+        EXPECT_EQ(broken->audit().failures(), broken->audit().frame_count());
         EXPECT_TRUE(broken->is_alarmed());
     }
 }
@@ -498,7 +498,7 @@ TEST(PlanAudit, RoughSceneIsAuditedByTwoHalves) {
 /// are then certain.
 TEST(PlanAudit, NoiseOfTheSizeOfTheLimitNeitherAssuresNorAlarms) {
     const auto audit = audit_rough_room(study::ErrorQuantity::flip, .1, 24);
-    EXPECT_EQ(audit->audit().failure_count(), audit->audit().frame_count());
+    EXPECT_EQ(audit->audit().failures(), audit->audit().frame_count());
     EXPECT_EQ(audit->audit().assured_share(), 0);
     EXPECT_FALSE(audit->is_alarmed());
 }

@@ -49,8 +49,8 @@ SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene,
                                        int face) {
     SamePixelCounts result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror_of_hit_word(truth.hits[i]) != mirror) continue;
-        if (measure::second_mirror_of_hit_word(truth.hits[i]) != MirrorId{}) continue;
+        if (measure::first_mirror(truth.hits[i]) != mirror) continue;
+        if (measure::second_mirror(truth.hits[i]) != MirrorId{}) continue;
         if (!uniform.lookup.empty()) {
             const vec4& lookup = uniform.lookup[i];
             const int looked_into = static_cast<int>(lookup.w) / 8;
@@ -144,8 +144,7 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
                 // Compare only pixels in which both ray tracing and rasterisation show the mirror.
-                if (measure::first_mirror_of_hit_word(truth.hits[p]) != MirrorId::from_index(i))
-                    continue;
+                if (measure::first_mirror(truth.hits[p]) != MirrorId::from_index(i)) continue;
                 if (uniform.lookup[p].w == 0) continue;
                 ++pixels;
                 other += mixed.hdr.pixels[p] != uniform.hdr.pixels[p];
@@ -202,11 +201,11 @@ TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
     EXPECT_EQ(shown.scene_passes, black.scene_passes + 2) << "two captures less";
     std::size_t dark = 0, lit = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror_of_hit_word(truth.hits[i]) != MirrorId(1)) {
+        if (measure::first_mirror(truth.hits[i]) != MirrorId(1)) {
             EXPECT_EQ(shown.hdr.pixels[i], black.hdr.pixels[i]);
             continue;
         }
-        if (measure::second_mirror_of_hit_word(truth.hits[i]) == MirrorId{}) continue;
+        if (measure::second_mirror(truth.hits[i]) == MirrorId{}) continue;
         dark += black.hdr.pixels[i] == vec3(0);
         lit += shown.hdr.pixels[i] != vec3(0);
     }
@@ -230,7 +229,7 @@ TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
         const session::TechniqueResult alone = test::render_technique(scene, technique, size);
         std::size_t pixels = 0, off = 0;
         for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-            if (measure::first_mirror_of_hit_word(truth.hits[i]) != MirrorId(mirror)) continue;
+            if (measure::first_mirror(truth.hits[i]) != MirrorId(mirror)) continue;
             ++pixels;
             off += do_channels_differ(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
         }
@@ -273,7 +272,7 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
                                                                   1);
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        const MirrorId mirror = measure::first_mirror_of_hit_word(truth.hits[i]);
+        const MirrorId mirror = measure::first_mirror(truth.hits[i]);
         if (mirror.number() <= 100) continue; // compare only mirrors far from the removed ones
         ++pixels;
         other += do_channels_differ(part.hdr.pixels[i], alone.hdr.pixels[i]);

@@ -63,8 +63,7 @@ measure::Mask mask_pixels_beside_outlines(scene::Scene scene,
     const int width = painted.width;
     const auto differ = [&](int a, int b) {
         return painted.pixels[a] != painted.pixels[b] ||
-               measure::first_mirror_of_hit_word(hits[a]) !=
-                   measure::first_mirror_of_hit_word(hits[b]);
+               measure::first_mirror(hits[a]) != measure::first_mirror(hits[b]);
     };
     measure::Mask beside(painted.pixels.size(), 0);
     for (int i = 0; i < int(beside.size()); ++i) {
@@ -83,8 +82,8 @@ double share_of_masked_pixels_off(const measure::Picture& a, const measure::Pict
     std::size_t off = 0;
     for (std::size_t i = 0; i < mask.size(); ++i)
         off += mask[i] && !(test::max_channel_difference(a.pixels[i], b.pixels[i]) <=
-                            float(measure::kMaxInvisibleChannelDifference));
-    return double(off) / double(measure::count_mask_pixels(mask));
+                            float(measure::kMaxInvisibleDifference));
+    return double(off) / double(measure::count_pixels(mask));
 }
 
 struct PlanarComparison {
@@ -95,15 +94,15 @@ struct PlanarComparison {
 PlanarComparison compare_first_order_pixels(const session::TechniqueResult& planar,
                                             const session::TechniqueResult& truth,
                                             const measure::Mask& left_out) {
-    measure::Mask mask = measure::mask_first_order_pixels(truth.hits);
-    const double whole = double(measure::count_mask_pixels(mask));
+    measure::Mask mask = measure::mask_first_order(truth.hits);
+    const double whole = double(measure::count_pixels(mask));
     EXPECT_GT(whole, 2000);
     for (std::size_t i = 0; i < mask.size(); ++i)
         if (left_out[i]) mask[i] = 0;
     const std::vector<float> no_flip(truth.hdr.pixels.size(), 0.0f);
     const measure::Difference found = measure::difference(planar.hdr, truth.hdr, mask, no_flip);
     return {share_of_masked_pixels_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
-            1 - double(measure::count_mask_pixels(mask)) / whole};
+            1 - double(measure::count_pixels(mask)) / whole};
 }
 
 void print_planar_comparison(const std::string& what, const PlanarComparison& found) {
@@ -207,9 +206,8 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
                                        truth = test::render_technique(
                                            scene, "raytrace:shadow=none,depth=" + number,
                                            kSmallPlanarPictureSize);
-        EXPECT_LE(
-            share_of_masked_pixels_off(planar.hdr, truth.hdr, measure::mask_all_pixels(truth.hits)),
-            .01)
+        EXPECT_LE(share_of_masked_pixels_off(planar.hdr, truth.hdr, measure::mask_all(truth.hits)),
+                  .01)
             << bounces;
         int deepest = -1;
         for (const vec3& pixel : planar.hdr.pixels) {
@@ -286,12 +284,12 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
                                        lit = test::render_without_ambient(
                                            scene, "raytrace:shadow=none", size),
                                        planar = test::render_without_ambient(scene, "planar", size);
-        measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
+        measure::Mask mask = measure::mask_mirrors(truth.hits);
         const measure::Mask shadows = test::mask_shadow_edges(lit.hdr, truth.hdr),
                             outlines = mask_pixels_beside_outlines(scene, truth.hits, size);
         for (std::size_t i = 0; i < mask.size(); ++i)
             if (shadows[i] || outlines[i]) mask[i] = 0;
-        EXPECT_GT(measure::count_mask_pixels(mask), 1500u);
+        EXPECT_GT(measure::count_pixels(mask), 1500u);
         EXPECT_LE(share_of_masked_pixels_off(planar.hdr, truth.hdr, mask), .003)
             << "eye at z " << camera.eye.z;
     }
@@ -332,7 +330,7 @@ TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     const measure::Mask panel = measure::mask_one_mirror(truth.hits, MirrorId(3));
     for (std::size_t i = 0; i < ball.size(); ++i)
         if (!panel[i]) ball[i] = 0;
-    EXPECT_GT(measure::count_mask_pixels(ball), 300u);
+    EXPECT_GT(measure::count_pixels(ball), 300u);
     const double black = test::rmse_of_pictures(
         test::render_technique(hall, "planar:bounces=0", size).hdr, truth.hdr, ball);
     for (const std::string rest : {"secant", "hybrid", "raytrace"}) {
@@ -364,10 +362,10 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
                                                                   kSmallPlanarPictureSize),
                                    planar = test::render_technique(scene, "planar:shadow=none",
                                                                    kSmallPlanarPictureSize);
-    const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
+    const measure::Mask mask = measure::mask_mirrors(truth.hits);
     const auto is_red = [](const vec3& pixel) { return pixel.x > .5f; };
     EXPECT_GT(std::ranges::count_if(truth.hdr.pixels, is_red), 400) << "the grain and its image";
-    EXPECT_GT(measure::count_mask_pixels(mask), 2000u);
+    EXPECT_GT(measure::count_pixels(mask), 2000u);
     EXPECT_LE(share_of_masked_pixels_off(planar.hdr, truth.hdr, mask), .002);
 }
 

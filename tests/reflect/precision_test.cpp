@@ -133,7 +133,7 @@ TEST(Precision, TextbookSphereTestFailsFarAway) {
                                        room, "raytrace:sphere=exact,without=stable_sphere",
                                        {64, 64});
     const double changed = test::rmse_of_pictures(with.hdr, without.hdr,
-                                                  measure::mask_mirror_pixels(with.hits));
+                                                  measure::mask_mirrors(with.hits));
     std::cout << "[ MEASURED ] rmse without the stable sphere: " << changed << "\n";
     EXPECT_LT(stable, 1e-4);
     EXPECT_GT(changed, 100 * stable);

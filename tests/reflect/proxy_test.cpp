@@ -21,13 +21,12 @@ constexpr int kSearchHitState = 0,
 double largest_snapped_ray_difference() { return test::computes_like_cpp() ? .1 : .4; }
 double largest_common_ray_difference() { return test::computes_like_cpp() ? .01 : .06; }
 
-measure::LookupErrorSummary
-summarise_proxy_errors(const std::string& what,
-                       const std::vector<measure::LookupDirectionError>& pixels, double& worst) {
+measure::LookupSummary summarise_proxy_errors(const std::string& what,
+                                              const std::vector<measure::LookupError>& pixels,
+                                              double& worst) {
     worst = 0;
-    for (const measure::LookupDirectionError& pixel : pixels)
-        worst = std::max(worst, pixel.angle_degrees);
-    const measure::LookupErrorSummary error = measure::summarise_lookup_errors(pixels);
+    for (const measure::LookupError& pixel : pixels) worst = std::max(worst, pixel.angle_degrees);
+    const measure::LookupSummary error = measure::summarise_lookups(pixels);
     std::cout << "[ MEASURED ] " << what << ": mean angle " << error.mean_degrees << ", p99 "
               << error.p99_degrees << ", worst " << worst << " degrees\n";
     return error;
@@ -42,9 +41,8 @@ TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
         EXPECT_LT(summarise_proxy_errors("box, face " + face, pixels, worst).p99_degrees,
                   largest_common_ray_difference());
         EXPECT_LT(worst, largest_snapped_ray_difference());
-        EXPECT_EQ(
-            std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
-            std::ssize(pixels));
+        EXPECT_EQ(std::ranges::count(pixels, kSearchHitState, &measure::LookupError::state),
+                  std::ssize(pixels));
     }
 }
 
@@ -63,7 +61,7 @@ TEST(Proxy, SphereOfARoundRoomIsExact) {
     double worst;
     EXPECT_LT(summarise_proxy_errors("sphere", pixels, worst).p99_degrees,
               largest_snapped_ray_difference()); // the round room consists of 4^7 flat triangles
-    EXPECT_EQ(std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
+    EXPECT_EQ(std::ranges::count(pixels, kSearchHitState, &measure::LookupError::state),
               std::ssize(pixels));
 }
 
@@ -76,11 +74,11 @@ TEST(Proxy, RaysBesideAFloorHitTheFloorOrMiss) {
     scene.cameras.push_back({.eye = {0, 2.5, -5}, .target = {0, 2, 0}});
     const auto pixels = test::measure_lookup_directions(scene, "proxy:face=64", kProxyPictureSize);
     double worst;
-    const measure::LookupErrorSummary error = summarise_proxy_errors("floor", pixels, worst);
+    const measure::LookupSummary error = summarise_proxy_errors("floor", pixels, worst);
     EXPECT_LT(error.mean_degrees, .1);
     EXPECT_LT(error.wrong_object, .02);
-    const double hits = static_cast<double>(std::ranges::count(
-                            pixels, kSearchHitState, &measure::LookupDirectionError::state)) /
+    const double hits = static_cast<double>(std::ranges::count(pixels, kSearchHitState,
+                                                               &measure::LookupError::state)) /
                         static_cast<double>(pixels.size());
     EXPECT_GT(hits, .25);
     EXPECT_LT(hits, .75);
@@ -102,8 +100,7 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
                 0u);
             ASSERT_GT(pixels.size(), 1000u);
             // unorm8 cannot store infinity, so the number of misses is not checked for that format.
-            const auto misses = std::ranges::count(pixels, kMiss,
-                                                   &measure::LookupDirectionError::state);
+            const auto misses = std::ranges::count(pixels, kMiss, &measure::LookupError::state);
             EXPECT_EQ(misses, distance == "r32f" ? std::ssize(pixels) : misses) << shape;
             double worst;
             EXPECT_LT(summarise_proxy_errors("nothing, " + shape + ", " + distance, pixels, worst)

@@ -233,12 +233,11 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
             stress::LetterRoom().make_letter_room_scene(), "pyramid:face=" + std::to_string(face),
             {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
-        EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookupDirectionError::state),
-                  std::ssize(pixels))
+        EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookupError::state), std::ssize(pixels))
             << "face " << face;
-        const measure::LookupErrorSummary error = measure::summarise_lookup_errors(pixels);
+        const measure::LookupSummary error = measure::summarise_lookups(pixels);
         double worst = 0;
-        for (const measure::LookupDirectionError& pixel : pixels)
+        for (const measure::LookupError& pixel : pixels)
             worst = std::max(worst, pixel.angle_degrees);
         std::cout << "[ MEASURED ] face " << face << ": mean angle " << error.mean_degrees
                   << ", worst " << worst << " degrees\n";
@@ -255,7 +254,7 @@ TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
         scene::make_cornell(), "pyramid:face=256,continue=0", test::kSearchTestPictureSize);
     std::array<std::size_t, 3> count{}, wrong{};
     double hit_angle = 0, miss_angle = 0;
-    for (const measure::LookupDirectionError& pixel : pixels) {
+    for (const measure::LookupError& pixel : pixels) {
         ++count[static_cast<std::size_t>(pixel.state)];
         wrong[static_cast<std::size_t>(pixel.state)] += pixel.wrong_object;
         if (pixel.state == 0) hit_angle += pixel.angle_degrees;

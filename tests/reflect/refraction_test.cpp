@@ -281,9 +281,9 @@ TEST(Refraction, ScreenShowsEachPixelThroughAPaneThatDoesNotBend) {
                                          other_hits = render(aside, "raytrace:depth=1").hits;
         int compared = 0, balls = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            if (measure::first_mirror_of_hit_word(hits[i]) != pane) continue;
+            if (measure::first_mirror(hits[i]) != pane) continue;
             // The ball is in the picture, and itself shows the pane.
-            if (measure::first_mirror_of_hit_word(other_hits[i]) == ball) {
+            if (measure::first_mirror(other_hits[i]) == ball) {
                 ++balls;
                 EXPECT_LT(test::max_channel_difference(through.pixels[i], wanted.pixels[i]), .1f)
                     << i;
@@ -475,7 +475,7 @@ TEST(Refraction, ScreenWorksInPlans) {
         test::render_technique(scene, "raytrace:depth=2", size).hits;
     int compared = 0, off = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const MirrorId first = measure::first_mirror_of_hit_word(hits[i]);
+        const MirrorId first = measure::first_mirror(hits[i]);
         if (!first || first == MirrorId::from_index(4)) continue;
         ++compared;
         off += test::max_channel_difference(searched.pixels[i], traced.pixels[i]) > .02f;
@@ -489,8 +489,7 @@ double flip_on_mirror(const session::TechniqueResult& found, const session::Tech
                       std::size_t mirror) {
     measure::Mask shown(traced.hits.size(), 0);
     for (std::size_t i = 0; i < shown.size(); ++i)
-        if (measure::first_mirror_of_hit_word(traced.hits[i]) == MirrorId::from_index(mirror))
-            shown[i] = 255;
+        if (measure::first_mirror(traced.hits[i]) == MirrorId::from_index(mirror)) shown[i] = 255;
     return measure::flip_mean(measure::flip(found.display, traced.display), shown);
 }
 
@@ -578,7 +577,7 @@ TEST(Refraction, TracerTakesGlassOver) {
         test::render_technique(scene, "raytrace:depth=1", size).hits;
     int off = 0, glass = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const MirrorId mirror = measure::first_mirror_of_hit_word(hits[i]);
+        const MirrorId mirror = measure::first_mirror(hits[i]);
         if (!mirror || mirror == MirrorId::from_index(4)) continue; // the mirror ball is no glass
         ++glass;
         off += test::max_channel_difference(traced.pixels[i], hybrid.pixels[i]) > .02f;
@@ -595,7 +594,7 @@ TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
         const measure::Picture found = test::render_technique(scene, technique, size, 4).hdr;
         double sum = 0;
         for (std::size_t i = 0; i < traced.hits.size(); ++i)
-            if (measure::first_mirror_of_hit_word(traced.hits[i]))
+            if (measure::first_mirror(traced.hits[i]))
                 sum += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]);
         return sum;
     };
@@ -675,7 +674,7 @@ TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
     const uvec2 size{96, 96};
     const session::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
     const measure::Mask shown = measure::mask_mirror_in_mirror(traced.hits);
-    EXPECT_GT(measure::count_mask_pixels(shown), 200u);
+    EXPECT_GT(measure::count_pixels(shown), 200u);
     const auto error = [&](const scene::Scene& of, const std::string& technique) {
         return test::rmse_of_pictures(test::render_technique(of, technique, size, 5).hdr,
                                       traced.hdr, shown);

@@ -278,7 +278,7 @@ TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
     const std::vector<float> map = measure::flip(
         measure::to_unrounded_display(centre, request.base.exposure),
         measure::to_unrounded_display(area.hdr, request.base.exposure));
-    const measure::Mask mirrors = measure::mask_mirror_pixels(
+    const measure::Mask mirrors = measure::mask_mirrors(
         test::render_technique(request.base.scene, "raytrace:depth=1", kReportPictureSize).hits);
     EXPECT_GT(measure::flip_mean(map, mirrors), .001);
     EXPECT_NEAR(document["reference"]["area_flip"], measure::flip_mean(map, mirrors), 1e-7);

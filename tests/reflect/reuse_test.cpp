@@ -66,7 +66,7 @@ SquaredChangeSum sum_squared_change(const measure::Picture& a, const measure::Pi
 /// without the pixel that changes most. The total is compared with this pixel.
 TEST(Naive, EachBounceChangesThePictureLess) {
     const scene::Scene scene = scene::make_cornell();
-    const measure::Mask mirrors = measure::mask_mirror_pixels(
+    const measure::Mask mirrors = measure::mask_mirrors(
         test::render_technique(scene, "raytrace", kReusePictureSize).hits);
     measure::Picture last = test::render_technique(scene, "naive:bounces=0", kReusePictureSize).hdr;
     std::vector<SquaredChangeSum> steps;

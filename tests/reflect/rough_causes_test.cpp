@@ -29,12 +29,12 @@ public:
         constexpr int kFramesPerHalf = 8;
         measure::PictureMean means[2];
         for (int i = 0; i < 2 * kFramesPerHalf; ++i)
-            means[i % 2].add_picture(
+            means[i % 2].add(
                 render(std::string(study::kRoughReference) + ",seed=" + std::to_string(i + 1), 0)
                     .hdr);
-        halves_ = measure::make_noisy_reference_halves(means[0].mean(), means[1].mean(), exposure);
+        halves_ = measure::make_halves(means[0].mean(), means[1].mean(), exposure);
         measure::PictureMean both;
-        for (const measure::PictureMean& mean : means) both.add_picture(mean.mean());
+        for (const measure::PictureMean& mean : means) both.add(mean.mean());
         truth_ = both.mean();
         hits_ = render("raytrace:depth=1", 0).hits;
     }
@@ -47,7 +47,7 @@ public:
             study::ErrorCauseFinder(session_, request, truth_, hits_, {}, &halves_).find(technique);
         std::cout << "[ MEASURED ] " << technique << ": " << found.squared_error;
         double sum = 0;
-        for (const report::ErrorCauseShare& cause : found.list) {
+        for (const report::CauseShare& cause : found.list) {
             sum += cause.squared_error;
             std::cout << ", " << cause.name << " " << cause.squared_error;
         }
@@ -61,8 +61,8 @@ public:
     double unbiased_error(const std::string& technique, int warmup = kWarmup) {
         const measure::Picture found = measure::apply_exposure(render(technique, warmup).hdr,
                                                                base_.exposure);
-        return measure::estimate_noise_free_error_by_halves(
-                   found, halves_, measure::mask_mirror_pixels(hits_), halves_.floor_map)
+        return measure::estimate_noise_free(found, halves_, measure::mask_mirrors(hits_),
+                                            halves_.floor_map)
             .squared_error;
     }
 
@@ -82,7 +82,7 @@ private:
 
     session::Request base_;
     session::Session session_;
-    measure::NoisyReferenceHalves halves_;
+    measure::NoisyHalves halves_;
     measure::Picture truth_;
     std::vector<std::uint32_t> hits_;
 };
@@ -91,14 +91,13 @@ private:
 constexpr double kMaxNoiseOfSum = 3e-4;
 
 double part_of(const report::Causes& causes, const std::string& name) {
-    const auto found = std::ranges::find(causes.list, name, &report::ErrorCauseShare::name);
+    const auto found = std::ranges::find(causes.list, name, &report::CauseShare::name);
     EXPECT_NE(found, causes.list.end()) << name;
     return found == causes.list.end() ? NAN : found->squared_error;
 }
 
 bool has_cause(const report::Causes& causes, const std::string& name) {
-    return std::ranges::find(causes.list, name, &report::ErrorCauseShare::name) !=
-           causes.list.end();
+    return std::ranges::find(causes.list, name, &report::CauseShare::name) != causes.list.end();
 }
 
 scene::Scene make_rough_room(float roughness, int mirrors = 1) {

@@ -353,8 +353,8 @@ TEST(RoughSurfaces, HitsTellRoughFromSmoothSurfaces) {
             const std::vector<std::uint32_t> hits =
                 test::render_technique(scene, world, kFloorPictureSize).hits;
             EXPECT_EQ(hits.back(), code << 16) << world << ' ' << roughness;
-            const measure::Mask rough = measure::mask_rough_surfaces(hits),
-                                smooth = measure::mask_smooth_dielectrics(hits);
+            const measure::Mask rough = measure::mask_rough(hits),
+                                smooth = measure::mask_dielectrics(hits);
             EXPECT_EQ(rough.back() != 0, code == shared::kHitRoughNonMirror);
             EXPECT_EQ(smooth.back() != 0, code == shared::kHitSmoothDielectric);
             EXPECT_EQ(rough.front(), 0) << "the sky";

@@ -135,11 +135,11 @@ TEST(RoughViews, WhiteStaysWhiteUpToTheRim) {
     for (const float roughness : {.1f, .3f, .6f})
         for (const char* technique : {"planar", "planar:rough=mips", "planar:law=none"}) {
             const scene::Scene scene = make_furnace_with_rough_quad(roughness);
-            const measure::Mask mask = measure::mask_mirror_pixels(
+            const measure::Mask mask = measure::mask_mirrors(
                 test::render_technique(scene, "raytrace", kRoughViewSize).hits);
             const measure::Picture picture =
                 test::render_technique(scene, technique, kRoughViewSize).hdr;
-            ASSERT_GT(measure::count_mask_pixels(mask), 300u);
+            ASSERT_GT(measure::count_pixels(mask), 300u);
             std::vector<int> shown;
             for (int i = 0; i < int(mask.size()); ++i)
                 if (mask[i]) shown.push_back(i);
@@ -194,10 +194,10 @@ TEST(RoughViews, BlurIsNearToRayTracing) {
         const scene::Scene scene = make_glowing_hall(first, second);
         const session::TechniqueResult truth = test::render_technique(
             scene, "raytrace:rays=256,depth=3", kRoughViewSize);
-        const measure::Mask all = measure::mask_mirror_pixels(truth.hits),
+        const measure::Mask all = measure::mask_mirrors(truth.hits),
                             inner = measure::mask_mirror_in_mirror(truth.hits);
-        EXPECT_GT(measure::count_mask_pixels(all), 1000u);
-        EXPECT_GT(measure::count_mask_pixels(inner), 200u);
+        EXPECT_GT(measure::count_pixels(all), 1000u);
+        EXPECT_GT(measure::count_pixels(inner), 200u);
         const measure::Picture
             sharp = test::render_technique(scene, "planar:rough=none", kRoughViewSize).hdr,
             blurred = test::render_technique(scene, "planar", kRoughViewSize).hdr;

@@ -79,7 +79,7 @@ double share_off(const scene::Scene& scene, const char* technique) {
     const measure::Picture found = test::render_technique(scene, technique, size, 2).hdr;
     int off = 0, mirrors = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(traced.hits[i])) continue;
+        if (!measure::first_mirror(traced.hits[i])) continue;
         ++mirrors;
         off += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]) > .1f;
     }
@@ -173,7 +173,7 @@ TEST(SeeThrough, WhatLiesInGlassIsSeenInEveryCapture) {
             int black = 0, pixels = 0;
             dvec3 wanted(0), seen(0); // sums over the middle, where the inner ball is
             for (std::size_t i = 0; i < traced.hits.size(); ++i) {
-                if (!measure::first_mirror_of_hit_word(traced.hits[i])) continue;
+                if (!measure::first_mirror(traced.hits[i])) continue;
                 ++pixels;
                 black += test::max_channel_difference(found.pixels[i], vec3(0)) < .03f;
                 const dvec2 place(double(i % size.x) - 31.5, double(i / size.x) - 31.5);

@@ -158,7 +158,7 @@ TEST(SoftShadow, MirrorsShowSoftShadows) {
         scene.light_samples = 64;
         const session::TechniqueResult truth = test::render_without_ambient(scene, "raytrace",
                                                                             size);
-        const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
+        const measure::Mask mirrors = measure::mask_mirrors(truth.hits);
         const double of_hard = test::rmse_of_pictures(hard, truth.hdr, mirrors),
                      of_soft = test::rmse_of_pictures(soft, truth.hdr, mirrors);
         std::cout << "[ MEASURED ] " << row << ": rmse over mirrors with hard shadows " << of_hard

@@ -40,7 +40,7 @@ struct HitCounts {
 
 HitCounts count_hits_between_slats(double nearer, const std::string& technique, double degrees) {
     HitCounts found;
-    for (const measure::LookupDirectionError& pixel : test::measure_lookup_directions(
+    for (const measure::LookupError& pixel : test::measure_lookup_directions(
              make_scene_of_boards_before_wall(nearer), technique, kTolerancePictureSize)) {
         ++found.pixels;
         if (pixel.state != 0) continue;

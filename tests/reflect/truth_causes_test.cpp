@@ -32,11 +32,10 @@ measure::Comparison compare_with_truth_causes(scene::Scene scene, int edge) {
 
 std::vector<std::pair<std::string, CauseNumbers>>
 list_truth_causes(const measure::Comparison& comparison) {
-    const measure::MetricValue value = measure::find_row_metric_of_study(comparison.rows.front(),
-                                                                         "truth_causes");
+    const measure::MetricValue value = measure::study_metric(comparison.rows.front(),
+                                                             "truth_causes");
     std::vector<std::pair<std::string, CauseNumbers>> causes;
-    for (const measure::NamedMetricValueParts& parts :
-         std::get<std::vector<measure::NamedMetricValueParts>>(value)) {
+    for (const measure::MetricParts& parts : std::get<std::vector<measure::MetricParts>>(value)) {
         causes.emplace_back(parts.name, CauseNumbers{});
         for (const auto& [name, number] : parts.values)
             causes.back().second[std::string(name)] = std::get<double>(number);

@@ -179,7 +179,7 @@ TEST(Work, LookupsFollowFromTheMasks) {
     const scene::Scene scene = scene::load("flat"); // mirrors do not overlap in its view
     const session::TechniqueResult traced = test::render_technique(scene, "raytrace",
                                                                    kWorkPictureSize);
-    const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);
+    const measure::Mask mask = measure::mask_mirrors(traced.hits);
     const auto mirror_pixels = static_cast<double>(
         std::ranges::count_if(mask, [](auto in) { return in != 0; }));
     ASSERT_GT(mirror_pixels, 100);

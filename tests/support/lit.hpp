@@ -69,7 +69,7 @@ inline double share_of_off_pixels(const measure::Picture& a, const measure::Pict
     std::size_t off = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
         off += left_out[i] == 0 && !(max_channel_difference(a.pixels[i], b.pixels[i]) <=
-                                     float(measure::kMaxInvisibleChannelDifference));
+                                     float(measure::kMaxInvisibleDifference));
     return double(off) / double(a.pixels.size());
 }
 

@@ -65,7 +65,7 @@ struct PixelComparison {
 inline bool do_pixel_channels_differ(const vec3& a, const vec3& b) {
     // A channel that is NaN counts as off, because the comparison is then false.
     for (int i = 0; i < 3; ++i)
-        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kMaxInvisibleChannelDifference)))
+        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kMaxInvisibleDifference)))
             return true;
     return false;
 }
@@ -84,7 +84,7 @@ PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
                                           const session::TechniqueResult& truth, Counts&& counts) {
     PixelComparison result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
         ++result.pixels;
         result.off += do_pixel_channels_differ(picture.pixels[i], truth.hdr.pixels[i]);

@@ -62,7 +62,7 @@ inline std::vector<SearchTestView> list_unseen_search_test_views() {
 /// and errors of the looked-up directions.
 struct SearchErrors {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
-    measure::LookupErrorSummary lookup;
+    measure::LookupSummary lookup;
     double traced_fraction = 0; ///< share of mirror pixels that are traced (`hybrid`)
 };
 
@@ -90,11 +90,10 @@ inline SearchErrors measure_search_errors(const scene::Scene& scene, const Searc
     const session::TechniqueResult part = std::move(
         render_last_frame(asked, kConvergedFrames).front());
     const SearchErrors error{
-        rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
-        rmse_of_pictures(part.hdr, truth.part.hdr,
-                         measure::mask_first_order_pixels(truth.part.hits)),
+        rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirrors(truth.part.hits)),
+        rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_first_order(truth.part.hits)),
         rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
-        measure::summarise_lookup_errors(truth.oracle.judge_lookups(part.lookup)),
+        measure::summarise_lookups(truth.oracle.judge_lookups(part.lookup)),
         part.traced_fraction.value_or(0)};
     std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
               << ", first order " << error.first_order << ", mirror in mirror "
@@ -148,7 +147,7 @@ compare_mirror_pictures(const scene::Scene& scene, const SearchTestView& look,
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         seen.push_back(
-            measure::difference(parts[i].hdr, truth.hdr, measure::mask_mirror_pixels(truth.hits),
+            measure::difference(parts[i].hdr, truth.hdr, measure::mask_mirrors(truth.hits),
                                 measure::flip(measure::to_unrounded_display(parts[i].hdr),
                                               measure::to_unrounded_display(truth.hdr))));
         std::cout << "[ MEASURED ] " << look.camera.name << ", " << parts[i].label << ": FLIP "
@@ -160,7 +159,7 @@ compare_mirror_pictures(const scene::Scene& scene, const SearchTestView& look,
 
 /// Returns the error of the looked-up direction of each first-order pixel, seen by the scene's
 /// first camera.
-inline std::vector<measure::LookupDirectionError>
+inline std::vector<measure::LookupError>
 measure_lookup_directions(const scene::Scene& scene, const std::string& technique, uvec2 size) {
     session::Request asked = make_test_request(scene, {technique}, size);
     asked.with_lookup = true;

@@ -173,7 +173,7 @@ TEST(Audit, ErrorRatesHoldForDependentFrames) {
         for (int n = 1; n <= 1000; ++n) {
             // After a failure, frames fail with probability 5 %, and otherwise with a smaller
             // probability. The failing share therefore never exceeds the limit.
-            calm.count_frame(uniform(random) >= (calm.failure_count() % 2 == 1 ? .05 : .03));
+            calm.count_frame(uniform(random) >= (calm.failures() % 2 == 1 ? .05 : .03));
             const double failing = (n / 50) % 2 == 1 ? .1 : .0; // failing shares of .1 and 0 in
                                                                 // turn, with the mean .05
             sum += failing;
@@ -235,7 +235,7 @@ TEST(Audit, AlarmStaysAndLongRunsStayFinite) {
     EXPECT_TRUE(std::isfinite(audit.alarm_evidence()));
     EXPECT_EQ(audit.assurance() < 1, true);
     EXPECT_EQ(audit.frame_count(), 10'002u);
-    EXPECT_EQ(audit.failure_count(), 5'002u);
+    EXPECT_EQ(audit.failures(), 5'002u);
 }
 
 TEST(Audit, SharesOutOfRangeAreRefused) {
@@ -256,7 +256,7 @@ std::vector<int> list_audited_frames(AuditSchedule& schedule, int frames, double
                                      double audit_ms) {
     std::vector<int> audited;
     for (int k = 0; k < frames; ++k)
-        if (schedule.count_frame(frame_ms)) audited.push_back(k), schedule.add_audit_time(audit_ms);
+        if (schedule.count_frame(frame_ms)) audited.push_back(k), schedule.add_audit(audit_ms);
     return audited;
 }
 
@@ -281,7 +281,7 @@ TEST(AuditSchedule, DrawsOneFrameOfEachBlock) {
 TEST(AuditSchedule, KeepsTheLimitOfTime) {
     for (const double audit_ms : {1., 10., 100., 1000.}) {
         AuditSchedule schedule({.every = 60});
-        schedule.expect_audit_time(audit_ms);
+        schedule.expect_audit(audit_ms);
         list_audited_frames(schedule, 20'000, 2, audit_ms);
         EXPECT_LE(schedule.audits_ms(), 1.01 * .05 * schedule.frames_ms() + audit_ms) << audit_ms;
         EXPECT_GE(schedule.audits_ms(), audit_ms); // audits become rarer but do not stop
@@ -290,7 +290,7 @@ TEST(AuditSchedule, KeepsTheLimitOfTime) {
     }
     // If frames become slower, audits take a smaller share of the time and may be more frequent.
     AuditSchedule schedule({.every = 10});
-    schedule.expect_audit_time(10);
+    schedule.expect_audit(10);
     list_audited_frames(schedule, 1000, 1, 10);
     EXPECT_EQ(schedule.block_length(), 200u);
     list_audited_frames(schedule, 1000, 20, 10);
@@ -301,7 +301,7 @@ TEST(AuditSchedule, CountsWhatTheNextFrameTakesLonger) {
     AuditSchedule schedule({.every = 1, .most_time = 1});
     for (int k = 0; k < 7; ++k) EXPECT_FALSE(schedule.count_frame(2));
     EXPECT_TRUE(schedule.count_frame(2));
-    schedule.add_audit_time(4);
+    schedule.add_audit(4);
     schedule.count_frame(5); // 3 ms longer than the median frame
     EXPECT_EQ(schedule.audits_ms(), 7);
     EXPECT_EQ(schedule.frames_ms(), 18);
@@ -317,15 +317,13 @@ TEST(PlanLadder, StepsToTheSurerSideAtMostTwiceASecond) {
     EXPECT_EQ(ladder.place(), 99u);
     std::vector<double> steps;
     for (int i = 0; i < 1000; ++i)
-        if (const double seconds = .01 * i; ladder.step_to_plan_with_less_error(seconds))
-            steps.push_back(seconds);
+        if (const double seconds = .01 * i; ladder.step(seconds)) steps.push_back(seconds);
     EXPECT_EQ(ladder.place(), 99 - steps.size());
     ASSERT_GE(steps.size(), 19u);
     for (std::size_t i = 2; i < steps.size(); ++i) EXPECT_GE(steps[i] - steps[i - 2], 1 - 1e-9);
     PlanLadder two(2);
-    EXPECT_TRUE(two.step_to_plan_with_less_error(0));
-    EXPECT_FALSE(
-        two.step_to_plan_with_less_error(10)); // the plan is already the one with the least error
+    EXPECT_TRUE(two.step(0));
+    EXPECT_FALSE(two.step(10)); // the plan is already the one with the least error
     EXPECT_EQ(two.place(), 0u);
 }
 

@@ -16,7 +16,7 @@ namespace {
 using namespace catoptric::report;
 using catoptric::Error;
 using catoptric::Failure;
-using catoptric::measure::summarise_samples;
+using catoptric::measure::summarise;
 using catoptric::report::sample::make_usual_comparison;
 using testing::HasSubstr;
 
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 catoptric::measure::SampleSummary make_six_timed_rounds(double ms) {
     std::vector<std::vector<double>> rounds;
     for (const double factor : {.98, .99, 1.0, 1.0, 1.01, 1.02}) rounds.push_back({ms * factor});
-    return summarise_samples(rounds);
+    return summarise(rounds);
 }
 
 /// Returns a comparison of two rows of 10 ms and 20 ms. The second row has passes of 5 ms and 15
@@ -128,7 +128,7 @@ TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
     EXPECT_EQ(list_quantities_with_verdict(judge(noisy, before), BaselineVerdict::worse),
               (Names{before.rows[1].label + ": ms"}));
     Comparison short_run = slow;
-    short_run.rows[0].gpu_ms = summarise_samples(std::vector<std::vector<double>>{{99}});
+    short_run.rows[0].gpu_ms = summarise(std::vector<std::vector<double>>{{99}});
     EXPECT_EQ(list_quantities_with_verdict(judge(short_run, before), BaselineVerdict::unknown),
               (Names{before.rows[0].label + ": ms"}));
 }
@@ -165,7 +165,7 @@ TEST(Baseline, MoreCountedWorkIsWorse) {
     for (Row& row : now.rows) {
         catoptric::WorkCounts counts{};
         counts[catoptric::WorkKind::nodes] = 120;
-        catoptric::measure::set_row_work(row, {{"view", counts}});
+        catoptric::measure::set_work(row, {{"view", counts}});
     }
     now.device.name = "another", now.studies.emplace_back("work");
     const auto judge_nodes = [&](double nodes) {

@@ -13,11 +13,11 @@ namespace {
 
 using namespace catoptric;
 using measure::BenchmarkChange;
-using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
-using Outcome = BenchmarkChange::BenchmarkChangeOutcome;
+using measure::CostKind;
+using Outcome = BenchmarkChange::Outcome;
 using nlohmann::json;
 
 /// Builds a benchmark with one round for each value of `ms`. The value is both the wall-clock time
@@ -49,7 +49,7 @@ std::vector<double> make_benchmark_times(double factor) {
 
 BenchmarkChange compare_runs_of_one_benchmark(const BenchmarkRun& before,
                                               const BenchmarkRun& after) {
-    return measure::compare_benchmark_runs(before, after).list.at(0);
+    return measure::compare_runs(before, after).list.at(0);
 }
 
 TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
@@ -92,14 +92,14 @@ TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
     for (BenchmarkRound& round : more.rounds) round.cycles = 2e6;
     const BenchmarkChange found = compare_runs_of_one_benchmark(make_benchmark_run({counted}),
                                                                 make_benchmark_run({more}));
-    EXPECT_EQ(found.cost, BenchmarkCostKind::cycles);
+    EXPECT_EQ(found.cost, CostKind::cycles);
     EXPECT_EQ(found.ratio.median, 2);
     EXPECT_EQ(found.outcome(), Outcome::mixed) << "twice the cycles in half the time";
     more.rounds[3].cycles.reset();
     EXPECT_EQ(
         compare_runs_of_one_benchmark(make_benchmark_run({counted}), make_benchmark_run({more}))
             .cost,
-        BenchmarkCostKind::cpu_time);
+        CostKind::cpu_time);
 }
 
 TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
@@ -109,7 +109,7 @@ TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
     for (BenchmarkRound& round : more.rounds) round.instructions = 3e6;
     const BenchmarkChange found = compare_runs_of_one_benchmark(make_benchmark_run({counted}),
                                                                 make_benchmark_run({more}));
-    EXPECT_EQ(found.cost, BenchmarkCostKind::instructions);
+    EXPECT_EQ(found.cost, CostKind::instructions);
     EXPECT_EQ(found.ratio.median, 3);
 }
 
@@ -126,11 +126,11 @@ TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
     EXPECT_EQ(found.compared_counts, 3u);
     ASSERT_EQ(found.counts.size(), 2u);
     EXPECT_EQ(found.counts[0].name, "work/bytes");
-    EXPECT_FALSE(found.counts[0].is_work_growth());
+    EXPECT_FALSE(found.counts[0].has_grown());
     EXPECT_EQ(found.counts[1].name, "work/nodes");
     EXPECT_EQ(found.counts[1].after, 1011);
-    EXPECT_TRUE(found.counts[1].is_work_growth());
-    EXPECT_FALSE((measure::CountedWorkChange{"work/nodes", 1000, 1010}).is_work_growth());
+    EXPECT_TRUE(found.counts[1].has_grown());
+    EXPECT_FALSE((measure::WorkChange{"work/nodes", 1000, 1010}).has_grown());
 }
 
 TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
@@ -149,11 +149,11 @@ TEST(BenchmarkCompare, WallTimeIsComparedIfTheDeviceIsNoProcessor) {
     EXPECT_EQ(compare_runs_of_one_benchmark(
                   make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}), gpu)
                   .cost,
-              BenchmarkCostKind::real_time);
+              CostKind::real_time);
 }
 
 TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
-    const measure::BenchmarkChanges found = measure::compare_benchmark_runs(
+    const measure::BenchmarkChanges found = measure::compare_runs(
         make_benchmark_run({make_benchmark("gone", kSixBenchmarkTimes),
                             make_benchmark("both", kSixBenchmarkTimes)}),
         make_benchmark_run({make_benchmark("both", kSixBenchmarkTimes),
@@ -164,12 +164,11 @@ TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
 }
 
 TEST(BenchmarkJoin, JoinedRunsAppendRoundsAndDropUnmatchedBenchmarks) {
-    const BenchmarkRun both = measure::join_benchmark_runs(
+    const BenchmarkRun both = measure::join_runs(
         make_benchmark_run({make_benchmark("a", {1, 2}), make_benchmark("b", {5})}),
         make_benchmark_run({make_benchmark("a", {3})}));
     ASSERT_EQ(both.benchmarks.size(), 1U);
-    EXPECT_EQ(list_benchmark_cost_per_round(both.benchmarks[0], BenchmarkCostKind::real_time),
-              (std::vector{1.0, 2.0, 3.0}));
+    EXPECT_EQ(round_costs(both.benchmarks[0], CostKind::real_time), (std::vector{1.0, 2.0, 3.0}));
 }
 
 TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
@@ -214,8 +213,7 @@ TEST(BenchmarkFile, WrittenRunIsReadBackUnchanged) {
     EXPECT_EQ(read.device.name, "llvmpipe");
     EXPECT_EQ(read.noisy, true);
     ASSERT_EQ(read.benchmarks.size(), 2U);
-    EXPECT_EQ(list_benchmark_cost_per_round(read.benchmarks[0], BenchmarkCostKind::cpu_time),
-              kSixBenchmarkTimes);
+    EXPECT_EQ(round_costs(read.benchmarks[0], CostKind::cpu_time), kSixBenchmarkTimes);
     const BenchmarkRound& round = read.benchmarks[1].rounds.at(0);
     EXPECT_EQ(round.iterations, 3U);
     EXPECT_EQ(round.cycles, 7);
@@ -279,7 +277,7 @@ TEST(BenchmarkFile, ErrorsNamePlaceExpectedAndFound) {
 }
 
 TEST(BenchmarkChanges, ComparisonIsWrittenAsJson) {
-    const json document = json::parse(report::to_json(measure::compare_benchmark_runs(
+    const json document = json::parse(report::to_json(measure::compare_runs(
         make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes), make_benchmark("b", {1})}),
         make_benchmark_run(
             {make_benchmark("a", make_benchmark_times(2)), make_benchmark("c", {1})}))));

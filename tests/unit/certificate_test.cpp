@@ -20,33 +20,30 @@ TEST(Certificate, NumbersOfViewsAreThoseOfTheTables) {
     } known[] = {{.90, 0, 29}, {.95, 0, 59}, {.99, 0, 299},
                  {.90, 1, 46}, {.95, 1, 93}, {.99, 1, 473}};
     for (const auto& [share, failures, views] : known)
-        EXPECT_EQ(count_views_needed_for_certificate(share, .95, failures), views)
-            << share << " " << failures;
+        EXPECT_EQ(needed_views(share, .95, failures), views) << share << " " << failures;
 }
 
 TEST(Certificate, BoundIsTheShareAtWhichTheFailuresBecomeUnlikely) {
     // If no view fails, the lower bound of the passing share is the n-th root of 1 - confidence.
     for (const std::size_t views : {1, 6, 59, 1000})
-        EXPECT_NEAR(lower_bound_of_passing_view_share(0, views, .95),
+        EXPECT_NEAR(passing_share_bound(0, views, .95),
                     std::pow(.05, 1.0 / static_cast<double>(views)), 1e-12);
     // For two views with one failure, the bound p solves P(at most one failure) = 1 - p^2 = .05.
-    EXPECT_NEAR(lower_bound_of_passing_view_share(1, 2, .95), 1 - std::sqrt(.95), 1e-12);
+    EXPECT_NEAR(passing_share_bound(1, 2, .95), 1 - std::sqrt(.95), 1e-12);
     // For 2 failures in 30 views, the one-sided 95 % Clopper-Pearson bound of the failing share is
     // .19529.
-    EXPECT_NEAR(lower_bound_of_passing_view_share(2, 30, .95), 1 - .19529, 2e-4);
-    EXPECT_EQ(lower_bound_of_passing_view_share(0, 0, .95), 0);
-    EXPECT_EQ(lower_bound_of_passing_view_share(5, 5, .95), 0);
+    EXPECT_NEAR(passing_share_bound(2, 30, .95), 1 - .19529, 2e-4);
+    EXPECT_EQ(passing_share_bound(0, 0, .95), 0);
+    EXPECT_EQ(passing_share_bound(5, 5, .95), 0);
     // A larger number of failures never proves a larger share, and more views without failure never
     // prove a smaller share.
     for (std::size_t failures = 0; failures < 20; ++failures) {
-        EXPECT_GT(lower_bound_of_passing_view_share(failures, 50, .9),
-                  lower_bound_of_passing_view_share(failures + 1, 50, .9));
-        EXPECT_LT(lower_bound_of_passing_view_share(failures, 50, .9),
-                  lower_bound_of_passing_view_share(failures, 51, .9));
+        EXPECT_GT(passing_share_bound(failures, 50, .9), passing_share_bound(failures + 1, 50, .9));
+        EXPECT_LT(passing_share_bound(failures, 50, .9), passing_share_bound(failures, 51, .9));
     }
-    const double many = lower_bound_of_passing_view_share(500, 10'000,
-                                                          .95); // computed with logarithms, without
-                                                                // overflow
+    const double many = passing_share_bound(500, 10'000,
+                                            .95); // computed with logarithms, without
+                                                  // overflow
     EXPECT_GT(many, .945);
     EXPECT_LT(many, .95);
 }
@@ -61,7 +58,7 @@ TEST(Certificate, BoundCoversTheTrueShare) {
         for (int trial = 0; trial < kTrials; ++trial) {
             std::size_t failures = 0;
             for (int view = 0; view < 59; ++view) failures += keeps(random) ? 0 : 1;
-            wrong += lower_bound_of_passing_view_share(failures, 59, .95) > share ? 1 : 0;
+            wrong += passing_share_bound(failures, 59, .95) > share ? 1 : 0;
         }
         EXPECT_LE(wrong, .05 * kTrials + 3 * std::sqrt(kTrials * .05 * .95)) << share;
     }

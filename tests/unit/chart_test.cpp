@@ -68,11 +68,10 @@ TEST(Chart, ANoisyReferenceHasAFloorAndIntervalsOfRmse) {
     Comparison made = make_usual_comparison();
     made.noise = std::make_shared<catoptric::measure::ReferenceNoise>();
     made.noise->flip_floor = .03;
-    catoptric::measure::NoiseFreeErrorEstimate estimate;
+    catoptric::measure::NoiseFreeError estimate;
     estimate.squared_error = .0001;
     estimate.ci95 = {-.0001, .0004};
-    catoptric::measure::set_noise_of_row(made.rows[1],
-                                         {catoptric::measure::list_row_masks().size(), estimate});
+    catoptric::measure::set_noise(made.rows[1], {catoptric::measure::row_masks().size(), estimate});
     const json data = read_chart_data(make_html_rows_chart(made));
     EXPECT_EQ(data["floor"]["value"], .03);
     const json intervals = find_chart_column(data, "rmse over the mirrors")["intervals"];

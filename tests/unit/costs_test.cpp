@@ -28,10 +28,10 @@ constexpr WorkKind kFittedWorkKinds[] = {WorkKind::camera_rays, WorkKind::fragme
 
 /// Returns made-up rows of a device on which a ray costs 100 ns, a fragment 2 ns and a pass 50 us.
 /// The rows' times have random errors of at most the share `noise`.
-std::vector<measure::TimedWorkSample> draw_random_cost_samples(std::size_t count, double noise) {
+std::vector<measure::TimedWork> draw_random_cost_samples(std::size_t count, double noise) {
     std::mt19937_64 random(7);
     const auto draw = [&](double most) { return most * double(random() >> 11) * 0x1p-53; };
-    std::vector<measure::TimedWorkSample> samples;
+    std::vector<measure::TimedWork> samples;
     for (std::size_t i = 0; i < count; ++i) {
         const WorkCounts counts = make_work_counts(
             std::uint64_t(draw(1e6)), std::uint64_t(draw(1e7)), 1 + std::uint64_t(draw(30)));
@@ -45,65 +45,66 @@ std::vector<measure::TimedWorkSample> draw_random_cost_samples(std::size_t count
 }
 
 double unit_cost_of_kind(const measure::DeviceCosts& costs, WorkKind kind) {
-    for (const measure::WorkUnitCost& unit : costs.units)
+    for (const measure::UnitCost& unit : costs.units)
         if (unit.kind == kind) return unit.ns;
     return 0;
 }
 
 TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
-    const measure::DeviceCosts costs = measure::fit_unit_costs("d", draw_random_cost_samples(40, 0),
-                                                               kFittedWorkKinds);
+    const measure::DeviceCosts costs = measure::fit_costs("d", draw_random_cost_samples(40, 0),
+                                                          kFittedWorkKinds);
     EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 1e-3);
     EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, 1e-5);
     EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::passes), 5e4, 1);
     ASSERT_TRUE(costs.fit);
-    EXPECT_EQ(costs.fit->share_of_predictions_within_factor(1.0001), 1);
-    EXPECT_EQ(costs.origin, measure::UnitCostOrigin::fitted);
+    EXPECT_EQ(costs.fit->share_within(1.0001), 1);
+    EXPECT_EQ(costs.origin, measure::CostOrigin::fitted);
 }
 
 TEST(Costs, FitOfNoisyTimesIsNear) {
-    const measure::DeviceCosts costs = measure::fit_unit_costs(
-        "d", draw_random_cost_samples(60, .1), kFittedWorkKinds);
+    const measure::DeviceCosts costs = measure::fit_costs("d", draw_random_cost_samples(60, .1),
+                                                          kFittedWorkKinds);
     EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 5);
     EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, .2);
-    EXPECT_EQ(costs.fit->share_of_predictions_within_factor(1.2), 1);
-    EXPECT_LT(costs.fit->share_of_predictions_within_factor(1.01), 1);
+    EXPECT_EQ(costs.fit->share_within(1.2), 1);
+    EXPECT_LT(costs.fit->share_within(1.01), 1);
 }
 
 TEST(Costs, NoCostIsNegative) {
     // In these samples, rows with more fragments take less time. The best cost of a fragment would
     // therefore be negative, which is not allowed.
-    std::vector<measure::TimedWorkSample> samples;
+    std::vector<measure::TimedWork> samples;
     for (std::uint64_t i = 1; i <= 8; ++i)
         samples.push_back({"row", make_work_counts(1000, 1000 * i, 1), 10.0 - double(i)});
-    const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
-    for (const measure::WorkUnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
+    const measure::DeviceCosts costs = measure::fit_costs("d", samples, kFittedWorkKinds);
+    for (const measure::UnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
     EXPECT_EQ(unit_cost_of_kind(costs, WorkKind::fragments), 0);
 }
 
 TEST(Costs, RowIsPredictedByTheOtherRows) {
-    std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(20, 0);
+    std::vector<measure::TimedWork> samples = draw_random_cost_samples(20, 0);
     samples[4].ms *= 3; // the time of a row is predicted without using this time
-    const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
+    const measure::DeviceCosts costs = measure::fit_costs("d", samples, kFittedWorkKinds);
     EXPECT_NEAR(costs.fit->left_out_ms[4], samples[4].ms / 3, 1e-6 * samples[4].ms);
 }
 
 TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
-    EXPECT_EQ(
-        test::catch_error_text(
-            Failure::usage,
-            [] { measure::fit_unit_costs("d", draw_random_cost_samples(2, 0), kFittedWorkKinds); }),
-        "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
-        "2");
-    std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(9, 0);
+    EXPECT_EQ(test::catch_error_text(Failure::usage,
+                                     [] {
+                                         measure::fit_costs("d", draw_random_cost_samples(2, 0),
+                                                            kFittedWorkKinds);
+                                     }),
+              "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
+              "2");
+    std::vector<measure::TimedWork> samples = draw_random_cost_samples(9, 0);
     samples[3].ms = 0;
-    EXPECT_EQ(test::catch_error_text(
-                  Failure::usage, [&] { measure::fit_unit_costs("d", samples, kFittedWorkKinds); }),
+    EXPECT_EQ(test::catch_error_text(Failure::usage,
+                                     [&] { measure::fit_costs("d", samples, kFittedWorkKinds); }),
               "row 'row 3': wanted a time above 0 ms, found 0");
 }
 
 measure::DeviceCosts make_device_costs() {
-    measure::DeviceCosts costs{.device = "card", .origin = measure::UnitCostOrigin::literature};
+    measure::DeviceCosts costs{.device = "card", .origin = measure::CostOrigin::literature};
     costs.units = {{WorkKind::camera_rays, 10, {5, 20}, "a paper"},
                    {WorkKind::fragments, 1, {.5, 4}, "a data sheet"},
                    {WorkKind::passes, 1000, {}, ""}};
@@ -125,7 +126,7 @@ measure::Row make_costed_row(const std::string& technique, double flip, std::uin
     for (const reflect::Technique* known : reflect::techniques())
         if (known->name == technique) row.traits = &known->traits;
     row.error.pixels = 10, row.error.flip = flip, row.error.rmse = flip;
-    measure::set_row_work(row, {{"pass", make_work_counts(rays, fragments, 1)}});
+    measure::set_work(row, {{"pass", make_work_counts(rays, fragments, 1)}});
     return row;
 }
 
@@ -133,19 +134,18 @@ TEST(Costs, FrontDependsOnTheCostsOfRaysAndOfOtherWork) {
     const std::vector<measure::Row> rows{make_costed_row("raytrace", 0, 1000, 0),
                                          make_costed_row("secant", .02, 0, 6000),
                                          make_costed_row("worse", .03, 0, 7000)};
-    const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
-        make_device_costs(), rows);
+    const measure::PredictedFront front = measure::predict_front(make_device_costs(), rows);
     // With the given costs, the traced frame costs 10 us and the searched frame 6 us. With cheap
     // rays and dear look-ups, they cost 5 us and 24 us.
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1, 0}));
-    EXPECT_EQ(front.rows_if_rays_are_cheap, (std::vector<std::size_t>{0}));
-    EXPECT_EQ(front.rows_if_rays_are_dear, (std::vector<std::size_t>{1, 0}));
+    EXPECT_EQ(front.rows_cheap_rays, (std::vector<std::size_t>{0}));
+    EXPECT_EQ(front.rows_dear_rays, (std::vector<std::size_t>{1, 0}));
 }
 
 TEST(Costs, RowWithoutCountsIsNotOnTheFront) {
     measure::Row blank;
     blank.error.pixels = 10, blank.error.flip = 0;
-    const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
+    const measure::PredictedFront front = measure::predict_front(
         make_device_costs(), {blank, make_costed_row("secant", .02, 0, 6000)});
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1}));
     EXPECT_TRUE(std::isnan(front.times[0].ms));
@@ -168,11 +168,11 @@ TEST(Costs, FileIsReadBack) {
 
 /// A fit states how far its predictions are off, and its file tells readers.
 TEST(Costs, FileTellsTheErrorOfItsFit) {
-    EXPECT_FALSE(measure::find_prediction_error(make_device_costs()).is_known());
-    std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(60, .1);
-    const measure::DeviceCosts fitted = measure::fit_unit_costs("d", std::move(samples),
-                                                                kFittedWorkKinds);
-    const measure::Interval error = measure::find_prediction_error(
+    EXPECT_FALSE(measure::prediction_error(make_device_costs()).is_known());
+    std::vector<measure::TimedWork> samples = draw_random_cost_samples(60, .1);
+    const measure::DeviceCosts fitted = measure::fit_costs("d", std::move(samples),
+                                                           kFittedWorkKinds);
+    const measure::Interval error = measure::prediction_error(
         report::read_device_costs(report::to_json(fitted), "costs.json"));
     EXPECT_GT(error.low, .8);
     EXPECT_LT(error.low, 1);
@@ -246,9 +246,9 @@ TEST(Work, CountsOfARowAreReadBack) {
                                        {"b", make_work_counts(3, 4, 1)}};
     measure::Row row;
     EXPECT_FALSE(measure::has_counted_work(row));
-    measure::set_row_work(row, passes);
+    measure::set_work(row, passes);
     EXPECT_TRUE(measure::has_counted_work(row));
-    EXPECT_EQ(measure::total_work_counts_of_row(row), make_work_counts(4, 6, 2));
+    EXPECT_EQ(measure::total_work(row), make_work_counts(4, 6, 2));
     EXPECT_EQ(sum_work(passes, "b"), make_work_counts(3, 4, 1));
 }
 

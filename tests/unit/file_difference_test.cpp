@@ -38,8 +38,7 @@ TEST_F(FileDifferenceTest, FiguresFromBandsEqualThoseOfWholePictures) {
     const Picture a = read_picture(folder / "a.exr"), b = read_picture(folder / "b.exr");
     const Difference whole = difference(a, b, {},
                                         flip(to_unrounded_display(a), to_unrounded_display(b)));
-    const PictureFileDifference found = compare_picture_files(folder / "a.exr", folder / "b.exr",
-                                                              {}, 0);
+    const FileDifference found = compare_files(folder / "a.exr", folder / "b.exr", {}, 0);
     EXPECT_EQ(found.width, width);
     EXPECT_EQ(found.height, height);
     EXPECT_GT(whole.flip, .01);
@@ -58,10 +57,10 @@ TEST_F(FileDifferenceTest, FiguresFromBandsEqualThoseOfWholePictures) {
 TEST_F(FileDifferenceTest, PictureFilesOfDifferentSizesAreRefused) {
     write_png(Picture(3, 2), folder / "a.png");
     write_png(Picture(2, 3), folder / "b.png");
-    EXPECT_THAT(test::catch_error_text(
-                    Failure::bad_data,
-                    [&] { compare_picture_files(folder / "a.png", folder / "b.png", {}, 0); }),
-                testing::HasSubstr("b.png is 2x3: wanted two pictures of one size"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::bad_data,
+                               [&] { compare_files(folder / "a.png", folder / "b.png", {}, 0); }),
+        testing::HasSubstr("b.png is 2x3: wanted two pictures of one size"));
 }
 
 } // namespace

@@ -56,12 +56,12 @@ Picture make_picture_with_known_error() {
 }
 constexpr double kTrueMeanSquaredError = .0025, kNoiseDeviation = .08;
 
-measure::NoiseFreeErrorEstimate estimate_error_of_all_pixels(const Picture& picture,
-                                                             const Picture& a, const Picture& b,
-                                                             const measure::Mask& mask = {}) {
-    measure::NoisyReferenceHalves halves{a, b, a, std::vector<float>(a.pixels.size(), .01f)};
-    return measure::estimate_noise_free_error_by_halves(picture, halves, mask,
-                                                        std::vector<float>(a.pixels.size(), .02f));
+measure::NoiseFreeError estimate_error_of_all_pixels(const Picture& picture, const Picture& a,
+                                                     const Picture& b,
+                                                     const measure::Mask& mask = {}) {
+    measure::NoisyHalves halves{a, b, a, std::vector<float>(a.pixels.size(), .01f)};
+    return measure::estimate_noise_free(picture, halves, mask,
+                                        std::vector<float>(a.pixels.size(), .02f));
 }
 
 double mean_square_difference(const Picture& a, const Picture& b) {
@@ -75,12 +75,11 @@ double mean_square_difference(const Picture& a, const Picture& b) {
 
 TEST(Halves, HalvesOfAnotherSizeAreRefused) {
     const Picture small(2, 3), wide(4, 3);
-    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(wide, wide,
-                                                                                      0);
+    const measure::NoisyHalves halves = measure::make_halves(wide, wide, 0);
     EXPECT_EQ(test::catch_error_text(Failure::bad_data,
                                      [&] {
-                                         measure::compute_difference_from_halves(
-                                             small, halves, {}, std::vector<float>(6));
+                                         measure::difference_from_halves(small, halves, {},
+                                                                         std::vector<float>(6));
                                      }),
               "halves of a reference: wanted the size of the picture, 2x3, found 4x3");
 }
@@ -91,18 +90,18 @@ TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
     for (const float value : values) {
         Picture picture(2, 1);
         picture.pixels = {vec3(value, 2 * value, 0), vec3(7)};
-        mean.add_picture(picture);
+        mean.add(picture);
     }
-    EXPECT_EQ(mean.picture_count(), 4);
+    EXPECT_EQ(mean.count(), 4);
     EXPECT_EQ(mean.mean().pixels[0], vec3(3, 6, 0));
     // For the variance: the squared deviations 4 + 1 + 1 + 4 = 10 are divided by 3 and by 4.
     EXPECT_FLOAT_EQ(mean.variance().pixels[0].x, 10.f / 12);
     EXPECT_FLOAT_EQ(mean.variance().pixels[0].y, 40.f / 12);
     EXPECT_EQ(mean.variance().pixels[1], vec3(0));
     measure::PictureMean one;
-    one.add_picture(Picture(1, 1));
+    one.add(Picture(1, 1));
     EXPECT_TRUE(std::isnan(one.variance().pixels[0].x));
-    EXPECT_THROW(one.add_picture(Picture(2, 1)), Error);
+    EXPECT_THROW(one.add(Picture(2, 1)), Error);
 }
 
 /// The interval must contain the true error, which is known here. An estimate from one half alone
@@ -115,7 +114,7 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
         test::RandomNumbers numbers(seed);
         const Picture a = add_noise(truth, kNoiseDeviation, numbers),
                       b = add_noise(truth, kNoiseDeviation, numbers);
-        const measure::NoiseFreeErrorEstimate found = estimate_error_of_all_pixels(wrong, a, b);
+        const measure::NoiseFreeError found = estimate_error_of_all_pixels(wrong, a, b);
         ASSERT_TRUE(found.ci95.is_known());
         const auto holds = [&](double square) {
             return found.ci95.low <= square && square <= found.ci95.high;
@@ -173,16 +172,16 @@ TEST(Halves, BoundsAreNeverBelowTheTrueError) {
                 const std::vector<float> map = measure::flip(measure::to_unrounded_display(picture),
                                                              measure::to_unrounded_display(truth));
                 const measure::Difference wanted = measure::difference(picture, truth, {}, map);
-                const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(
+                const measure::NoisyHalves halves = measure::make_halves(
                     add_noise(truth, deviation, numbers), add_noise(truth, deviation, numbers), 0);
-                const measure::Difference found = measure::compute_difference_from_halves(
-                    picture, halves, {}, measure::compute_flip_against_halves(picture, halves, 0));
-                EXPECT_GE(measure::find_rmse_bound(found), wanted.rmse);
-                EXPECT_GE(measure::find_flip_bound(found), wanted.flip);
+                const measure::Difference found = measure::difference_from_halves(
+                    picture, halves, {}, measure::flip_against_halves(picture, halves, 0));
+                EXPECT_GE(measure::rmse_bound(found), wanted.rmse);
+                EXPECT_GE(measure::flip_bound(found), wanted.flip);
                 flip_of_halves_too_small += found.flip < wanted.flip;
                 unbiased_too_small += found.rmse < wanted.rmse;
                 if (deviation < .01)
-                    widest = std::max(widest, measure::find_rmse_bound(found) - wanted.rmse);
+                    widest = std::max(widest, measure::rmse_bound(found) - wanted.rmse);
             }
         }
     std::cout << "[ MEASURED ] of 60 pictures, FLIP against the halves is too small for "
@@ -200,21 +199,21 @@ TEST(Halves, BoundHoldsWhereClampingHidesAnError) {
     for (vec3& pixel : truth.pixels) pixel = vec3(1);
     for (vec3& pixel : dark.pixels) pixel = vec3(.9f);
     test::RandomNumbers numbers(1);
-    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(
-        add_noise(truth, .08, numbers), add_noise(truth, .08, numbers), 0);
-    const measure::Difference found = measure::compute_difference_from_halves(
+    const measure::NoisyHalves halves = measure::make_halves(add_noise(truth, .08, numbers),
+                                                             add_noise(truth, .08, numbers), 0);
+    const measure::Difference found = measure::difference_from_halves(
         dark, halves, {}, std::vector<float>(truth.pixels.size(), 0.f));
     EXPECT_LT(found.rmse, .08); // the true rmse is .1
-    EXPECT_GE(measure::find_rmse_bound(found), .1);
+    EXPECT_GE(measure::rmse_bound(found), .1);
 }
 
 TEST(Halves, BoundOfFewPixelsIsWideAndBoundWithoutNoiseIsTheError) {
     const Picture truth = make_noise_free_picture(), wrong = make_picture_with_known_error();
     const auto bound = [&](const measure::Mask& mask, double deviation) {
         test::RandomNumbers numbers(3);
-        const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(
+        const measure::NoisyHalves halves = measure::make_halves(
             add_noise(truth, deviation, numbers), add_noise(truth, deviation, numbers), 0);
-        return measure::find_rmse_bound(measure::compute_difference_from_halves(
+        return measure::rmse_bound(measure::difference_from_halves(
             wrong, halves, mask, std::vector<float>(truth.pixels.size(), 0.f)));
     };
     measure::Mask few(truth.pixels.size(), 0);
@@ -224,10 +223,10 @@ TEST(Halves, BoundOfFewPixelsIsWideAndBoundWithoutNoiseIsTheError) {
     EXPECT_NEAR(bound({}, 0), .05, 1e-6);
     measure::Difference plain;
     plain.rmse = .1, plain.flip = .2;
-    EXPECT_EQ(measure::find_rmse_bound(plain), .1);
-    EXPECT_EQ(measure::find_flip_bound(plain), .2);
+    EXPECT_EQ(measure::rmse_bound(plain), .1);
+    EXPECT_EQ(measure::flip_bound(plain), .2);
     plain.rmse = -.1, plain.square_margin = .0109; // below the noise: -.01 + .0109
-    EXPECT_NEAR(measure::find_rmse_bound(plain), .03, 1e-9);
+    EXPECT_NEAR(measure::rmse_bound(plain), .03, 1e-9);
 }
 
 TEST(Halves, IntervalIsUnknownForFewTiles) {
@@ -249,7 +248,7 @@ TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
     a.pixels = {vec3(.5f), vec3(1.5f, .5f, .5f), vec3(2), vec3(3)};
     b.pixels = {vec3(.5f), vec3(.5f), vec3(3), vec3(.5f)};
     x.pixels = {vec3(.5f), vec3(.5f), vec3(1), vec3(1)};
-    const measure::NoiseFreeErrorEstimate found = estimate_error_of_all_pixels(x, a, b);
+    const measure::NoiseFreeError found = estimate_error_of_all_pixels(x, a, b);
     EXPECT_DOUBLE_EQ(found.crossing, .5);
     EXPECT_DOUBLE_EQ(found.squared_error, 0); // clamped: (1-1)(1-1) and (1-1)(1-.5)
     // Pixel 3: (1-2)(1-3) = 2 in three channels. Pixel 4: (1-3)(1-.5) = -1.
@@ -262,9 +261,9 @@ measure::Difference make_difference_below_noise() {
     Picture x(kTestPictureEdge, kTestPictureEdge), a = x, b = x;
     for (std::size_t i = 0; i < x.pixels.size(); ++i)
         x.pixels[i] = vec3(.5f), a.pixels[i] = vec3(.6f), b.pixels[i] = vec3(.4f);
-    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(a, b, 0);
-    return measure::compute_difference_from_halves(
-        x, halves, {}, measure::compute_flip_against_halves(x, halves, 0));
+    const measure::NoisyHalves halves = measure::make_halves(a, b, 0);
+    return measure::difference_from_halves(x, halves, {},
+                                           measure::flip_against_halves(x, halves, 0));
 }
 
 TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
@@ -278,7 +277,7 @@ TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
 
     report::Row row = report::sample::make_row("parallax", 5, .1, .1);
     row.error = hidden;
-    measure::set_noise_of_row(row, {{.squared_error = -.01, .flip = .1, .flip_floor = .2}});
+    measure::set_noise(row, {{.squared_error = -.01, .flip = .1, .flip_floor = .2}});
     report::Comparison made = report::sample::make_comparison({row});
     made.studies = {std::string(measure::kNoiseMetricName)};
     made.noise = std::make_shared<measure::ReferenceNoise>();
@@ -305,13 +304,11 @@ TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {
 
 TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
     const Picture truth = make_noise_free_picture(), wrong = make_picture_with_known_error();
-    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(truth, truth,
-                                                                                      1);
-    const std::vector<float> map = measure::compute_flip_against_halves(wrong, halves, 1);
+    const measure::NoisyHalves halves = measure::make_halves(truth, truth, 1);
+    const std::vector<float> map = measure::flip_against_halves(wrong, halves, 1);
     Picture shown = wrong;
     for (vec3& pixel : shown.pixels) pixel *= 2;
-    const measure::Difference found = measure::compute_difference_from_halves(shown, halves, {},
-                                                                              map),
+    const measure::Difference found = measure::difference_from_halves(shown, halves, {}, map),
                               plain = measure::difference(shown, halves.mean, {}, map);
     EXPECT_EQ(map, measure::flip(measure::to_unrounded_display(wrong, 1),
                                  measure::to_unrounded_display(truth, 1)));
@@ -333,20 +330,19 @@ TEST(Halves, DifferencesBelowTheFloorTie) {
     EXPECT_EQ(measure::compare_flip(near, far), measure::Order::equal);
     report::Comparison made = report::sample::make_comparison({near, far});
     EXPECT_TRUE(measure::RowJudge(made.rows).beats(far, near)) << "it is faster and ties in FLIP";
-    made.pareto = measure::find_pareto_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{1});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[0]);
-    EXPECT_EQ(measure::find_ties_with_closest_row(made),
-              std::vector<const measure::Row*>{&made.rows[1]});
+    EXPECT_EQ(measure::find_closest_ties(made), std::vector<const measure::Row*>{&made.rows[1]});
     // Over several views, a difference that is below the noise floor in each view counts as none.
     for (int k = 0; k < 6; ++k) {
         made.rows[0].views.push_back(made.rows[0]);
         made.rows[1].views.push_back(made.rows[1]);
     }
-    EXPECT_FALSE(measure::do_rows_differ_over_views(made.rows[0], made.rows[1], "flip"));
+    EXPECT_FALSE(measure::rows_differ(made.rows[0], made.rows[1], "flip"));
     for (report::Row& each : made.rows)
         for (measure::Errors& view : each.views) view.error.flip_floor = 0;
-    EXPECT_TRUE(measure::do_rows_differ_over_views(made.rows[0], made.rows[1], "flip"));
+    EXPECT_TRUE(measure::rows_differ(made.rows[0], made.rows[1], "flip"));
 }
 
 TEST(Halves, WantedFloorIsAFifthOfTheLeastFlipOfARowWithCaptures) {
@@ -354,9 +350,9 @@ TEST(Halves, WantedFloorIsAFifthOfTheLeastFlipOfARowWithCaptures) {
     traced.rays = RayCounts{1, 1, 1};
     const report::Row reuse = report::sample::make_row("reuse", 1, .1, .3),
                       parallax = report::sample::make_row("parallax", 1, .1, .2);
-    EXPECT_DOUBLE_EQ(measure::choose_target_noise_floor({&traced, &reuse, &parallax}), .04);
-    EXPECT_DOUBLE_EQ(measure::choose_target_noise_floor({&traced}), .002);
-    EXPECT_EQ(measure::choose_target_noise_floor({}), 0);
+    EXPECT_DOUBLE_EQ(measure::target_noise_floor({&traced, &reuse, &parallax}), .04);
+    EXPECT_DOUBLE_EQ(measure::target_noise_floor({&traced}), .002);
+    EXPECT_EQ(measure::target_noise_floor({}), 0);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ TEST(Heat, LightnessOfHeatColoursRisesEvenly) {
     double before = -1;
     for (int i = 0; i <= 256; ++i) {
         const float value = static_cast<float>(i) / 256.0F;
-        const double now = cie_lightness(heat_map_colour(value));
+        const double now = cie_lightness(heat_colour(value));
         EXPECT_GT(now, before);
         EXPECT_NEAR(now, 98 * static_cast<double>(value), 2.5) << value;
         before = now;
@@ -32,23 +32,23 @@ TEST(Heat, LightnessOfHeatColoursRisesEvenly) {
 }
 
 TEST(Heat, HeatColoursAreClampedAtTheEndsOfTheScale) {
-    EXPECT_EQ(heat_map_colour(0), vec3(0));
-    EXPECT_EQ(heat_map_colour(1), vec3(0.99F, 0.99F, 0.78F));
-    EXPECT_EQ(heat_map_colour(-1), heat_map_colour(0));
-    EXPECT_EQ(heat_map_colour(7), heat_map_colour(1));
-    EXPECT_EQ(heat_map_colour(std::numeric_limits<float>::infinity()), heat_map_colour(1));
+    EXPECT_EQ(heat_colour(0), vec3(0));
+    EXPECT_EQ(heat_colour(1), vec3(0.99F, 0.99F, 0.78F));
+    EXPECT_EQ(heat_colour(-1), heat_colour(0));
+    EXPECT_EQ(heat_colour(7), heat_colour(1));
+    EXPECT_EQ(heat_colour(std::numeric_limits<float>::infinity()), heat_colour(1));
 }
 
 TEST(Heat, NanHasAColourOutsideTheScale) {
-    EXPECT_EQ(heat_map_colour(std::numeric_limits<float>::quiet_NaN()), vec3(0, 1, 1));
+    EXPECT_EQ(heat_colour(std::numeric_limits<float>::quiet_NaN()), vec3(0, 1, 1));
 }
 
 TEST(Heat, HeatPictureKeepsPixelOrderAndScalesValues) {
     const Picture picture = make_heat_map(std::vector<float>{0, 0.5F, 1, 2}, 2, 2, 2);
-    EXPECT_EQ(picture.at(0, 0), heat_map_colour(0));
-    EXPECT_EQ(picture.at(1, 0), heat_map_colour(0.25F));
-    EXPECT_EQ(picture.at(0, 1), heat_map_colour(0.5F));
-    EXPECT_EQ(picture.at(1, 1), heat_map_colour(1));
+    EXPECT_EQ(picture.at(0, 0), heat_colour(0));
+    EXPECT_EQ(picture.at(1, 0), heat_colour(0.25F));
+    EXPECT_EQ(picture.at(0, 1), heat_colour(0.5F));
+    EXPECT_EQ(picture.at(1, 1), heat_colour(1));
 }
 
 std::string heat_map_error_text(std::size_t size, float high) {

@@ -30,7 +30,7 @@ TEST(MedianInterval, IntervalEndsAtTheRanksOfTheSignTest) {
     const std::pair<std::size_t, double> ranks[] = {
         {6, 1}, {8, 1}, {9, 2}, {11, 2}, {12, 3}, {15, 4}, {20, 6}, {30, 10}, {50, 18}, {100, 40}};
     for (const auto& [n, rank] : ranks) {
-        const Interval found = median_confidence_interval(list_numbers_from_one_to(n));
+        const Interval found = median_interval(list_numbers_from_one_to(n));
         EXPECT_EQ(found.low, rank) << n;
         EXPECT_EQ(found.high, static_cast<double>(n) + 1 - rank) << n;
     }
@@ -38,10 +38,10 @@ TEST(MedianInterval, IntervalEndsAtTheRanksOfTheSignTest) {
 
 TEST(MedianInterval, IntervalOfFewerThanSixValuesOrNanIsUnknown) {
     for (std::size_t n = 0; n < kMinIntervalSamples; ++n)
-        EXPECT_FALSE(median_confidence_interval(list_numbers_from_one_to(n)).is_known());
+        EXPECT_FALSE(median_interval(list_numbers_from_one_to(n)).is_known());
     std::vector<double> values = list_numbers_from_one_to(6);
     values[3] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(median_confidence_interval(values).is_known());
+    EXPECT_FALSE(median_interval(values).is_known());
 }
 
 /// The interval contains the true median in at least 95 % of cases, although the samples come from
@@ -54,7 +54,7 @@ TEST(MedianInterval, IntervalContainsTheTrueMedianIn95PercentOfCases) {
         for (int k = 0; k < 4000; ++k) {
             std::vector<double> values(n);
             for (double& v : values) v = value(random);
-            held += does_interval_hold(median_confidence_interval(values), 1);
+            held += does_interval_hold(median_interval(values), 1);
         }
         EXPECT_GE(held, 3800) << n;
         EXPECT_LT(held, 3960) << n << ": as wide as that it tells nobody apart";
@@ -76,20 +76,20 @@ TEST(MedianInterval, PairedIntervalUsesTheRatioOrDifferenceOfEachPair) {
 
 TEST(Summary, SummaryOfRoundsUsesTheMedianOfEachRound) {
     const std::vector<std::vector<double>> rounds{{1, 2, 90}, {3}, {5, 4}, {7, 6, 8}, {9}, {10}};
-    const SampleSummary summary = summarise_samples(rounds);
+    const SampleSummary summary = summarise(rounds);
     EXPECT_EQ(summary.rounds, (std::vector<double>{2, 3, 4.5, 7, 9, 10}));
     EXPECT_EQ(summary.median, 5.75) << "not that of the eleven samples, 6";
     EXPECT_EQ(summary.ci95.low, 2);
     EXPECT_EQ(summary.ci95.high, 10);
     EXPECT_EQ(summary.n, 11U);
     EXPECT_EQ(summary.samples, (std::vector<double>{1, 2, 90, 3, 5, 4, 7, 6, 8, 9, 10}));
-    EXPECT_FALSE(summarise_samples(std::vector<double>{1, 2, 3, 4, 5, 6}).ci95.is_known())
+    EXPECT_FALSE(summarise(std::vector<double>{1, 2, 3, 4, 5, 6}).ci95.is_known())
         << "in one go: what disturbed one disturbed its neighbours";
 }
 
 MedianWithInterval measure_median(std::vector<double> values) {
-    const double middle = summarise_samples(values).median;
-    return {middle, median_confidence_interval(values)};
+    const double middle = summarise(values).median;
+    return {middle, median_interval(values)};
 }
 
 /// The interval of a ratio is exact for two equal intervals of 2 %, and unknown without intervals.

@@ -30,7 +30,7 @@ TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
     a.moves = b.moves = true;
     EXPECT_TRUE(is_faster(b, a)) << "the host's work counts";
     EXPECT_FALSE(beats(a, b)) << "it is closer, and slower";
-    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (std::vector<std::size_t>{1, 0}));
+    EXPECT_EQ(measure::find_pareto_front({a, b}), (std::vector<std::size_t>{1, 0}));
 }
 
 using Front = std::vector<std::size_t>;
@@ -47,41 +47,41 @@ measure::Row make_row_with_varying_time(double ms, double flip) {
 }
 
 TEST(Judge, FrontEqualsHandComputedFronts) {
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front(
                   {make_row_with_equal_times(3, 1), make_row_with_equal_times(1, 3),
                    make_row_with_equal_times(2, 2), make_row_with_equal_times(3, 3),
                    make_row_with_equal_times(2, 2.5)}),
               (Front{1, 2, 0}));
-    EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(5, 5)}), Front{0});
-    EXPECT_EQ(measure::find_pareto_front_of_rows({}), Front{});
+    EXPECT_EQ(measure::find_pareto_front({make_row_with_equal_times(5, 5)}), Front{0});
+    EXPECT_EQ(measure::find_pareto_front({}), Front{});
     // Of rows with equal times, the row with less error is on the front.
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front(
                   {make_row_with_equal_times(1, 2), make_row_with_equal_times(1, 1)}),
               Front{1});
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front(
                   {make_row_with_equal_times(2, 1), make_row_with_equal_times(1, 1)}),
               Front{1}); // if two rows have equal errors, the faster row is on the front
-    EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(1, 1),
-                                                  make_row_with_equal_times(2, 2),
-                                                  make_row_with_equal_times(1, 1)}),
+    EXPECT_EQ(measure::find_pareto_front({make_row_with_equal_times(1, 1),
+                                          make_row_with_equal_times(2, 2),
+                                          make_row_with_equal_times(1, 1)}),
               (Front{0, 2}));
 }
 
 /// A row with black mirrors cannot be the fastest row, and cannot be on the front either.
 TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     measure::Row black = make_row_with_equal_times(1, .5);
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front(
                   {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
               (Front{0, 1}));
     black.mirrors_black = true;
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front(
                   {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
               Front{1});
     EXPECT_FALSE(beats(black, make_row_with_equal_times(3, .6)));
     EXPECT_FALSE(beats(make_row_with_equal_times(1, .1), black));
     measure::Comparison made;
     made.rows = {black, make_row_with_equal_times(2, .1)};
-    made.pareto = measure::find_pareto_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front(made.rows);
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
     EXPECT_EQ(measure::find_fastest_rows(made).rows,
               std::vector<const measure::Row*>{&made.rows[1]});
@@ -98,10 +98,10 @@ TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
     file.gpu_ms = {};
     file.gpu_ms.median = NAN;
     made.rows = {make_row_with_equal_times(2, .1), file, make_row_with_equal_times(3, .05)};
-    made.pareto = measure::find_pareto_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front(made.rows);
     EXPECT_EQ(made.pareto, (Front{0, 2}));
-    EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[2]).last, 2u);
-    EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[1]).first, 0u);
+    EXPECT_EQ(measure::find_rank_range(made, made.rows[2]).last, 2u);
+    EXPECT_EQ(measure::find_rank_range(made, made.rows[1]).first, 0u);
     EXPECT_EQ(measure::find_fastest_rows(made).rows,
               std::vector<const measure::Row*>{&made.rows[0]});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
@@ -140,12 +140,12 @@ TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
     EXPECT_FALSE(beats(make_row_with_varying_time(12, .9), make_row_with_equal_times(10, 1)))
         << "closer, but slower";
     EXPECT_FALSE(beats(make_row_with_equal_times(10, 1.1), make_row_with_varying_time(12, 1)));
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front(
                   {make_row_with_varying_time(11, 1), make_row_with_equal_times(10, 1)}),
               (Front{1, 0}));
-    EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(10, 1),
-                                                  make_row_with_equal_times(10.4, .9),
-                                                  make_row_with_equal_times(12, .9)}),
+    EXPECT_EQ(measure::find_pareto_front({make_row_with_equal_times(10, 1),
+                                          make_row_with_equal_times(10.4, .9),
+                                          make_row_with_equal_times(12, .9)}),
               Front{1});
 }
 
@@ -163,10 +163,10 @@ TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     }
     EXPECT_EQ(measure::compare_flip(a, b), Order::unknown);
     EXPECT_EQ(measure::compare_flip(b, a), Order::unknown);
-    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_pareto_front({a, b}), (Front{0, 1}));
     for (measure::Errors& view : a.views) view.error.flip = .3;
     EXPECT_EQ(measure::compare_flip(b, a), Order::less) << "in every view";
-    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{1}));
+    EXPECT_EQ(measure::find_pareto_front({a, b}), (Front{1}));
 }
 
 TEST(Judge, RowsWithFewerThanSixRoundsTie) {
@@ -175,7 +175,7 @@ TEST(Judge, RowsWithFewerThanSixRoundsTie) {
     b.gpu_ms.rounds.pop_back();
     EXPECT_FALSE(measure::time_ratio_interval(a, b).is_known());
     EXPECT_EQ(measure::compare_times(a, b), Order::unknown);
-    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_pareto_front({a, b}), (Front{0, 1}));
 }
 
 TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
@@ -184,9 +184,9 @@ TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
                  no_error = make_row_with_equal_times(1, 0);
     failed.error.nonfinite = 1;
     no_error.error.rmse = no_error.error.flip = measure::Difference::kNone;
-    EXPECT_EQ(measure::find_pareto_front_of_rows(
-                  {failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
-              Front{3});
+    EXPECT_EQ(
+        measure::find_pareto_front({failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
+        Front{3});
     EXPECT_FALSE(beats(make_row_with_equal_times(1, 1), no_error));
 }
 
@@ -195,8 +195,7 @@ TEST(Judge, TiedRowsShareTheirPlaces) {
         {make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1),
          make_row_with_equal_times(5, 1), make_row_with_equal_times(30, 1)});
     const auto places = [&](std::size_t i) {
-        const measure::TimeRankRange found = measure::find_time_rank_range_of_row(made,
-                                                                                  made.rows[i]);
+        const measure::RankRange found = measure::find_rank_range(made, made.rows[i]);
         return std::pair(found.first, found.last);
     };
     EXPECT_EQ(places(0), (std::pair<std::size_t, std::size_t>(2, 3)));

@@ -42,8 +42,8 @@ LightEdgeErrorSplit split_error_at_mask(const Picture& a, const Picture& b, cons
         if (mirrors[i] == 0) there[i] = 0;
         if (there[i] != 0) elsewhere[i] = 0;
     }
-    return {split_error_by_light_edges(difference(a, b, there, kZeroFlipMap),
-                                       difference(a, b, elsewhere, kZeroFlipMap)),
+    return {split_by_light_edges(difference(a, b, there, kZeroFlipMap),
+                                 difference(a, b, elsewhere, kZeroFlipMap)),
             difference(a, b, mirrors, kZeroFlipMap)};
 }
 

@@ -8,12 +8,12 @@
 namespace {
 
 using catoptric::dvec3;
-using catoptric::measure::LookupDirectionError;
-using catoptric::measure::LookupErrorSummary;
-using catoptric::measure::summarise_lookup_errors;
+using catoptric::measure::LookupError;
+using catoptric::measure::LookupSummary;
+using catoptric::measure::summarise_lookups;
 
 TEST(LookupErrors, AllValuesOfAnEmptyListAreZero) {
-    const LookupErrorSummary none = summarise_lookup_errors({});
+    const LookupSummary none = summarise_lookups({});
     EXPECT_EQ(none.pixels, 0U);
     for (const double value : {none.mean_degrees, none.p95_degrees, none.p99_degrees,
                                none.wrong_object, none.unknown, none.miss, none.p95_residual})
@@ -21,7 +21,7 @@ TEST(LookupErrors, AllValuesOfAnEmptyListAreZero) {
 }
 
 TEST(LookupErrors, SharesAreOfAllPixelsAndResidualsOnlyOfHits) {
-    std::vector<LookupDirectionError> pixels;
+    std::vector<LookupError> pixels;
     for (int i = 1; i <= 200; ++i) // angles of 1 to 200 hundredths, largest first
         pixels.push_back({.angle_degrees = .01 * (201 - i),
                           .wrong_object = i <= 10,
@@ -29,7 +29,7 @@ TEST(LookupErrors, SharesAreOfAllPixelsAndResidualsOnlyOfHits) {
                                    : i <= 160 ? 1
                                               : 2,
                           .residual = i <= 100 ? .001 * i : 1});
-    const LookupErrorSummary error = summarise_lookup_errors(pixels);
+    const LookupSummary error = summarise_lookups(pixels);
     EXPECT_EQ(error.pixels, 200U);
     EXPECT_NEAR(error.mean_degrees, 1.005, 1e-12);
     EXPECT_NEAR(error.p95_degrees, 1.9005, 1e-12); // rank .95 * 199 of the sorted angles

@@ -21,30 +21,30 @@ constexpr std::array<std::uint32_t, 7> kTwoHitsOfPixels = {
     make_two_hit_word(0, 32766)};
 
 TEST(Masks, MasksSelectPixelsByTheirFirstTwoHits) {
-    EXPECT_EQ(mask_all_pixels(kTwoHitsOfPixels), (Mask{255, 255, 255, 255, 255, 255, 255}));
-    EXPECT_EQ(mask_mirror_pixels(kTwoHitsOfPixels), (Mask{0, 255, 255, 255, 255, 0, 0}));
-    EXPECT_EQ(mask_first_order_pixels(kTwoHitsOfPixels), (Mask{0, 255, 0, 0, 255, 0, 0}));
+    EXPECT_EQ(mask_all(kTwoHitsOfPixels), (Mask{255, 255, 255, 255, 255, 255, 255}));
+    EXPECT_EQ(mask_mirrors(kTwoHitsOfPixels), (Mask{0, 255, 255, 255, 255, 0, 0}));
+    EXPECT_EQ(mask_first_order(kTwoHitsOfPixels), (Mask{0, 255, 0, 0, 255, 0, 0}));
     EXPECT_EQ(mask_mirror_in_mirror(kTwoHitsOfPixels), (Mask{0, 0, 255, 255, 0, 0, 0}));
     EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(1)),
               (Mask{0, 255, 0, 255, 0, 0, 0}));
     EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(65535)),
               (Mask{0, 0, 0, 0, 255, 0, 0}));
-    EXPECT_EQ(mask_non_mirror_pixels(kTwoHitsOfPixels), (Mask{255, 0, 0, 0, 0, 255, 255}));
-    EXPECT_EQ(mask_smooth_dielectrics(kTwoHitsOfPixels), (Mask{0, 0, 0, 0, 0, 255, 0}));
-    EXPECT_EQ(mask_rough_surfaces(kTwoHitsOfPixels), (Mask{0, 0, 0, 0, 0, 0, 255}));
+    EXPECT_EQ(mask_non_mirrors(kTwoHitsOfPixels), (Mask{255, 0, 0, 0, 0, 255, 255}));
+    EXPECT_EQ(mask_dielectrics(kTwoHitsOfPixels), (Mask{0, 0, 0, 0, 0, 255, 0}));
+    EXPECT_EQ(mask_rough(kTwoHitsOfPixels), (Mask{0, 0, 0, 0, 0, 0, 255}));
 }
 
 TEST(Masks, MasksPartitionThePicture) {
-    EXPECT_EQ(count_mask_pixels(mask_mirror_pixels(kTwoHitsOfPixels)) +
-                  count_mask_pixels(mask_non_mirror_pixels(kTwoHitsOfPixels)),
+    EXPECT_EQ(count_pixels(mask_mirrors(kTwoHitsOfPixels)) +
+                  count_pixels(mask_non_mirrors(kTwoHitsOfPixels)),
               kTwoHitsOfPixels.size());
-    EXPECT_EQ(count_mask_pixels(mask_first_order_pixels(kTwoHitsOfPixels)) +
-                  count_mask_pixels(mask_mirror_in_mirror(kTwoHitsOfPixels)),
-              count_mask_pixels(mask_mirror_pixels(kTwoHitsOfPixels)));
-    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(1))) +
-                  count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(2))) +
-                  count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(65535))),
-              count_mask_pixels(mask_mirror_pixels(kTwoHitsOfPixels)));
+    EXPECT_EQ(count_pixels(mask_first_order(kTwoHitsOfPixels)) +
+                  count_pixels(mask_mirror_in_mirror(kTwoHitsOfPixels)),
+              count_pixels(mask_mirrors(kTwoHitsOfPixels)));
+    EXPECT_EQ(count_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(1))) +
+                  count_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(2))) +
+                  count_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(65535))),
+              count_pixels(mask_mirrors(kTwoHitsOfPixels)));
 }
 
 TEST(Masks, MaskOfAnAbsentMirrorIsAllZero) {
@@ -53,7 +53,7 @@ TEST(Masks, MaskOfAnAbsentMirrorIsAllZero) {
     // Mirror numbers start at 1, so 0 is no mirror.
     EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(0)),
               Mask(kTwoHitsOfPixels.size(), 0));
-    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(9))), 0U);
+    EXPECT_EQ(count_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(9))), 0U);
 }
 
 } // namespace

@@ -114,17 +114,17 @@ TEST_F(PictureFile, EqualPicturesGiveFilesOfEqualBytes) {
     const std::string exr = encode_exr(make_picture_of_extreme_values());
     EXPECT_THAT(exr, HasSubstr("2000:01:01 00:00:00")); // the date in files is constant
     EXPECT_EQ(exr, encode_exr(make_picture_of_extreme_values()));
-    EXPECT_EQ(encode_picture_png(make_picture_of_extreme_values()),
-              encode_picture_png(make_picture_of_extreme_values()));
+    EXPECT_EQ(encode_png(make_picture_of_extreme_values()),
+              encode_png(make_picture_of_extreme_values()));
     write_png(make_picture_of_extreme_values(), folder / "a.png");
-    EXPECT_EQ(read_file(folder / "a.png"), encode_picture_png(make_picture_of_extreme_values()));
+    EXPECT_EQ(read_file(folder / "a.png"), encode_png(make_picture_of_extreme_values()));
 }
 
 TEST_F(PictureFile, WrittenPngIsEightBitRgbRoundedAndClamped) {
     Picture display(2, 1);
     display.at(0, 0) = vec3(-1, 0.5F, std::numeric_limits<float>::quiet_NaN());
     display.at(1, 0) = vec3(2, 187.4F / 255, 187.6F / 255);
-    const std::string png = encode_picture_png(display);
+    const std::string png = encode_png(display);
     EXPECT_EQ(png[24], 8); // bits per channel, in the IHDR chunk
     EXPECT_EQ(png[25], 2); // colour type RGB, in the IHDR chunk
     write_png(display, folder / "a.png");

@@ -12,7 +12,7 @@ namespace {
 using namespace catoptric::measure;
 
 struct RandomMixProblem {
-    std::vector<TechniqueCandidateForMix> candidates;
+    std::vector<MixCandidate> candidates;
     std::vector<std::vector<double>> pixels;
     double limit = 0;
 };
@@ -29,7 +29,7 @@ RandomMixProblem draw_random_mix_problem(std::uint64_t seed) {
             problem.pixels.back().push_back(std::floor(1000 * uniform(random)) + 1);
     }
     for (int i = 0; i < 4; ++i) {
-        TechniqueCandidateForMix candidate{1 + 3.0 * i + uniform(random), {}};
+        MixCandidate candidate{1 + 3.0 * i + uniform(random), {}};
         for (std::size_t view = 0; view < views; ++view) {
             candidate.error_sums.emplace_back();
             for (std::size_t mirror = 0; mirror < mirrors; ++mirror)
@@ -73,8 +73,8 @@ TEST(PlanMix, KeepsTheLimitAndIsNearTheBestOfAllMixes) {
     double worst = 1;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         const RandomMixProblem problem = draw_random_mix_problem(seed);
-        const std::vector<std::size_t> found = find_fastest_technique_mix(
-            problem.candidates, problem.pixels, problem.limit);
+        const std::vector<std::size_t> found = find_fastest_mix(problem.candidates, problem.pixels,
+                                                                problem.limit);
         const std::size_t mirrors = problem.pixels.front().size();
         double best = INFINITY, best_alone = INFINITY;
         for (std::size_t code = 0; code < std::size_t{1} << (2 * mirrors); ++code) {
@@ -102,12 +102,12 @@ TEST(PlanMix, KeepsTheLimitAndIsNearTheBestOfAllMixes) {
 
 TEST(PlanMix, AnswersByHand) {
     const std::vector<std::vector<double>> pixels{{100, 0}};
-    const std::vector<TechniqueCandidateForMix> candidates{{1, {{50, 0}}}, {5, {{1, 0}}}};
-    EXPECT_EQ(find_fastest_technique_mix(candidates, pixels, .1), (std::vector<std::size_t>{1, 1}));
-    EXPECT_EQ(find_fastest_technique_mix(candidates, pixels, .6), (std::vector<std::size_t>{0, 0}));
-    EXPECT_TRUE(find_fastest_technique_mix(candidates, pixels, .001).empty());
-    EXPECT_TRUE(find_fastest_technique_mix({}, pixels, 1).empty());
-    EXPECT_TRUE(find_fastest_technique_mix(candidates, {}, 1).empty());
+    const std::vector<MixCandidate> candidates{{1, {{50, 0}}}, {5, {{1, 0}}}};
+    EXPECT_EQ(find_fastest_mix(candidates, pixels, .1), (std::vector<std::size_t>{1, 1}));
+    EXPECT_EQ(find_fastest_mix(candidates, pixels, .6), (std::vector<std::size_t>{0, 0}));
+    EXPECT_TRUE(find_fastest_mix(candidates, pixels, .001).empty());
+    EXPECT_TRUE(find_fastest_mix({}, pixels, 1).empty());
+    EXPECT_TRUE(find_fastest_mix(candidates, {}, 1).empty());
 }
 
 } // namespace

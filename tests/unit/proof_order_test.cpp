@@ -35,12 +35,11 @@ TEST(ProbabilityOfProof, FollowsTablesOfStudentsDistribution) {
         const double deviation = std::sqrt(squares / (count - 1) * (1 + 1 / count)),
                      limit = .01 * std::exp(tested.t * deviation),
                      opposite = .01 * std::exp(-tested.t * deviation);
-        EXPECT_NEAR(measure::estimate_probability_of_proof(errors, limit, 1, 0, 0), .975, 2e-5);
-        EXPECT_NEAR(measure::estimate_probability_of_proof(errors, opposite, 1, 0, 0), .025, 2e-5);
-        EXPECT_NEAR(measure::estimate_probability_of_proof(errors, .01, 1, 0, 0), .5, 1e-9);
-        EXPECT_NEAR(measure::estimate_probability_of_proof(errors, .01, 3, 1, 0), .5, 1e-9);
-        EXPECT_NEAR(measure::estimate_probability_of_proof(errors, limit, 10, 0, 0),
-                    std::pow(.975, 10), 2e-4);
+        EXPECT_NEAR(measure::proof_probability(errors, limit, 1, 0, 0), .975, 2e-5);
+        EXPECT_NEAR(measure::proof_probability(errors, opposite, 1, 0, 0), .025, 2e-5);
+        EXPECT_NEAR(measure::proof_probability(errors, .01, 1, 0, 0), .5, 1e-9);
+        EXPECT_NEAR(measure::proof_probability(errors, .01, 3, 1, 0), .5, 1e-9);
+        EXPECT_NEAR(measure::proof_probability(errors, limit, 10, 0, 0), std::pow(.975, 10), 2e-4);
     }
 }
 
@@ -57,7 +56,7 @@ TEST(ProbabilityOfProof, IsTheShareOfFurtherValuesBelowTheLimit) {
         for (const double error : errors) mean += std::log(error) / 8;
         for (const double error : errors) squares += std::pow(std::log(error) - mean, 2) / 7;
         const double limit = std::exp(mean + 2.5 * std::sqrt(squares));
-        estimated += measure::estimate_probability_of_proof(errors, limit, 1, 0, 0) / kDraws;
+        estimated += measure::proof_probability(errors, limit, 1, 0, 0) / kDraws;
         kept += (std::exp(normal(random)) <= limit ? 1. : 0.) / kDraws;
     }
     EXPECT_NEAR(estimated, kept, .004); // the standard error of `kept` is below .001
@@ -68,20 +67,20 @@ TEST(ProbabilityOfProof, ViewsWithoutAnErrorDoNotMakeAProofUnlikely) {
         for (const double share : {.001, .02, .1}) {
             std::vector<double> errors(12, share * .05);
             std::fill_n(errors.begin(), zeros, 0.);
-            EXPECT_GT(measure::estimate_probability_of_proof(errors, .05, 59, 0, .5), .75)
+            EXPECT_GT(measure::proof_probability(errors, .05, 59, 0, .5), .75)
                 << zeros << ' ' << share;
         }
 }
 
 TEST(ProbabilityOfProof, ExtremesHaveCertainAnswers) {
     const std::vector<double> equal(6, .02), none(6, 0.), with_infinity{.01, .02, INFINITY};
-    EXPECT_EQ(measure::estimate_probability_of_proof(equal, .03, 59, 0, 0), 1);
-    EXPECT_EQ(measure::estimate_probability_of_proof(equal, .01, 59, 0, 0), 0);
-    EXPECT_EQ(measure::estimate_probability_of_proof(none, .01, 59, 0, 0), 1);
-    EXPECT_EQ(measure::estimate_probability_of_proof(none, 0, 59, 0, 0), 1);
-    EXPECT_EQ(measure::estimate_probability_of_proof(equal, 0, 59, 0, 0), 0);
-    EXPECT_EQ(measure::estimate_probability_of_proof(with_infinity, .03, 59, 0, 0), 0);
-    EXPECT_EQ(measure::estimate_probability_of_proof(std::vector{.01}, .03, 59, 0, 0), 0);
+    EXPECT_EQ(measure::proof_probability(equal, .03, 59, 0, 0), 1);
+    EXPECT_EQ(measure::proof_probability(equal, .01, 59, 0, 0), 0);
+    EXPECT_EQ(measure::proof_probability(none, .01, 59, 0, 0), 1);
+    EXPECT_EQ(measure::proof_probability(none, 0, 59, 0, 0), 1);
+    EXPECT_EQ(measure::proof_probability(equal, 0, 59, 0, 0), 0);
+    EXPECT_EQ(measure::proof_probability(with_infinity, .03, 59, 0, 0), 0);
+    EXPECT_EQ(measure::proof_probability(std::vector{.01}, .03, 59, 0, 0), 0);
 }
 
 /// Returns the expected logarithm of the chosen plan's time if these plans are proved in turn.
@@ -100,9 +99,9 @@ TEST(ProbabilityOfProof, AddedDeviationActsLikeSpreadErrors) {
     // Logarithms with a deviation of .3, or of 0 and .3 added.
     const std::vector<double> equal(3, .01), spread{.01 * std::exp(-.3), .01, .01 * std::exp(.3)};
     for (const double limit : {.011, .02, .05})
-        EXPECT_NEAR(measure::estimate_probability_of_proof(equal, limit, 59, 0, .3),
-                    measure::estimate_probability_of_proof(spread, limit, 59, 0, 0), 1e-12);
-    EXPECT_LT(measure::estimate_probability_of_proof(equal, .02, 59, 0, .3), .1);
+        EXPECT_NEAR(measure::proof_probability(equal, limit, 59, 0, .3),
+                    measure::proof_probability(spread, limit, 59, 0, 0), 1e-12);
+    EXPECT_LT(measure::proof_probability(equal, .02, 59, 0, .3), .1);
 }
 
 TEST(ProofOrder, HasTheLeastExpectedLogarithmOfTime) {
@@ -124,7 +123,7 @@ TEST(ProofOrder, HasTheLeastExpectedLogarithmOfTime) {
                               [&](std::size_t i) { return candidates[i].ms; });
             least = std::min(least, expected_log_time(candidates, order, 10 * slowest));
         }
-        const std::vector<std::size_t> order = measure::find_best_proof_order(candidates, most, 10);
+        const std::vector<std::size_t> order = measure::find_best_order(candidates, most, 10);
         ASSERT_LE(order.size(), most);
         EXPECT_NEAR(expected_log_time(candidates, order, 10 * slowest), least, 1e-9) << round;
     }
@@ -134,19 +133,18 @@ TEST(ProofOrder, LeavesOutAPlanWhoseProofIsLikelyToFail) {
     // The second plan saves little, and its failure would forbid the third, which is likely to
     // hold.
     const std::vector<measure::ProofCandidate> candidates{{100, 1}, {90, .5}, {10, .95}};
-    EXPECT_EQ(measure::find_best_proof_order(candidates, 4, 10), (std::vector<std::size_t>{0, 2}));
+    EXPECT_EQ(measure::find_best_order(candidates, 4, 10), (std::vector<std::size_t>{0, 2}));
 }
 
 TEST(ProofOrder, TinyProbabilitiesStillOrderPlans) {
     const std::vector<measure::ProofCandidate> candidates{{100, 1e-24}, {10, 1e-25}, {9, 1e-40}};
-    EXPECT_EQ(measure::find_best_proof_order(candidates, 4, 10),
-              (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(measure::find_best_order(candidates, 4, 10), (std::vector<std::size_t>{0, 1, 2}));
 }
 
 TEST(ProofOrder, IsEmptyIfNoProofCanSucceed) {
-    EXPECT_TRUE(measure::find_best_proof_order({}, 4, 10).empty());
+    EXPECT_TRUE(measure::find_best_order({}, 4, 10).empty());
     const std::vector<measure::ProofCandidate> hopeless{{5, 0}, {3, 0}};
-    EXPECT_TRUE(measure::find_best_proof_order(hopeless, 4, 10).empty());
+    EXPECT_TRUE(measure::find_best_order(hopeless, 4, 10).empty());
 }
 
 } // namespace

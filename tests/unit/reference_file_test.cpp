@@ -24,8 +24,8 @@ measure::Picture draw_random_picture(std::uint64_t seed) {
 study::StoredReference make_stored_reference() {
     study::StoredReference stored{.seeds = {1, 2, 4, 5}, .gpu_ms = {1.5, 2.5}, .rays = 8};
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-        stored.a.add_picture(draw_random_picture(seed));
-        stored.b.add_picture(draw_random_picture(seed + 10));
+        stored.a.add(draw_random_picture(seed));
+        stored.b.add(draw_random_picture(seed + 10));
     }
     return stored;
 }
@@ -43,13 +43,12 @@ TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
     EXPECT_EQ(after.seeds, before.seeds);
     EXPECT_EQ(after.gpu_ms, before.gpu_ms);
     EXPECT_EQ(after.rays, 8);
-    EXPECT_EQ(after.a.picture_count(), 2);
+    EXPECT_EQ(after.a.count(), 2);
     EXPECT_EQ(after.a.mean().pixels, before.a.mean().pixels);
     EXPECT_EQ(after.b.mean().pixels, before.b.mean().pixels);
     // Frames that are added later continue the stored mean and variance.
     study::StoredReference longer = before;
-    for (measure::PictureMean* mean : {&after.b, &longer.b})
-        mean->add_picture(draw_random_picture(30));
+    for (measure::PictureMean* mean : {&after.b, &longer.b}) mean->add(draw_random_picture(30));
     for (std::size_t i = 0; i < 15; ++i)
         for (int channel = 0; channel < 3; ++channel) {
             EXPECT_NEAR(after.b.mean().pixels[i][channel], longer.b.mean().pixels[i][channel],

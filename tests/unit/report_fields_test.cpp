@@ -23,7 +23,7 @@ namespace {
 using namespace catoptric::report;
 using catoptric::measure::Difference;
 using catoptric::measure::LightEdgeErrors;
-using catoptric::measure::LookupErrorSummary;
+using catoptric::measure::LookupSummary;
 using catoptric::measure::Mean;
 using catoptric::measure::SampleSummary;
 using nlohmann::json;
@@ -86,7 +86,7 @@ public:
         fill_next_value(row.traced_fraction.emplace(), "/traced_fraction", "traced_fraction");
         fill_next_value(row.mean, "/mean", "mean");
         fill_next_value(row.mean_clamped, "/mean_clamped", "mean_clamped");
-        row.lookup = std::make_shared<LookupErrorSummary>();
+        row.lookup = std::make_shared<LookupSummary>();
         set_distinct_lookup_errors(*row.lookup);
         row.light_edges = std::make_shared<LightEdgeErrors>();
         fill_light_edges(*row.light_edges);
@@ -153,7 +153,7 @@ private:
         fill_next_value(mean.rgb.y, pointer + "/1", column_part_name(column, "g"));
         fill_next_value(mean.rgb.z, pointer + "/2", column_part_name(column, "b"));
     }
-    void set_distinct_lookup_errors(LookupErrorSummary& lookup) {
+    void set_distinct_lookup_errors(LookupSummary& lookup) {
         fill_next_value(lookup.pixels, "/lookup/pixels", "lookup_pixels");
         fill_next_value(lookup.mean_degrees, "/lookup/mean_degrees", "lookup_mean_degrees");
         fill_next_value(lookup.p95_degrees, "/lookup/p95_degrees", "lookup_p95_degrees");
@@ -179,7 +179,7 @@ private:
                         "/causes/squared_error_per_mirror/0", "causes_squared_error_per_mirror#0");
         causes.list.resize(2);
         for (std::size_t i = 0; i < 2; ++i) {
-            ErrorCauseShare& cause = causes.list[i];
+            CauseShare& cause = causes.list[i];
             const std::string at = "/causes/list/" + std::to_string(i);
             cause.name = i == 0 ? "one" : "other";
             const std::string column = "causes_list_" + cause.name;
@@ -265,7 +265,7 @@ TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
     EXPECT_EQ(document["rows"][0]["noisy"], false);
     Comparison made = sample::make_usual_comparison();
     made.load_start = std::nan("");
-    made.rows[0].gpu_ms = catoptric::measure::summarise_samples(std::vector<double>{1, 2});
+    made.rows[0].gpu_ms = catoptric::measure::summarise(std::vector<double>{1, 2});
     const json without = json::parse(to_json(made));
     EXPECT_TRUE(without["load"][0].is_null());
     EXPECT_TRUE(without["rows"][0]["gpu_ms"]["ci95"].is_null());
@@ -453,7 +453,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     EXPECT_EQ(by_mirror.rows[0].size(), by_mirror.columns.size());
     EXPECT_EQ(by_mirror.rows[1].size(), by_mirror.columns.size());
 
-    const LookupErrorSummary& lookup = *row.lookup;
+    const LookupSummary& lookup = *row.lookup;
     EXPECT_EQ(cells_of_table_row_by_column(
                   make_lookup_table(make_comparison_of_distinct_figures(filler)), 0),
               (std::map<std::string, std::string>{

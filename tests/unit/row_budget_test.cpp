@@ -33,7 +33,7 @@ std::string label_of_row_or_none(const measure::Row* found) {
 std::string label_of_best_row_within_budget(double max_ms, double max_flip) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.max_ms = max_ms, made.max_flip = max_flip;
-    return label_of_row_or_none(measure::find_best_rows_within_budget(made).row);
+    return label_of_row_or_none(measure::find_best_rows(made).row);
 }
 
 TEST(RowBudget, TimeBudgetChoosesTheClosestRowInTime) {
@@ -56,13 +56,13 @@ TEST(RowBudget, BudgetOfRmseChoosesTheFastestRowThatIsCloseEnough) {
     for (measure::Row& row : made.rows) row.error.rmse = .1;
     made.rows[3].error.rmse = .02; // the slow row
     made.max_rmse = .05;
-    EXPECT_EQ(label_of_row_or_none(measure::find_best_rows_within_budget(made).row), "slow");
+    EXPECT_EQ(label_of_row_or_none(measure::find_best_rows(made).row), "slow");
     EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("Within rmse 0.05 on card: slow"));
     made.max_flip = .15, made.max_rmse = .1;
-    EXPECT_EQ(label_of_row_or_none(measure::find_best_rows_within_budget(made).row), "middle")
+    EXPECT_EQ(label_of_row_or_none(measure::find_best_rows(made).row), "middle")
         << "the fast row keeps rmse alone";
     made.rows[1].error.rmse = .03, made.max_flip = NAN, made.max_rmse = .01;
-    const measure::BestRowsWithinBudget none = measure::find_best_rows_within_budget(made);
+    const measure::BestRows none = measure::find_best_rows(made);
     EXPECT_EQ(none.row, nullptr);
     EXPECT_EQ(label_of_row_or_none(none.nearest), "slow") << "the closest by rmse";
 }
@@ -77,12 +77,12 @@ TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.rows[2].gpu_ms = make_time_samples(5, .1); // rounds from 4.5 to 5.5 ms
     made.max_ms = 5.2;
-    const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);
+    const measure::BestRows found = measure::find_best_rows(made);
     EXPECT_EQ(label_of_row_or_none(found.row), "fast");
     ASSERT_EQ(found.undecided.size(), 1u);
     EXPECT_EQ(label_of_row_or_none(found.undecided[0]), "middle");
     made.max_flip = .05;
-    EXPECT_TRUE(measure::find_best_rows_within_budget(made).undecided.empty()) << "too far off";
+    EXPECT_TRUE(measure::find_best_rows(made).undecided.empty()) << "too far off";
 }
 
 TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
@@ -91,7 +91,7 @@ TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
                                                        // round
     made.rows[2].gpu_ms = make_time_samples(5, .1), made.rows[4].gpu_ms = make_time_samples(5, -.1);
     made.max_flip = .15;
-    const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);
+    const measure::BestRows found = measure::find_best_rows(made);
     EXPECT_EQ(label_of_row_or_none(found.row), "middle");
     EXPECT_TRUE(found.equal.empty());
     ASSERT_EQ(found.open.size(), 1u);
@@ -105,7 +105,7 @@ TEST(RowBudget, FailedRowsAreNeverChosen) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.rows[3].error.nonfinite = 1;
     made.max_flip = .05;
-    EXPECT_EQ(measure::find_best_rows_within_budget(made).row, nullptr);
+    EXPECT_EQ(measure::find_best_rows(made).row, nullptr);
 }
 
 TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {

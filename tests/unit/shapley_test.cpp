@@ -25,10 +25,9 @@ constexpr std::uint32_t kAllPlayersCoalition = 31;
 std::vector<double> list_worths_of_players(const std::function<double(std::uint32_t)>& value) {
     ShapleyValues shapley(kPlayerCount, 1);
     for (std::uint32_t c = kAllPlayersCoalition + 1; c-- > 0;)
-        shapley.add_coalition_value(c, std::vector{value(c)});
+        shapley.add(c, std::vector{value(c)});
     std::vector<double> worths;
-    for (std::size_t i = 0; i < kPlayerCount; ++i)
-        worths.push_back(shapley.shapley_values_of_player(i)[0]);
+    for (std::size_t i = 0; i < kPlayerCount; ++i) worths.push_back(shapley.worth(i)[0]);
     return worths;
 }
 
@@ -92,34 +91,31 @@ TEST(Shapley, PlayersWithEqualEffectAreWorthTheSame) {
 TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
     ShapleyValues market(3, 1);
     for (std::uint32_t c = 0; c < 8; ++c)
-        market.add_coalition_value(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
-    EXPECT_NEAR(market.shapley_values_of_player(0)[0], 1.0 / 6, 1e-15);
-    EXPECT_NEAR(market.shapley_values_of_player(1)[0], 1.0 / 6, 1e-15);
-    EXPECT_NEAR(market.shapley_values_of_player(2)[0], 2.0 / 3, 1e-15);
+        market.add(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
+    EXPECT_NEAR(market.worth(0)[0], 1.0 / 6, 1e-15);
+    EXPECT_NEAR(market.worth(1)[0], 1.0 / 6, 1e-15);
+    EXPECT_NEAR(market.worth(2)[0], 2.0 / 3, 1e-15);
 }
 
 TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
     ShapleyValues games(2, 2);
-    games.add_coalition_value(0b11, std::vector{5.0, 1.0});
-    games.add_coalition_value(0b00, std::vector{0.0, 1.0});
-    games.add_coalition_value(0b10, std::vector{1.0, 1.0});
-    games.add_coalition_value(0b01, std::vector{2.0, 3.0});
-    EXPECT_EQ(games.shapley_values_of_player(0), (std::vector{3.0, 1.0}));
-    EXPECT_EQ(games.shapley_values_of_player(1), (std::vector{2.0, -1.0}));
+    games.add(0b11, std::vector{5.0, 1.0});
+    games.add(0b00, std::vector{0.0, 1.0});
+    games.add(0b10, std::vector{1.0, 1.0});
+    games.add(0b01, std::vector{2.0, 3.0});
+    EXPECT_EQ(games.worth(0), (std::vector{3.0, 1.0}));
+    EXPECT_EQ(games.worth(1), (std::vector{2.0, -1.0}));
 }
 
 TEST(Shapley, InvalidCoalitionsAndPlayerCountsAreRefused) {
     ShapleyValues shapley(2, 1);
     const std::vector<double> value{1};
-    shapley.add_coalition_value(0, value), shapley.add_coalition_value(1, value),
-        shapley.add_coalition_value(3, value);
+    shapley.add(0, value), shapley.add(1, value), shapley.add(3, value);
     for (const auto& [action, words] : std::vector<std::pair<std::function<void()>, std::string>>{
-             {[&] { shapley.shapley_values_of_player(0); }, "coalition 2 of 2 players is missing"},
-             {[&] { shapley.add_coalition_value(3, value); }, "coalition 3 came twice"},
-             {[&] { shapley.add_coalition_value(4, value); },
-              "coalition 4 of 2 players: wanted a number below 4"},
-             {[&] { shapley.add_coalition_value(2, {}); },
-              "coalition 2: wanted values of 1 games, found 0"},
+             {[&] { shapley.worth(0); }, "coalition 2 of 2 players is missing"},
+             {[&] { shapley.add(3, value); }, "coalition 3 came twice"},
+             {[&] { shapley.add(4, value); }, "coalition 4 of 2 players: wanted a number below 4"},
+             {[&] { shapley.add(2, {}); }, "coalition 2: wanted values of 1 games, found 0"},
              {[] { ShapleyValues(17, 1); }, "wanted 1 to 16 players, found 17"}})
         test::expect_error(action, Failure::internal, {words});
 }

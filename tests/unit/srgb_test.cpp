@@ -19,9 +19,9 @@ TEST(Srgb, EightBitTableAgreesWithTheFormula) {
     std::uniform_real_distribution<double> even(0, 1), exponent(-40, 0);
     for (int i = 0; i < 200'000; ++i)
         for (const double linear : {even(random), std::exp2(exponent(random))})
-            ASSERT_EQ(srgb_rounded_to_8_bits(linear), srgb_code_by_exact_formula(linear)) << linear;
-    EXPECT_EQ(srgb_rounded_to_8_bits(0), 0.F);
-    EXPECT_EQ(srgb_rounded_to_8_bits(1), 1.F);
+            ASSERT_EQ(rounded_srgb(linear), srgb_code_by_exact_formula(linear)) << linear;
+    EXPECT_EQ(rounded_srgb(0), 0.F);
+    EXPECT_EQ(rounded_srgb(1), 1.F);
 }
 
 // Tests the values at which the 8-bit code changes, and the doubles just below and above.
@@ -30,7 +30,7 @@ TEST(Srgb, EightBitTableChangesCodeWhereTheFormulaDoes) {
         const double middle = linear_from_srgb((code + .5) / 255);
         for (double linear : {middle, std::nextafter(middle, 0.0), std::nextafter(middle, 1.0),
                               middle * (1 - 1e-9), middle * (1 + 1e-9)})
-            EXPECT_EQ(srgb_rounded_to_8_bits(linear), srgb_code_by_exact_formula(linear)) << code;
+            EXPECT_EQ(rounded_srgb(linear), srgb_code_by_exact_formula(linear)) << code;
     }
 }
 

@@ -16,43 +16,38 @@ StressRow make_stress_row(std::vector<StressCase> cases) {
 }
 
 TEST(StressRow, WorstCaseIsTheOneFurthestBeyondItsLimit) {
-    EXPECT_EQ(make_stress_row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}})
-                  .worst_stress_case()
-                  ->what,
-              "all");
-    EXPECT_EQ(make_stress_row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}})
-                  .worst_stress_case()
-                  ->what,
-              "over nothing");
     EXPECT_EQ(
-        make_stress_row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst_stress_case()->what,
-        "no number");
+        make_stress_row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst_case()->what,
+        "all");
+    EXPECT_EQ(make_stress_row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst_case()->what,
+              "over nothing");
+    EXPECT_EQ(make_stress_row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst_case()->what,
+              "no number");
     EXPECT_EQ(make_stress_row({{"ugly", 100, 1, true}, {"wrong", 1.1, 1}, {"fine", 1, 1}})
-                  .worst_stress_case()
+                  .worst_case()
                   ->what,
               "wrong");
-    EXPECT_EQ(make_stress_row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst_stress_case()->what,
-              "ugly");
-    EXPECT_EQ(make_stress_row({}).worst_stress_case(), nullptr);
+    EXPECT_EQ(make_stress_row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst_case()->what, "ugly");
+    EXPECT_EQ(make_stress_row({}).worst_case(), nullptr);
 }
 
 TEST(StressCase, StressCaseThatMeasuresNanFails) {
-    EXPECT_FALSE((StressCase{"", std::nan(""), 1}).is_case_within_limit());
-    EXPECT_TRUE((StressCase{"", 0, 0}).is_case_within_limit());
-    EXPECT_FALSE((StressCase{"", 1e-300, 0}).is_case_within_limit());
+    EXPECT_FALSE((StressCase{"", std::nan(""), 1}).is_within_limit());
+    EXPECT_TRUE((StressCase{"", 0, 0}).is_within_limit());
+    EXPECT_FALSE((StressCase{"", 1e-300, 0}).is_within_limit());
 }
 
 TEST(Stress, StressFailsIfOneOfItsRowsFails) {
     StressResults stress;
     stress.rows = {make_stress_row({}), make_stress_row({})};
-    EXPECT_FALSE(stress.has_failed_stress_row());
+    EXPECT_FALSE(stress.has_failed_row());
     for (const StressVerdict verdict :
          {StressVerdict::quality_warning, StressVerdict::unsupported, StressVerdict::waived}) {
         stress.rows[1].verdict = verdict;
-        EXPECT_FALSE(stress.has_failed_stress_row()) << stress_verdict_name(verdict);
+        EXPECT_FALSE(stress.has_failed_row()) << verdict_name(verdict);
     }
     stress.rows[1].verdict = StressVerdict::fail;
-    EXPECT_TRUE(stress.has_failed_stress_row());
+    EXPECT_TRUE(stress.has_failed_row());
 }
 
 /// A case that the device's limits do not allow has no figure and does not count as passed.
@@ -62,7 +57,7 @@ TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
     stress.rows[0].verdict = StressVerdict::unsupported;
     stress.rows[0].remark = "the device allows max_memory = 5";
     stress.rows[1].not_run = {{"edge 16384", "allows max_size = 8192"}};
-    EXPECT_THAT(stress.list_stress_parts_not_run(),
+    EXPECT_THAT(stress.parts_not_run(),
                 testing::ElementsAre("N1: the device allows max_memory = 5",
                                      "N1, edge 16384: allows max_size = 8192"));
     const nlohmann::json rows = nlohmann::json::parse(to_json(stress))["rows"];

@@ -1,4 +1,4 @@
-// Tests of measure::summarise_error_causes, which sums the causes of each pixel's error to the
+// Tests of measure::summarise_causes, which sums the causes of each pixel's error to the
 // causes of a row's error.
 #include "measure/causes.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace catoptric;
 using measure::Causes;
-using measure::PixelErrorCause;
+using measure::PixelCause;
 
 constexpr std::uint32_t make_first_and_second_hit_word(std::uint32_t first, std::uint32_t second) {
     return first | second << 16;
@@ -31,18 +31,18 @@ const std::array<std::uint32_t, 5> kSumUpHits{
     make_first_and_second_hit_word(2, 1), make_first_and_second_hit_word(3, 0),
     make_first_and_second_hit_word(3, 3)};
 const std::vector<double> kFirstCauseWhole{.5, .25, 0, .25};
-const std::vector<PixelErrorCause> kTestErrorCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, .25}},
-                                                    {"other", {-.25, .25, -.25, 0}, {0, 0, 0, -1}},
-                                                    {"rest", {0, 0, 0, .125}, {}}};
+const std::vector<PixelCause> kTestErrorCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, .25}},
+                                               {"other", {-.25, .25, -.25, 0}, {0, 0, 0, -1}},
+                                               {"rest", {0, 0, 0, .125}, {}}};
 const measure::Mask kOffPixelMask{1, 1, 1, 0, 1};
 
 TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
-    const Causes causes = measure::summarise_error_causes(kSumUpHits, kOffPixelMask,
-                                                          kFirstCauseWhole, kTestErrorCauses);
+    const Causes causes = measure::summarise_causes(kSumUpHits, kOffPixelMask, kFirstCauseWhole,
+                                                    kTestErrorCauses);
     EXPECT_EQ(causes.squared_error, .25);
     EXPECT_EQ(causes.squared_error_per_mirror, (std::vector{.5, .25, .125}));
     ASSERT_EQ(causes.list.size(), 3U);
-    const measure::ErrorCauseShare& one = causes.list[0];
+    const measure::CauseShare& one = causes.list[0];
     EXPECT_EQ(one.name, "one");
     EXPECT_EQ(one.squared_error, 1.125 / 4);
     EXPECT_EQ(one.share, 1.125);
@@ -61,17 +61,17 @@ TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
 TEST(SumUp, LargestCauseIsNamedForPixelsThatAreOff) {
     // The pixels in order: no mirror; cause `one`; cause `other`; a pixel that is not off; cause
     // `one`, which is as large as `rest` but comes first.
-    EXPECT_EQ(measure::summarise_error_causes(kSumUpHits, kOffPixelMask, kFirstCauseWhole,
-                                              kTestErrorCauses)
-                  .largest,
-              (std::vector<std::uint8_t>{0, 1, 2, 0, 1}));
+    EXPECT_EQ(
+        measure::summarise_causes(kSumUpHits, kOffPixelMask, kFirstCauseWhole, kTestErrorCauses)
+            .largest,
+        (std::vector<std::uint8_t>{0, 1, 2, 0, 1}));
 }
 
 TEST(SumUp, PixelsThatAreNotFiniteAreLeftOut) {
-    std::vector<PixelErrorCause> causes = kTestErrorCauses;
+    std::vector<PixelCause> causes = kTestErrorCauses;
     causes[1].alone[0] = INFINITY;
-    const Causes found = measure::summarise_error_causes(kSumUpHits, kOffPixelMask,
-                                                         kFirstCauseWhole, causes);
+    const Causes found = measure::summarise_causes(kSumUpHits, kOffPixelMask, kFirstCauseWhole,
+                                                   causes);
     EXPECT_EQ(found.squared_error, .5 / 3);
     EXPECT_EQ(found.squared_error_per_mirror, (std::vector{0.0, .25, .125}));
     EXPECT_EQ(found.list[0].squared_error, .375 / 3);
@@ -80,24 +80,21 @@ TEST(SumUp, PixelsThatAreNotFiniteAreLeftOut) {
 
 TEST(SumUp, RowWithoutErrorHasNoShares) {
     const std::vector<double> none(4);
-    const Causes found = measure::summarise_error_causes(kSumUpHits, measure::Mask(5), none,
-                                                         {{"rest", none, {}}});
+    const Causes found = measure::summarise_causes(kSumUpHits, measure::Mask(5), none,
+                                                   {{"rest", none, {}}});
     EXPECT_EQ(found.squared_error, 0);
     EXPECT_TRUE(std::isnan(found.list[0].share));
     EXPECT_EQ(found.rest_rmse, 0);
-    EXPECT_TRUE(measure::summarise_error_causes({}, {}, {}, {{"rest", {}, {}}}).list.empty());
+    EXPECT_TRUE(measure::summarise_causes({}, {}, {}, {{"rest", {}, {}}}).list.empty());
 }
 
 TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
     for (const auto& [causes, words] :
-         {std::pair(std::vector<PixelErrorCause>{{"one", {1, 2}, {}}},
+         {std::pair(std::vector<PixelCause>{{"one", {1, 2}, {}}},
                     "one: wanted values of 4 mirror pixels, found 2"),
           {{{"one", {1, 2, 3, 4}, {1}}}, "one alone: wanted values of 4 mirror pixels, found 1"}})
         test::expect_error(
-            [&] {
-                measure::summarise_error_causes(kSumUpHits, kOffPixelMask, kFirstCauseWhole,
-                                                causes);
-            },
+            [&] { measure::summarise_causes(kSumUpHits, kOffPixelMask, kFirstCauseWhole, causes); },
             Failure::internal, {words});
 }
 

@@ -39,7 +39,7 @@ const measure::RegisteredMetric kRednessTestMetric{
      .unit = "parts",
      .help = "red of the first pixel",
      .better = measure::BetterDirection::more,
-     .columns = {{"(test) redness", measure::MetricValueFormat::fixed, 2}},
+     .columns = {{"(test) redness", measure::ValueFormat::fixed, 2}},
      .get = [](const measure::Row& row) -> MetricValue {
          return row.hdr.pixels.empty() ? measure::Difference::kNone : row.hdr.pixels[0].x;
      }}};
@@ -47,7 +47,7 @@ const measure::RegisteredMetric kRednessTestMetric{
 const measure::RegisteredMetric kGreenerTestMetric{
     {.name = "test_only_greener",
      .help = "pixels of the mask in which a is greener than b",
-     .columns = {{"(test) greener", measure::MetricValueFormat::fixed}},
+     .columns = {{"(test) greener", measure::ValueFormat::fixed}},
      .get = [](const measure::PicturePair& compared) {
          double count = 0;
          for (std::size_t i = 0; i < compared.a.pixels.size(); ++i)
@@ -92,11 +92,11 @@ const study::RegisteredStudy kTestOnlyStudy{
      .run =
          [](const study::StudyInput& input) {
              for (measure::Row& row : input.comparison.rows)
-                 measure::set_row_metric_of_study(row, "test_only_half", input.count / 2.0);
+                 measure::set_study_metric(row, "test_only_half", input.count / 2.0);
          },
      .metrics = {{.name = "test_only_half",
                   .help = "half of the number",
-                  .columns = {{"(test) half", measure::MetricValueFormat::fixed, 3}}}},
+                  .columns = {{"(test) half", measure::ValueFormat::fixed, 3}}}},
      .part = {.tables = [](const measure::Comparison& comparison) {
          report::ReportTable table{"(test) studied", {"(test) rows"}};
          if (std::ranges::count(comparison.studies, "test-only") > 0)
@@ -116,7 +116,7 @@ measure::Row make_row_of_colour(const vec3& colour) {
 
 TEST(Tables, MetricsAndStudiesSayWhatTheyAre) {
     int units = 0;
-    for (const measure::Metric& metric : measure::list_metrics()) {
+    for (const measure::Metric& metric : measure::metrics()) {
         EXPECT_FALSE(metric.help.empty()) << metric.name;
         for (const std::string_view unit : {"ms", "bytes", "degrees"})
             if (metric.name.ends_with("_" + std::string(unit))) {
@@ -162,7 +162,7 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
     made.studies = {"test-only"};
     EXPECT_TRUE(json::parse(report::to_json(made))["rows"][0]["test_only_half"].is_null())
         << "the study has not run yet";
-    measure::set_row_metric_of_study(made.rows[0], "test_only_half", 1.5);
+    measure::set_study_metric(made.rows[0], "test_only_half", 1.5);
     EXPECT_EQ(json::parse(report::to_json(made))["rows"][0]["test_only_half"], 1.5);
     EXPECT_THAT(report::to_csv(made), HasSubstr(",test_only_half,"));
     for (const std::string& text : {report::to_markdown(made), report::to_html(made)}) {
@@ -195,7 +195,7 @@ TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
     const std::vector<float> map(2, 0.F);
     const auto greener = [&](const measure::Mask& mask) {
         const measure::Difference found = measure::difference(green, black, mask, map);
-        const auto& table = measure::list_difference_metrics();
+        const auto& table = measure::difference_metrics();
         const auto row = std::ranges::find(table, "test_only_greener", &measure::Metric::name);
         return std::get<double>(measure::metric_value(*row, found));
     };
@@ -205,7 +205,7 @@ TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
 }
 
 TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
-    const auto& table = measure::list_metrics();
+    const auto& table = measure::metrics();
     EXPECT_TRUE(std::ranges::is_sorted(table, {}, &measure::Metric::order));
     const auto find = [&](std::string_view name) {
         return *std::ranges::find(table, name, &measure::Metric::name);

@@ -30,7 +30,7 @@ constexpr int kRoundsOfDrawnRows = 6;
 void set_rounds(Row& row, const std::vector<double>& rounds) {
     std::vector<std::vector<double>> frames;
     for (const double round : rounds) frames.push_back({round});
-    row.gpu_ms = measure::summarise_samples(frames);
+    row.gpu_ms = measure::summarise(frames);
 }
 
 /// Draws rows whose times vary by normal noise, and whose true times and errors are given by
@@ -50,7 +50,7 @@ Comparison draw_table(std::mt19937_64& random, std::size_t count, double deviati
         set_rounds(rows.back(), rounds);
     }
     Comparison made = report::sample::make_comparison(std::move(rows));
-    made.pareto = measure::find_pareto_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front(made.rows);
     return made;
 }
 
@@ -122,7 +122,7 @@ TEST(Verdict, WideIntervalsGiveNoVerdict) {
               "On this device, Card, cannot tell whether ray tracing beats another row: 6 of 6 "
               "rows may be fastest.");
     std::erase_if(made.rows, [](const Row& row) { return row.technique == "raytrace"; });
-    made.pareto = measure::find_pareto_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front(made.rows);
     EXPECT_THAT(report::summarise_ray_tracing_verdict(made),
                 HasSubstr("On this device, Card, cannot tell: 3 of 3 rows may be fastest, closest "
                           "is "));
@@ -139,7 +139,7 @@ TEST(Verdict, LessErrorDoesNotBeatATimeThatCannotBeTold) {
     EXPECT_TRUE(judge.is_open(closer, other));
     EXPECT_FALSE(judge.is_open(other, closer)) << "it errs more, so it cannot beat";
     const Comparison made = report::sample::make_comparison({closer, other});
-    EXPECT_EQ(measure::find_pareto_front_of_rows(made.rows).size(), 2u);
+    EXPECT_EQ(measure::find_pareto_front(made.rows).size(), 2u);
 }
 
 /// Draws tables in which times and errors lie close together, so that rows are equal, better and
@@ -185,7 +185,7 @@ TEST(Verdict, VerdictsDoNotContradictEachOther) {
         // A row that is beaten, unbeaten or open is in one list alone.
         const measure::RayTracingVerdict verdict = measure::find_ray_tracing_verdict(made);
         EXPECT_EQ(verdict.others(), 6u);
-        for (const Row* row : verdict.beaten) EXPECT_FALSE(measure::is_on_pareto_front(made, *row));
+        for (const Row* row : verdict.beaten) EXPECT_FALSE(measure::is_on_front(made, *row));
     }
 }
 
@@ -227,7 +227,7 @@ std::multiset<std::string> describe_verdicts(const Comparison& made) {
     add("front ", measure::rank_rows(made).front);
     add("open front ", measure::rank_rows(made).open);
     for (const Row& row : made.rows) {
-        const measure::TimeRankRange place = measure::find_time_rank_range_of_row(made, row);
+        const measure::RankRange place = measure::find_rank_range(made, row);
         said.insert(row.label + " " + std::to_string(place.first) + "-" +
                     std::to_string(place.last));
     }
@@ -240,7 +240,7 @@ TEST(Verdict, OrderOfRowsDoesNotMatter) {
         Comparison made = draw_close_table(random);
         const std::multiset<std::string> said = describe_verdicts(made);
         std::ranges::shuffle(made.rows, random);
-        made.pareto = measure::find_pareto_front_of_rows(made.rows);
+        made.pareto = measure::find_pareto_front(made.rows);
         EXPECT_EQ(describe_verdicts(made), said);
     }
 }
@@ -252,11 +252,11 @@ TEST(Verdict, PlacesBudgetAndSentenceAgree) {
         Comparison made = draw_close_table(random);
         const measure::FastestRows fastest = measure::find_fastest_rows(made);
         for (const Row& row : made.rows)
-            EXPECT_EQ(measure::find_time_rank_range_of_row(made, row).first == 1,
+            EXPECT_EQ(measure::find_rank_range(made, row).first == 1,
                       std::ranges::count(fastest.rows, &row) == 1)
                 << row.label;
         made.max_flip = 1; // every row keeps it, so the answer is the fastest row
-        const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(made);
+        const measure::BestRows answer = measure::find_best_rows(made);
         EXPECT_EQ(std::ranges::count(fastest.rows, answer.row), 1);
         const std::string said = report::describe_budget_answer(made);
         EXPECT_EQ(answer.open.empty(), said.find("cannot tell which of") == said.npos);
@@ -272,12 +272,12 @@ TEST(Verdict, RowsOnAProcessorAreJudgedByProcessorTime) {
     b.cpu_ms = report::sample::make_time_samples(9);
     Comparison made = report::sample::make_comparison({a, b});
     EXPECT_THAT(report::summarise_ray_tracing_verdict(made), HasSubstr("no ray-traced row beats"));
-    EXPECT_EQ(measure::find_judged_time(made), "gpu_ms");
+    EXPECT_EQ(measure::judged_time(made), "gpu_ms");
     made.device.type = "cpu";
     for (Row& row : made.rows) row.on_processor = true;
-    made.pareto = measure::find_pareto_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{0});
-    EXPECT_EQ(measure::find_judged_time(made), "cpu_ms");
+    EXPECT_EQ(measure::judged_time(made), "cpu_ms");
     EXPECT_EQ(report::summarise_ray_tracing_verdict(made),
               "On this device, Card, by processor time, ray tracing beats every other row, 1 of "
               "1.");
@@ -313,7 +313,7 @@ TEST(Verdict, NoMarkLiesLeftOfTheDrawnFrontAndBelow) {
         set_rounds(made.rows[1], std::vector<double>(kRoundsOfDrawnRows, 1));
         made.rows[2].error.flip = made.rows[3].error.flip - .001; // equal, and slower
         set_rounds(made.rows[2], std::vector<double>(kRoundsOfDrawnRows, 20));
-        made.pareto = measure::find_pareto_front_of_rows(made.rows);
+        made.pareto = measure::find_pareto_front(made.rows);
         const std::string svg = report::make_comparison_plot(made);
         EXPECT_THAT(svg, Not(HasSubstr("<title>" + made.rows[1].label + ":")));
         std::smatch path;

@@ -66,38 +66,38 @@ Comparison make_comparison_with_views(std::vector<Row> rows) {
 TEST(Views, EqualRowsTieOverViews) {
     const Row row = make_row_with_view_flips("a", kFlipOfEachView);
     for (const char* figure : {"flip", "off", "mae", "rmse"})
-        EXPECT_FALSE(measure::do_rows_differ_over_views(row, row, figure)) << figure;
+        EXPECT_FALSE(measure::rows_differ(row, row, figure)) << figure;
 }
 
 /// The two rows differ by 1e-6 in each view. The views differ from each other by far more.
 TEST(Views, RowThatIsSlightlyWorseInEachViewDoesNotTie) {
     const Row a = make_row_with_view_flips("a", kFlipOfEachView),
               b = make_row_with_view_flips("b", add_to_all_values(kFlipOfEachView, 1e-6));
-    EXPECT_TRUE(measure::do_rows_differ_over_views(a, b, "flip"));
-    EXPECT_TRUE(measure::do_rows_differ_over_views(b, a, "flip"));
-    EXPECT_LT(measure::metric_difference_interval_over_views(a, b, "flip").high, 0);
-    EXPECT_GT(measure::metric_difference_interval_over_views(b, a, "flip").low, 0);
+    EXPECT_TRUE(measure::rows_differ(a, b, "flip"));
+    EXPECT_TRUE(measure::rows_differ(b, a, "flip"));
+    EXPECT_LT(measure::metric_difference_interval(a, b, "flip").high, 0);
+    EXPECT_GT(measure::metric_difference_interval(b, a, "flip").low, 0);
 }
 
 TEST(Views, OneOutlierDoesNotBreakATie) {
     std::vector<double> flips = kFlipOfEachView;
     flips[4] = .99;
-    EXPECT_FALSE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
-                                                    make_row_with_view_flips("b", flips), "flip"));
+    EXPECT_FALSE(measure::rows_differ(make_row_with_view_flips("a", kFlipOfEachView),
+                                      make_row_with_view_flips("b", flips), "flip"));
     // With many views, one outlier does not hide a difference that all other views show.
     std::vector<double> many(30, .1), more(30, .11);
     more[7] = 0;
-    EXPECT_TRUE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", many),
-                                                   make_row_with_view_flips("b", more), "flip"));
+    EXPECT_TRUE(measure::rows_differ(make_row_with_view_flips("a", many),
+                                     make_row_with_view_flips("b", more), "flip"));
 }
 
 TEST(Views, TooFewViewsAlwaysTie) {
     const std::vector<double> five(kFlipOfEachView.begin(), kFlipOfEachView.begin() + 5);
-    EXPECT_FALSE(measure::do_rows_differ_over_views(
-        make_row_with_view_flips("a", five),
-        make_row_with_view_flips("b", add_to_all_values(five, .1)), "flip"));
-    EXPECT_FALSE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
-                                                    make_row_with_view_flips("b", {}), "flip"))
+    EXPECT_FALSE(measure::rows_differ(make_row_with_view_flips("a", five),
+                                      make_row_with_view_flips("b", add_to_all_values(five, .1)),
+                                      "flip"));
+    EXPECT_FALSE(measure::rows_differ(make_row_with_view_flips("a", kFlipOfEachView),
+                                      make_row_with_view_flips("b", {}), "flip"))
         << "of a run cut short";
 }
 
@@ -105,15 +105,15 @@ TEST(Views, TooFewViewsAlwaysTie) {
 TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
     std::vector<double> holed = add_to_all_values(kFlipOfEachView, 1e-3);
     holed[0] = test::kDoubleNan;
-    EXPECT_TRUE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
-                                                   make_row_with_view_flips("b", holed), "flip"));
+    EXPECT_TRUE(measure::rows_differ(make_row_with_view_flips("a", kFlipOfEachView),
+                                     make_row_with_view_flips("b", holed), "flip"));
     holed[1] = holed[2] = test::kDoubleNan; // five views are left, too few
-    EXPECT_FALSE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
-                                                    make_row_with_view_flips("b", holed), "flip"));
-    const measure::Metric& flip = *std::ranges::find(measure::list_difference_metrics(), "flip",
+    EXPECT_FALSE(measure::rows_differ(make_row_with_view_flips("a", kFlipOfEachView),
+                                      make_row_with_view_flips("b", holed), "flip"));
+    const measure::Metric& flip = *std::ranges::find(measure::difference_metrics(), "flip",
                                                      &measure::Metric::name);
-    const measure::MetricOverViews found = measure::compute_metric_over_views(
-        make_row_with_view_flips("b", holed), measure::list_row_masks().front(), flip);
+    const measure::MetricOverViews found = measure::metric_over_views(
+        make_row_with_view_flips("b", holed), measure::row_masks().front(), flip);
     EXPECT_EQ(found.values.size(), 8u);
     EXPECT_NEAR(found.median, .181, 1e-12);
     EXPECT_FALSE(found.ci95.is_known());
@@ -121,21 +121,20 @@ TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
 
 TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
     const Row a = sample::make_row("a", 5, .1, .2), b = sample::make_row("b", 5, .1, .2000001);
-    EXPECT_TRUE(measure::do_rows_differ_over_views(a, b, "flip"));
-    EXPECT_FALSE(measure::do_rows_differ_over_views(a, b, "rmse"));
+    EXPECT_TRUE(measure::rows_differ(a, b, "flip"));
+    EXPECT_FALSE(measure::rows_differ(a, b, "rmse"));
     Row unknown = a;
     unknown.error = {};
-    EXPECT_FALSE(measure::do_rows_differ_over_views(a, unknown, "flip"));
+    EXPECT_FALSE(measure::rows_differ(a, unknown, "flip"));
 }
 
 TEST(Views, MetricsThatAreNoNumberOfADifferenceAreRefused) {
     const Row row = make_row_with_view_flips("a", kFlipOfEachView);
     for (const char* name : {"max_at", "gpu_ms", "flop"})
-        EXPECT_THAT(
-            test::catch_error_text(Failure::internal,
-                                   [&] { measure::do_rows_differ_over_views(row, row, name); }),
-            HasSubstr("'" + std::string(name) +
-                      "': wanted a figure of a difference that is a number"));
+        EXPECT_THAT(test::catch_error_text(Failure::internal,
+                                           [&] { measure::rows_differ(row, row, name); }),
+                    HasSubstr("'" + std::string(name) +
+                              "': wanted a figure of a difference that is a number"));
 }
 
 TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
@@ -175,10 +174,10 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
     Comparison made = make_comparison_with_views(
         {make_row_with_view_flips("low", low), make_row_with_view_flips("less", less)});
     made.views.resize(low.size());
-    const measure::MetricRowOrder order = measure::order_rows_over_views(made).front();
-    const measure::RowPixelMask& mirrors = measure::list_row_masks().front();
-    EXPECT_LT(measure::compute_metric_over_views(made.rows[0], mirrors, *order.figure).median,
-              measure::compute_metric_over_views(made.rows[1], mirrors, *order.figure).median);
+    const measure::RowOrder order = measure::order_rows(made).front();
+    const measure::RowMask& mirrors = measure::row_masks().front();
+    EXPECT_LT(measure::metric_over_views(made.rows[0], mirrors, *order.figure).median,
+              measure::metric_over_views(made.rows[1], mirrors, *order.figure).median);
     EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
     EXPECT_TRUE(order.ties.empty());
     EXPECT_TRUE(order.reversed.empty());
@@ -214,7 +213,7 @@ TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
     EXPECT_EQ(flip["values"], json(kFlipOfEachView));
     EXPECT_EQ(views["worst"],
               json::parse(R"({"view": 2, "flip": 0.3, "image": "images/worst-a.png"})"));
-    for (const measure::RowPixelMask& mask : measure::list_row_masks())
+    for (const measure::RowMask& mask : measure::row_masks())
         for (const char* figure : {"flip", "off", "mae", "rmse", "longest_line", "psnr", "p99"})
             EXPECT_TRUE(views[std::string(mask.field)].contains(figure)) << mask.field << figure;
     EXPECT_TRUE(views["error_all"]["flip"]["median"].is_null()) << "nothing is known of it";
@@ -352,8 +351,7 @@ std::vector<measure::View> make_views_at_times(const std::vector<double>& times)
 /// The expected values were computed by hand: mean squares 9 between and 1/2 within two instants.
 TEST(SharedInstants, DesignEffectFollowsFromTheAnalysisOfVariance) {
     const std::vector<double> values{1, 2, 4, 5};
-    const auto found = measure::estimate_effect_of_shared_instants(
-        make_views_at_times({0, 0, 1, 1}), values);
+    const auto found = measure::estimate_shared_instants(make_views_at_times({0, 0, 1, 1}), values);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->instants, 2u);
     EXPECT_NEAR(found->design_effect, 1 + 8.5 / 9.5, 1e-12);
@@ -362,7 +360,7 @@ TEST(SharedInstants, DesignEffectFollowsFromTheAnalysisOfVariance) {
 
 TEST(SharedInstants, EqualViewsOfAnInstantCountAsOne) {
     const std::vector<double> values{.1, .1, .1, .5, .5, .5, .2, .2, .2};
-    const auto found = measure::estimate_effect_of_shared_instants(
+    const auto found = measure::estimate_shared_instants(
         make_views_at_times({0, 0, 0, 1, 1, 1, 2, 2, 2}), values);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->design_effect, 3, 1e-12);
@@ -388,8 +386,7 @@ TEST(SharedInstants, VarianceOfTheMeanIsThatOfTheEffectiveViews) {
         }
         for (const double value : values) sum += value / static_cast<double>(values.size());
         squares += sum * sum / kDraws;
-        effective += measure::estimate_effect_of_shared_instants(views, values)->effective_views /
-                     kDraws;
+        effective += measure::estimate_shared_instants(views, values)->effective_views / kDraws;
     }
     const double variance_of_view = 1 + .7 * .7;
     EXPECT_NEAR(variance_of_view / squares / effective, 1, .15);
@@ -397,15 +394,12 @@ TEST(SharedInstants, VarianceOfTheMeanIsThatOfTheEffectiveViews) {
 
 TEST(SharedInstants, IndependentViewsHaveNoDesignEffect) {
     const std::vector<double> values{.1, .2, .3, .4};
-    EXPECT_FALSE(
-        measure::estimate_effect_of_shared_instants(make_views_at_times({0, 1, 2, 3}), values))
+    EXPECT_FALSE(measure::estimate_shared_instants(make_views_at_times({0, 1, 2, 3}), values))
         << "an instant each";
-    EXPECT_FALSE(
-        measure::estimate_effect_of_shared_instants(make_views_at_times({2, 2, 2, 2}), values))
+    EXPECT_FALSE(measure::estimate_shared_instants(make_views_at_times({2, 2, 2, 2}), values))
         << "a still scene";
     const std::vector<double> holed{.1, NAN, NAN, .4};
-    EXPECT_FALSE(
-        measure::estimate_effect_of_shared_instants(make_views_at_times({0, 0, 1, 1}), holed))
+    EXPECT_FALSE(measure::estimate_shared_instants(make_views_at_times({0, 0, 1, 1}), holed))
         << "one view of each instant shows a mirror";
 }
 
