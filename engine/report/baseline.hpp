@@ -25,7 +25,7 @@ enum class BaselineVerdict : std::uint8_t {
     added,    ///< the baseline lacks this row, so nothing of it is judged
 };
 /// Returns the name of the enumerator.
-const char* baseline_verdict_name(BaselineVerdict verdict);
+const char* verdict_name(BaselineVerdict verdict);
 
 /// The verdict on one quantity of one row, with its earlier and its present value.
 struct BaselineFinding {
@@ -36,14 +36,13 @@ struct BaselineFinding {
     std::string says; ///< a sentence without the row's name
 };
 /// Returns whether the finding makes the gate fail: `worse` and `missing`.
-bool is_baseline_failure(const BaselineFinding& finding);
+bool is_failure(const BaselineFinding& finding);
 
 /// Throws `bad_data` if the baseline is no report, is incomplete, has a member of a wrong kind, or
 /// shows another scene, camera, instant, size, exposure, ambient light, way of timing or reference.
 /// An exposure that is NaN in the comparison is not compared. `json` is a report.json of
 /// one scene or of several; `file` names it in messages. The comparison may be unfinished.
-void check_baseline_matches_comparison(const Comparison& comparison, const std::string& json,
-                                       const std::string& file);
+void check_baseline(const Comparison& comparison, const std::string& json, const std::string& file);
 
 /// Judges each row of the baseline against the row with the same label and model. A row that only
 /// one of them has is said apart. The time by which the comparison judges its rows, and device
@@ -53,22 +52,19 @@ void check_baseline_matches_comparison(const Comparison& comparison, const std::
 /// divided by the same ratio. Times are `unknown` on another device, if a row was noisy, or if the
 /// interval contains the limit. Counted work, if both reports have it, must not grow by more than
 /// the same factor. A rise of FLIP below the noise of the reference counts as kept. Throws as
-/// check_baseline_matches_comparison does.
-std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison& comparison,
-                                                               const std::string& json,
-                                                               const std::string& file,
-                                                               const BaselineLimits& limits);
+/// check_baseline does.
+std::vector<BaselineFinding> judge_comparison(const Comparison& comparison, const std::string& json,
+                                              const std::string& file,
+                                              const BaselineLimits& limits);
 
 /// Returns one line for each quantity that is worse or unknown, and a last line with the number of
 /// each verdict.
-std::string format_baseline_findings(const std::vector<BaselineFinding>& findings);
+std::string format_findings(const std::vector<BaselineFinding>& findings);
 /// Returns a Markdown table of the quantities that are worse or unknown, under a heading with the
 /// verdict.
-std::string make_baseline_markdown(const std::vector<BaselineFinding>& findings,
-                                   const std::string& scene);
+std::string to_markdown(const std::vector<BaselineFinding>& findings, const std::string& scene);
 /// Returns JUnit XML: a test suite for the scene, with a test case for each quantity. A test case
 /// fails if its quantity is worse, and is skipped if the verdict is unknown.
-std::string make_baseline_junit(const std::vector<BaselineFinding>& findings,
-                                const std::string& scene);
+std::string to_junit(const std::vector<BaselineFinding>& findings, const std::string& scene);
 
 } // namespace catoptric::report

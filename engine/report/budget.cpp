@@ -14,7 +14,7 @@ namespace {
 
 using measure::Order;
 
-std::string format_row_with_interval(const Row& row) {
+std::string format_row(const Row& row) {
     const measure::SampleSummary& time = row.time_ms();
     std::string interval;
     if (time.ci95.is_known())
@@ -23,9 +23,9 @@ std::string format_row_with_interval(const Row& row) {
                        format_flip(row.error));
 }
 
-std::string format_rows_with_intervals(const std::vector<const Row*>& rows) {
+std::string format_rows(const std::vector<const Row*>& rows) {
     std::vector<std::string> texts;
-    for (const Row* row : rows) texts.push_back(format_row_with_interval(*row));
+    for (const Row* row : rows) texts.push_back(format_row(*row));
     return join_texts(texts, "; ");
 }
 
@@ -42,7 +42,7 @@ std::string format_budget_limits(const Comparison& comparison) {
 
 } // namespace
 
-std::string describe_budget_answer(const Comparison& comparison) {
+std::string describe_budget(const Comparison& comparison) {
     if (!measure::has_budget(comparison)) return "";
     const measure::BestRows answer = measure::find_best_rows(comparison);
     const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name +
@@ -51,16 +51,15 @@ std::string describe_budget_answer(const Comparison& comparison) {
     const char* least = by_time ? "time" : "FLIP";
     std::string text;
     if (answer.row != nullptr && answer.open.empty()) {
-        text = fmt::format("Within {}: {} has the least {}", where,
-                           format_row_with_interval(*answer.row), least);
+        text = fmt::format("Within {}: {} has the least {}", where, format_row(*answer.row), least);
         if (!answer.equal.empty())
-            text += fmt::format(". Equal {}: {}", least, format_rows_with_intervals(answer.equal));
+            text += fmt::format(". Equal {}: {}", least, format_rows(answer.equal));
     } else if (answer.row != nullptr) {
         std::vector<const Row*> rows{answer.row};
         rows.insert(rows.end(), answer.equal.begin(), answer.equal.end());
         rows.insert(rows.end(), answer.open.begin(), answer.open.end());
         text = fmt::format("Within {}: cannot tell which of {} rows has the least {}: {}", where,
-                           rows.size(), least, format_rows_with_intervals(rows));
+                           rows.size(), least, format_rows(rows));
     } else if (answer.nearest == nullptr) {
         return fmt::format("Within {}: no row could be judged.", where);
     } else if (!answer.undecided.empty()) {
@@ -72,11 +71,11 @@ std::string describe_budget_answer(const Comparison& comparison) {
                            !is_in_time || !by_time         ? "row with the least median time"
                            : std::isnan(comparison.max_ms) ? "closest row"
                                                            : "closest row within the time",
-                           format_row_with_interval(*answer.nearest));
+                           format_row(*answer.nearest));
     }
     if (!answer.undecided.empty())
         text += ". The interval of the time holds the limit, or is not known: " +
-                format_rows_with_intervals(answer.undecided);
+                format_rows(answer.undecided);
     return text + ".";
 }
 

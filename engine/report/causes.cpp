@@ -20,30 +20,29 @@ constexpr vec3 rgb_from_bytes(int red, int green, int blue) {
     return vec3(red, green, blue) / 255.0F;
 }
 
-const CausePictureColour kCauseColours[] = {
-    {"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
-    {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
-    {"noise", "violet", rgb_from_bytes(110, 60, 160)},
-    {"filter", "brown", rgb_from_bytes(140, 86, 75)},
-    {"distance law", "dark green", rgb_from_bytes(50, 90, 20)},
-    {"lobe shape", "crimson", rgb_from_bytes(200, 20, 60)},
-    {"direction", "blue", rgb_from_bytes(0, 114, 178)},
-    {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
-    {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
-    {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
-    {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
-    {"silhouettes", "white", vec3(1)},
-    {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
+const CauseColour kCauseColours[] = {{"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
+                                     {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
+                                     {"noise", "violet", rgb_from_bytes(110, 60, 160)},
+                                     {"filter", "brown", rgb_from_bytes(140, 86, 75)},
+                                     {"distance law", "dark green", rgb_from_bytes(50, 90, 20)},
+                                     {"lobe shape", "crimson", rgb_from_bytes(200, 20, 60)},
+                                     {"direction", "blue", rgb_from_bytes(0, 114, 178)},
+                                     {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
+                                     {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
+                                     {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
+                                     {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
+                                     {"silhouettes", "white", vec3(1)},
+                                     {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
 
 /// Kind of line in the table: its name, and the function that computes its cells as shares of the
 /// row's error.
-struct ErrorCauseTableRow {
+struct CauseTableRow {
     const char* name;
     double (*part)(const CauseShare& cause, double squared_error);
     bool adds_up;
 };
 
-constexpr ErrorCauseTableRow kCauseTableLines[] = {
+constexpr CauseTableRow kCauseTableLines[] = {
     {"all", [](const CauseShare& cause, double) { return cause.share; }, true},
     {"first order", [](const CauseShare& cause, double) { return cause.share_first_order; }, true},
     {"mirror in mirror",
@@ -58,11 +57,11 @@ constexpr const char* kRoughMirrorNote =
     "error by Shapley values. A dash means that the row has no such part. Squared errors are "
     "unbiased estimates from both halves of the reference.";
 
-std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, const Causes& causes,
-                                            const std::vector<CausePictureColour>& columns) {
+std::vector<std::string> format_cause_cells(const CauseTableRow& line, const Causes& causes,
+                                            const std::vector<CauseColour>& columns) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
-    for (const CausePictureColour& colour : columns) {
+    for (const CauseColour& colour : columns) {
         const auto cause = std::ranges::find(causes.list, colour.cause, &CauseShare::name);
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
@@ -74,30 +73,28 @@ std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, cons
     return cells;
 }
 
-const RegisteredReportPart kErrorCausesReportPart{
+const RegisteredPart kCausesPart{
     {.name = "causes",
      .order = 400,
-     .tables =
-         [](const Comparison& comparison) { return std::vector{make_cause_table(comparison)}; },
+     .tables = [](const Comparison& comparison) { return std::vector{cause_table(comparison)}; },
      .look = "causes"}};
 
 } // namespace
 
-std::span<const CausePictureColour> list_cause_colours() { return kCauseColours; }
+std::span<const CauseColour> cause_colours() { return kCauseColours; }
 
-std::vector<CausePictureColour> list_colours_of_found_causes(const Comparison& comparison) {
-    std::vector<CausePictureColour> found;
-    std::ranges::copy_if(
-        kCauseColours, std::back_inserter(found), [&](const CausePictureColour& colour) {
-            return std::ranges::any_of(comparison.rows, [&](const Row& row) {
-                return row.causes && std::ranges::find(row.causes->list, colour.cause,
-                                                       &CauseShare::name) != row.causes->list.end();
-            });
+std::vector<CauseColour> found_cause_colours(const Comparison& comparison) {
+    std::vector<CauseColour> found;
+    std::ranges::copy_if(kCauseColours, std::back_inserter(found), [&](const CauseColour& colour) {
+        return std::ranges::any_of(comparison.rows, [&](const Row& row) {
+            return row.causes && std::ranges::find(row.causes->list, colour.cause,
+                                                   &CauseShare::name) != row.causes->list.end();
         });
+    });
     return found;
 }
 
-measure::Picture make_cause_picture(const Row& row) {
+measure::Picture cause_picture(const Row& row) {
     constexpr float kUncausedErrorBrightness = .35F;
     measure::Picture picture = row.display;
     check(row.causes != nullptr, Failure::internal, "row '", row.label, "' has no causes");
@@ -109,7 +106,7 @@ measure::Picture make_cause_picture(const Row& row) {
         vec3& pixel = picture.pixels[i];
         pixel = largest[i] > 0
                     ? std::ranges::find(kCauseColours, row.causes->list.at(largest[i] - 1U).name,
-                                        &CausePictureColour::cause)
+                                        &CauseColour::cause)
                           ->colour
                     : vec3(kUncausedErrorBrightness *
                            glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
@@ -117,10 +114,10 @@ measure::Picture make_cause_picture(const Row& row) {
     return picture;
 }
 
-ReportTable make_cause_table(const Comparison& comparison) {
+ReportTable cause_table(const Comparison& comparison) {
     ReportTable table{
         "Error by cause",
-        {make_text_column("Row"), make_text_column("Over")},
+        {text_column("Row"), text_column("Over")},
         "Share of a row's squared error over the mirrors, in %: over all of their pixels, over "
         "those whose reflected ray meets no second mirror, and over the others. Causes are "
         "removed in this order: the storage format of distances, captures that are one frame "
@@ -135,18 +132,18 @@ ReportTable make_cause_table(const Comparison& comparison) {
         "images/causes-ROW.png, of pixels in which the cause has the largest part. At "
         "light edges: share of the squared error in pixels that looked within a texel of a "
         "light's outline."};
-    const std::vector<CausePictureColour> found = list_colours_of_found_causes(comparison);
-    const auto is_of_rough_mirrors = [](const CausePictureColour& colour) {
+    const std::vector<CauseColour> found = found_cause_colours(comparison);
+    const auto is_of_rough_mirrors = [](const CauseColour& colour) {
         return colour.cause == "noise";
     };
     if (std::ranges::any_of(found, is_of_rough_mirrors)) table.note += kRoughMirrorNote;
-    for (const CausePictureColour& colour : found)
+    for (const CauseColour& colour : found)
         table.columns.emplace_back(fmt::format("{} ({})", colour.cause, colour.name));
     table.columns.emplace_back("Sum");
     table.columns.emplace_back("At light edges");
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
-        for (const ErrorCauseTableRow& line : kCauseTableLines) {
+        for (const CauseTableRow& line : kCauseTableLines) {
             std::vector<std::string> cells = format_cause_cells(line, *row.causes, found);
             cells.insert(cells.begin(), &line == kCauseTableLines ? row.label : std::string());
             if (&line == kCauseTableLines)

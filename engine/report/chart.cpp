@@ -16,17 +16,16 @@ namespace catoptric::report {
 namespace {
 
 /// Returns the values and intervals of a column for these rows.
-Json make_chart_column_json(const RowMetricColumn& column, const std::vector<std::size_t>& rows) {
+Json chart_column(const RowMetricColumn& column, const std::vector<std::size_t>& rows) {
     return {{"name", column.name},
             {"values",
-             make_list_json(rows,
-                            [&](std::size_t row) { return make_number_json(column.values[row]); })},
-            {"intervals", make_list_json(rows, [&](std::size_t row) {
-                 return make_interval_json(column.intervals[row]);
+             list_json(rows, [&](std::size_t row) { return number_json(column.values[row]); })},
+            {"intervals", list_json(rows, [&](std::size_t row) {
+                 return interval_json(column.intervals[row]);
              })}};
 }
 
-Json make_chart_row_json(const Comparison& comparison, std::size_t index) {
+Json chart_row(const Comparison& comparison, std::size_t index) {
     const Row& row = comparison.rows[index];
     return {{"label", row.label},
             {"picture", index + 1}, // number of the row's picture in the comparer
@@ -38,7 +37,7 @@ Json make_chart_row_json(const Comparison& comparison, std::size_t index) {
 
 } // namespace
 
-std::string make_html_data_script(const Json& data) {
+std::string data_script(const Json& data) {
     // The character "<" is escaped, because a label with "</script>" would end the script element.
     std::string text;
     for (const char c : data.dump(-1, ' ', true, Json::error_handler_t::replace))
@@ -46,66 +45,62 @@ std::string make_html_data_script(const Json& data) {
     return "<script type=\"application/json\">" + text + "</script>";
 }
 
-std::string make_html_chart(const Json& data, const std::string& fallback) {
-    return std::string(kChartOpening) + make_html_data_script(data) + "<noscript>" + fallback +
+std::string html_chart(const Json& data, const std::string& fallback) {
+    return std::string(kChartOpening) + data_script(data) + "<noscript>" + fallback +
            "</noscript></div>";
 }
 
-std::string make_html_rows_chart(const Comparison& comparison) {
+std::string rows_chart(const Comparison& comparison) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < comparison.rows.size(); ++i)
-        if (has_time_to_plot(comparison.rows[i])) rows.push_back(i);
-    const std::vector<RowMetricColumn> columns = list_row_metric_columns(comparison);
+        if (has_time(comparison.rows[i])) rows.push_back(i);
+    const std::vector<RowMetricColumn> columns = row_metric_columns(comparison);
     if (rows.empty() || columns.empty()) return "";
-    RowMetricColumn time{make_time_axis_name(comparison), {}, {}};
+    RowMetricColumn time{time_axis_name(comparison), {}, {}};
     for (const Row& row : comparison.rows) {
         time.values.push_back(row.time_ms().median);
         time.intervals.push_back(row.time_ms().ci95);
     }
-    std::vector<std::vector<std::size_t>> curves = list_knob_curves(comparison, rows);
+    std::vector<std::vector<std::size_t>> curves = knob_curves(comparison, rows);
     for (std::vector<std::size_t>& curve : curves) // indices of the chart's rows
         for (std::size_t& row : curve)
             row = static_cast<std::size_t>(std::ranges::find(rows, row) - rows.begin());
     Json data{
         {"kind", "rows"},
         {"says", "Time against error of each row; the figures are in the table of every row"},
-        {"time", make_chart_column_json(time, rows)},
-        {"metrics", make_list_json(columns,
-                                   [&](const RowMetricColumn& column) {
-                                       return make_chart_column_json(column, rows);
-                                   })},
-        {"rows", make_list_json(
-                     rows, [&](std::size_t row) { return make_chart_row_json(comparison, row); })},
+        {"time", chart_column(time, rows)},
+        {"metrics",
+         list_json(columns,
+                   [&](const RowMetricColumn& column) { return chart_column(column, rows); })},
+        {"rows", list_json(rows, [&](std::size_t row) { return chart_row(comparison, row); })},
         {"curves", curves},
         {"log_x", true},
         {"log_y", true}};
     if (comparison.noise && comparison.noise->flip_floor > 0)
-        data["floor"] = {{"value", comparison.noise->flip_floor}, {"name", kBelowNoiseText}};
-    const std::string plot = make_comparison_plot(comparison);
-    return make_html_chart(data, plot.empty()
-                                     ? plot
-                                     : "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-                                       "aria-label=\"Plot\">" +
-                                           plot + "</div>");
+        data["floor"] = {{"value", comparison.noise->flip_floor}, {"name", kBelowNoise}};
+    const std::string plot = comparison_plot(comparison);
+    return html_chart(data, plot.empty() ? plot
+                                         : "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                                           "aria-label=\"Plot\">" +
+                                               plot + "</div>");
 }
 
-std::string make_html_line_chart(const LineChart& chart) {
+std::string html_chart(const LineChart& chart) {
     if (std::ranges::none_of(chart.lines, [](const ChartLine& line) {
             return std::ranges::any_of(line.y, [](double y) { return std::isfinite(y); });
         }))
         return "";
-    return make_html_chart(
+    return html_chart(
         {{"kind", "lines"},
          {"says", chart.says},
          {"x_name", chart.x_name},
          {"y_name", chart.y_name},
-         {"x", make_number_list_json(chart.x)},
-         {"x_ticks", make_number_list_json(chart.x_ticks)},
-         {"lines",
-          make_list_json(chart.lines,
-                         [](const ChartLine& line) {
-                             return Json{{"name", line.name}, {"y", make_number_list_json(line.y)}};
-                         })},
+         {"x", numbers_json(chart.x)},
+         {"x_ticks", numbers_json(chart.x_ticks)},
+         {"lines", list_json(chart.lines,
+                             [](const ChartLine& line) {
+                                 return Json{{"name", line.name}, {"y", numbers_json(line.y)}};
+                             })},
          {"log_x", chart.log_x},
          {"log_y", true}},
         "<p class=\"note\">This chart needs JavaScript.</p>");

@@ -11,14 +11,14 @@
 namespace catoptric::report {
 
 /// Returns a script element that holds the data as JSON.
-std::string make_html_data_script(const Json& data);
+std::string data_script(const Json& data);
 /// Returns a chart with its data. `fallback`: HTML for readers without script.
-std::string make_html_chart(const Json& data, const std::string& fallback);
+std::string html_chart(const Json& data, const std::string& fallback);
 
 /// Returns the rows of a comparison as a chart of time against any column of the table of all rows.
-/// Without script, the chart is the SVG of make_comparison_plot. Empty if no row has a time and a
+/// Without script, the chart is the SVG of comparison_plot. Empty if no row has a time and a
 /// value.
-std::string make_html_rows_chart(const Comparison& comparison);
+std::string rows_chart(const Comparison& comparison);
 
 struct ChartLine {
     std::string name; ///< name shown at the line's right end
@@ -37,6 +37,6 @@ struct LineChart {
 
 /// Returns a chart of lines. The y axis is logarithmic, and values of 0 lie in a separate lane.
 /// Returns an empty text if no line has a point.
-std::string make_html_line_chart(const LineChart& chart);
+std::string html_chart(const LineChart& chart);
 
 } // namespace catoptric::report

@@ -16,39 +16,38 @@ namespace catoptric::report {
 
 namespace {
 
-std::string make_words_script(const std::vector<std::uint16_t>& words, const std::string& file) {
+std::string words_script(const std::vector<std::uint16_t>& words, const std::string& file) {
     std::string bytes;
     bytes.reserve(2 * words.size());
     for (const std::uint16_t word : words) {
         bytes += static_cast<char>(word & 0xFF);
         bytes += static_cast<char>(word >> 8);
     }
-    return make_bytes_script(bytes, file);
+    return bytes_script(bytes, file);
 }
 
 /// Returns where the comparer finds a map of a row: the file of its bytes, and the id of the
 /// picture in the page.
-Json make_map_json(const Comparison& comparison, const std::string& name, const std::string& id) {
-    return {{"file", id.empty() ? "" : report_image_path(comparison, name + ".js")}, {"id", id}};
+Json map_json(const Comparison& comparison, const std::string& name, const std::string& id) {
+    return {{"file", id.empty() ? "" : image_path(comparison, name + ".js")}, {"id", id}};
 }
 
 /// `anchor`: id of the row's article; empty for the reference.
-Json make_picture_json(const Comparison& comparison, const std::string& label,
-                       const std::string& image, const std::string& picture_id,
-                       const std::string& anchor, bool is_first) {
+Json picture_json(const Comparison& comparison, const std::string& label, const std::string& image,
+                  const std::string& picture_id, const std::string& anchor, bool is_first) {
     const auto id = [&](const char* ending) { return anchor.empty() ? "" : anchor + ending; };
     return {{"label", label},
-            {"file", report_image_path(comparison, image + ".js")},
+            {"file", image_path(comparison, image + ".js")},
             {"picture_id", picture_id},
-            {"error", make_map_json(comparison, image + "-error", id("-error"))},
-            {"causes", make_map_json(comparison, "causes-" + image, id("-causes"))},
+            {"error", map_json(comparison, image + "-error", id("-error"))},
+            {"causes", map_json(comparison, "causes-" + image, id("-causes"))},
             {"first", is_first}};
 }
 
 /// Returns the causes of error that some row has, with their colours in pictures, 0..255.
-Json make_cause_colours_json(const Comparison& comparison) {
+Json cause_colours_json(const Comparison& comparison) {
     Json list = Json::array();
-    for (const CausePictureColour& colour : list_colours_of_found_causes(comparison)) {
+    for (const CauseColour& colour : found_cause_colours(comparison)) {
         Json bytes = Json::array();
         for (int k = 0; k < 3; ++k)
             bytes.push_back(static_cast<int>(std::lround(255 * colour.colour[k])));
@@ -59,11 +58,11 @@ Json make_cause_colours_json(const Comparison& comparison) {
 
 /// Returns the pictures of each row's largest lag, one entry an instant: the reference first, then
 /// the row in the moving scene and in the scene at rest. They have no maps.
-Json make_lag_instants_json(const Comparison& comparison) {
+Json lag_instants_json(const Comparison& comparison) {
     Json list = Json::array();
     if (!comparison.lag) return list;
     for (const LagRow& row : comparison.lag->rows) {
-        const std::string name = find_lag_image_name(comparison, row);
+        const std::string name = find_lag_image(comparison, row);
         if (!row.worst || name.empty()) continue;
         const std::string when = fmt::format("{:.2f} s", row.worst->seconds);
         Json pictures = Json::array();
@@ -71,10 +70,10 @@ Json make_lag_instants_json(const Comparison& comparison) {
              {std::pair("reference at " + when, "-reference"),
               {fmt::format("{}, moving at {:g}x", row.label, row.worst->speed), "-moving"},
               {row.label + ", at rest", "-still"}})
-            pictures.push_back(make_picture_json(comparison, label, name + ending, "", "", false));
+            pictures.push_back(picture_json(comparison, label, name + ending, "", "", false));
         list.push_back({{"label", fmt::format("worst lag of {}: {:g}x, {}", row.label,
                                               row.worst->speed, when)},
-                        {"mirrors_file", report_image_path(comparison, name + "-mirrors.js")},
+                        {"mirrors_file", image_path(comparison, name + "-mirrors.js")},
                         {"pictures", pictures}});
     }
     return list;
@@ -82,7 +81,7 @@ Json make_lag_instants_json(const Comparison& comparison) {
 
 /// Returns the row with the smallest FLIP above 0 over the mirrors, or null if there is none. The
 /// comparer shows this row first.
-const Row* find_closest_row_with_error(const Comparison& comparison) {
+const Row* closest_with_error(const Comparison& comparison) {
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows)
         if (row.error.flip > 0 && (closest == nullptr || row.error.flip < closest->error.flip))
@@ -92,22 +91,22 @@ const Row* find_closest_row_with_error(const Comparison& comparison) {
 
 } // namespace
 
-std::string make_bytes_script(std::string_view bytes, const std::string& file) {
+std::string bytes_script(std::string_view bytes, const std::string& file) {
     return "catoptric_values(" + Json(file).dump() + ", \"" + encode_base64(bytes) + "\");\n";
 }
 
-std::string make_html_comparer(const Comparison& comparison) {
+std::string html_comparer(const Comparison& comparison) {
     if (comparison.reference_display.pixels.empty() || comparison.rows.empty()) return "";
-    const std::string prefix = make_html_id_prefix(comparison);
-    const Row* first = find_closest_row_with_error(comparison);
+    const std::string prefix = id_prefix(comparison);
+    const Row* first = closest_with_error(comparison);
     Json pictures = Json::array();
-    pictures.push_back(make_picture_json(comparison, "reference " + comparison.reference_label,
-                                         "reference", prefix + "reference", "", false));
+    pictures.push_back(picture_json(comparison, "reference " + comparison.reference_label,
+                                    "reference", prefix + "reference", "", false));
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
-        const std::string anchor = make_html_anchor_of_row(comparison, i);
-        pictures.push_back(make_picture_json(comparison, row.label, row.image, anchor + "-picture",
-                                             anchor, &row == first));
+        const std::string anchor = row_anchor(comparison, i);
+        pictures.push_back(picture_json(comparison, row.label, row.image, anchor + "-picture",
+                                        anchor, &row == first));
     }
     Json mirrors = Json::array();
     for (std::size_t i = 0; i < comparison.scene.mirrors; ++i)
@@ -116,29 +115,28 @@ std::string make_html_comparer(const Comparison& comparison) {
                     {"height", comparison.reference_display.height},
                     {"exposure", comparison.exposure},
                     {"mirrors", mirrors},
-                    {"causes", make_cause_colours_json(comparison)},
-                    {"mirrors_file", report_image_path(comparison, "mirrors.js")},
+                    {"causes", cause_colours_json(comparison)},
+                    {"mirrors_file", image_path(comparison, "mirrors.js")},
                     {"pictures", pictures},
-                    {"lag", make_lag_instants_json(comparison)}};
-    return "<section class=\"comparer\" aria-label=\"Comparer\">" + make_html_data_script(data) +
+                    {"lag", lag_instants_json(comparison)}};
+    return "<section class=\"comparer\" aria-label=\"Comparer\">" + data_script(data) +
            "</section>";
 }
 
-std::string make_picture_values_script(const measure::Picture& picture, const std::string& file) {
+std::string picture_script(const measure::Picture& picture, const std::string& file) {
     std::vector<std::uint16_t> halves;
     halves.reserve(3 * picture.pixels.size());
     for (const vec3& pixel : picture.pixels)
         for (int k = 0; k < 3; ++k) halves.push_back(glm::packHalf1x16(pixel[k]));
-    return make_words_script(halves, file);
+    return words_script(halves, file);
 }
 
-std::string make_mirror_pixels_script(const std::vector<std::uint32_t>& mirror_hits,
-                                      const std::string& file) {
+std::string mirror_script(const std::vector<std::uint32_t>& mirror_hits, const std::string& file) {
     std::vector<std::uint16_t> mirrors;
     mirrors.reserve(mirror_hits.size());
     for (const std::uint32_t hit : mirror_hits)
         mirrors.push_back(static_cast<std::uint16_t>(hit & 0xFFFF));
-    return make_words_script(mirrors, file);
+    return words_script(mirrors, file);
 }
 
 } // namespace catoptric::report

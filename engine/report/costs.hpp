@@ -33,25 +33,25 @@ const std::vector<KnownCosts>& list_known_costs();
 struct OtherDeviceTimes {
     std::string device, note;
     std::vector<WorkKind> kinds; ///< the kinds of work whose costs are to be fitted
-    struct TimedRowElsewhere {
+    struct TimedRow {
         std::string technique;
         double ms = 0;
     };
-    std::vector<TimedRowElsewhere> rows;
+    std::vector<TimedRow> rows;
 };
 /// Reads a file of times that were measured on another device. Throws as `read_costs_file` does.
 OtherDeviceTimes read_times_file(const std::filesystem::path& file);
 
 /// Times that another renderer took for the pictures of its rows (`compare --row`).
-struct PictureRowTimes {
+struct RowTimes {
     std::string device, note;
-    struct TimedPictureRow {
+    struct TimedRow {
         std::string row;        ///< name of the row
         std::vector<double> ms; ///< times of frames, above 0
     };
-    std::vector<TimedPictureRow> rows;
+    std::vector<TimedRow> rows;
 };
 /// Reads a file of times that another renderer took. Throws as `read_costs_file` does.
-PictureRowTimes read_row_times_file(const std::filesystem::path& file);
+RowTimes read_row_times(const std::filesystem::path& file);
 
 } // namespace catoptric::report

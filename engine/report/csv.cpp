@@ -19,7 +19,7 @@ namespace {
 /// Field of a row and the name of its column.
 struct CsvField {
     std::string name, text;
-    bool in_table = true; ///< whether CsvColumnSet::table has the column, too
+    bool in_table = true; ///< whether CsvColumns::table has the column, too
 };
 
 /// The fields of a row.
@@ -97,8 +97,8 @@ bool is_in_rows_table(const measure::Metric& quantity) {
 /// Adds the metrics of a difference over one mask. Those that `is_in_table` accepts are columns of
 /// the table.
 template <class Predicate>
-void add_difference_metrics(CsvLine& line, const std::string& mask,
-                            const measure::Difference& error, Predicate is_in_table) {
+void add_differences(CsvLine& line, const std::string& mask, const measure::Difference& error,
+                     Predicate is_in_table) {
     for (const measure::Metric& quantity : measure::difference_metrics())
         line.add_field(mask + "_" + std::string(quantity.name),
                        measure::metric_value(quantity, error), is_in_table(quantity));
@@ -110,16 +110,16 @@ void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& ro
                       std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::row_masks())
         if (measure::has_table_columns(mask, comparison))
-            add_difference_metrics(line, std::string(mask.name), row.*mask.error,
-                                   [&](const measure::Metric& metric) {
-                                       return is_in_rows_table(metric) &&
-                                              (mask.title.empty() || metric.each_mask_in_table);
-                                   });
+            add_differences(line, std::string(mask.name), row.*mask.error,
+                            [&](const measure::Metric& metric) {
+                                return is_in_rows_table(metric) &&
+                                       (mask.title.empty() || metric.each_mask_in_table);
+                            });
     for (std::size_t i = 0; i < mirrors; ++i)
-        add_difference_metrics(line, "mirror_" + std::to_string(MirrorId::from_index(i).number()),
-                               i < row.error_per_mirror.size() ? row.error_per_mirror[i]
-                                                               : measure::Difference{},
-                               [](const measure::Metric&) { return false; });
+        add_differences(line, "mirror_" + std::to_string(MirrorId::from_index(i).number()),
+                        i < row.error_per_mirror.size() ? row.error_per_mirror[i]
+                                                        : measure::Difference{},
+                        [](const measure::Metric&) { return false; });
 }
 
 void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& row,
@@ -195,11 +195,11 @@ void add_identity_fields(CsvLine& line, const Comparison& comparison, const Row&
     add("commit", comparison.commit);
 }
 
-CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t mirrors) {
+CsvLine make_line(const Comparison& comparison, const Row& row, std::size_t mirrors) {
     CsvLine line;
     line.add_field("technique", row.technique);
     line.add_field("label", row.label);
-    line.add_field("settings", format_row_settings(row));
+    line.add_field("settings", format_settings(row));
     line.add_field("model", row.model);
     const measure::RankRange places = measure::find_rank_range(comparison, row);
     const bool has_place = places.first > 0;
@@ -207,7 +207,7 @@ CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t 
     line.add_field("place_last", has_place ? static_cast<double>(places.last) : NAN);
     add_metric_fields(line, comparison, row, mirrors);
     add_view_fields(line, comparison, row);
-    line.add_field("image", report_image_path(comparison, row.image + ".png"));
+    line.add_field("image", image_path(comparison, row.image + ".png"));
     line.add_field("on_front", measure::is_on_front(comparison, row));
     line.add_field("is_reference", row.is_reference);
     add_identity_fields(line, comparison, row);
@@ -217,38 +217,38 @@ CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t 
 
 /// Adds the names of the columns of a line. A column that only some lines have is inserted after
 /// the column that precedes it in these lines.
-void add_column_names(std::vector<std::string>& columns, const CsvLine& line, CsvColumnSet which) {
+void add_columns(std::vector<std::string>& columns, const CsvLine& line, CsvColumns which) {
     auto at = columns.begin();
     for (const CsvField& field : line.fields) {
-        if (which == CsvColumnSet::table && !field.in_table) continue;
+        if (which == CsvColumns::table && !field.in_table) continue;
         const auto found = std::ranges::find(columns, field.name);
         at = (found != columns.end() ? found : columns.insert(at, field.name)) + 1;
     }
 }
 
-std::string join_csv_cells(const std::vector<std::string>& cells) {
+std::string join_cells(const std::vector<std::string>& cells) {
     std::vector<std::string> escaped;
-    for (const std::string& cell : cells) escaped.push_back(escape_csv_field(cell));
+    for (const std::string& cell : cells) escaped.push_back(escape_csv(cell));
     return join_texts(escaped, ",") + "\r\n";
 }
 
-std::string format_csv_line(const CsvLine& line, const std::vector<std::string>& columns) {
+std::string format_line(const CsvLine& line, const std::vector<std::string>& columns) {
     std::unordered_map<std::string, std::string> fields;
     for (const CsvField& field : line.fields) fields.emplace(field.name, field.text);
     std::vector<std::string> cells;
     for (const std::string& name : columns) cells.push_back(fields[name]);
-    return join_csv_cells(cells);
+    return join_cells(cells);
 }
 
 } // namespace
 
-std::string to_csv(const Comparison& comparison) { return to_csv(comparison, CsvColumnSet::table); }
+std::string to_csv(const Comparison& comparison) { return to_csv(comparison, CsvColumns::table); }
 
-std::string to_csv(const Comparison& comparison, CsvColumnSet which) {
+std::string to_csv(const Comparison& comparison, CsvColumns which) {
     return to_csv(std::vector{&comparison}, which);
 }
 
-std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnSet which) {
+std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which) {
     std::size_t mirrors = 0;
     for (const Comparison* comparison : comparisons)
         for (const Row& row : comparison->rows)
@@ -257,16 +257,16 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
     std::vector<std::string> columns;
     for (const Comparison* comparison : comparisons) {
         // An empty row gives the columns of all metrics whose values are single numbers.
-        add_column_names(columns, make_csv_line(*comparison, Row{}, mirrors), which);
+        add_columns(columns, make_line(*comparison, Row{}, mirrors), which);
         for (const Row& row : comparison->rows)
-            lines.push_back(make_csv_line(*comparison, row, mirrors));
+            lines.push_back(make_line(*comparison, row, mirrors));
         if (comparison->complete || !comparison->rows.empty()) continue;
         lines.emplace_back(); // a CSV line with only this field
         lines.back().add_field("incomplete", describe_incomplete_run(*comparison));
     }
-    for (const CsvLine& line : lines) add_column_names(columns, line, which);
-    std::string csv = join_csv_cells(columns);
-    for (const CsvLine& line : lines) csv += format_csv_line(line, columns);
+    for (const CsvLine& line : lines) add_columns(columns, line, which);
+    std::string csv = join_cells(columns);
+    for (const CsvLine& line : lines) csv += format_line(line, columns);
     return csv;
 }
 

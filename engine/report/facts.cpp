@@ -22,7 +22,7 @@ std::string describe_device(const DeviceFacts& device) {
     return fmt::format("{} ({}{}{})", device.name, device.type, threads, profile);
 }
 
-std::string describe_run_settings(const Comparison& comparison) {
+std::string describe_settings(const Comparison& comparison) {
     return fmt::format("t = {} s, ambient {}, exposure {} stops, model {}", comparison.time,
                        comparison.ambient, comparison.exposure, comparison.model);
 }
@@ -41,7 +41,7 @@ std::string describe_lights(const SceneFacts& scene) {
     return text;
 }
 
-std::string describe_pipeline_cache(const std::string& cache) {
+std::string describe_cache(const std::string& cache) {
     if (cache == "used") return "with the cache on disk";
     return cache == "made" ? "the cache on disk was empty" : "no cache on disk";
 }
@@ -52,7 +52,7 @@ std::string describe_reference(const Comparison& comparison) {
                        format_ms(comparison.reference_gpu_ms.median) + " ms";
     if (std::isfinite(comparison.reference_area_flip))
         text += "; one ray through each pixel's centre, FLIP " +
-                format_picture_error(comparison.reference_area_flip) +
+                format_error(comparison.reference_area_flip) +
                 " over the mirrors from the mean over the pixel's area (--truth converged)";
     if (!comparison.noise) return text;
     const measure::ReferenceNoise& noise = *comparison.noise;
@@ -60,36 +60,34 @@ std::string describe_reference(const Comparison& comparison) {
         " a frame, two halves of {} frames {}with {} seeds in {} s; between the halves "
         "FLIP {}, rmse {}",
         noise.frames, noise.rays == noise.wanted_rays ? "" : fmt::format("of {} rays ", noise.rays),
-        2 * noise.frames, format_fixed(noise.seconds, 1), format_picture_error(noise.flip_floor),
-        format_picture_error(noise.halves_rmse));
+        2 * noise.frames, format_fixed(noise.seconds, 1), format_error(noise.flip_floor),
+        format_error(noise.halves_rmse));
     if (std::isfinite(noise.predicted_rmse))
-        text += fmt::format(" (their variance predicts {})",
-                            format_picture_error(noise.predicted_rmse));
+        text += fmt::format(" (their variance predicts {})", format_error(noise.predicted_rmse));
     return text;
 }
 
 } // namespace
 
-std::string describe_setup_times(const SetupFacts& setup) {
+std::string describe_setup(const SetupFacts& setup) {
     std::vector<std::string> parts;
     if (setup.load_ms) parts.push_back("load " + format_ms(*setup.load_ms) + " ms");
     parts.push_back("upload " + format_ms(setup.upload_ms) + " ms");
     parts.push_back(setup.hierarchy_ms > 0 ? "hierarchy " + format_ms(setup.hierarchy_ms) + " ms"
                                            : "no hierarchy");
     parts.push_back(fmt::format("{} pipelines {} ms, {}", setup.pipelines,
-                                format_ms(setup.compile_ms),
-                                describe_pipeline_cache(setup.pipeline_cache)));
+                                format_ms(setup.compile_ms), describe_cache(setup.pipeline_cache)));
     return join_texts(parts, "; ");
 }
 
-std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison) {
+std::vector<ReportHeaderLine> list_facts(const Comparison& comparison) {
     return {
         {"Scene",
          fmt::format("{}, {} triangles, {} mirrors, hash {}", comparison.scene.name,
                      comparison.scene.triangles, comparison.scene.mirrors, comparison.scene.hash)},
         {"Light", describe_lights(comparison.scene)},
         {"Picture", fmt::format("{}x{}, {}", comparison.width, comparison.height,
-                                describe_run_settings(comparison))},
+                                describe_settings(comparison))},
         {"Device", describe_device(comparison.device)},
         {"Driver", comparison.device.driver + ", " + comparison.device.api},
         {"Timing",
@@ -107,7 +105,7 @@ std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison) {
     };
 }
 
-std::vector<std::string> list_report_cautions(const Comparison& comparison) {
+std::vector<std::string> list_cautions(const Comparison& comparison) {
     std::vector<std::string> list;
     if (!comparison.complete)
         list.push_back("Incomplete, " + describe_incomplete_run(comparison) + ".");
@@ -124,7 +122,7 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
             fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
                         "beside, and {} times are not to be trusted: {}.",
                         noisy.size(), comparison.rows.size(),
-                        by_processor_time ? "their device" : "these", join_labels_of_rows(noisy)));
+                        by_processor_time ? "their device" : "these", join_labels(noisy)));
     if (comparison.noise && comparison.noise->is_coarse())
         list.push_back(fmt::format(
             "The reference is coarse: each half has {} of {} rays for a pixel{}.",
@@ -136,7 +134,7 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison) {
         list.push_back(fmt::format(
             "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "
             "FLIP of a row. More --reference-seconds than {:g} reduce it.",
-            format_picture_error(comparison.noise->flip_floor), comparison.noise->most_seconds));
+            format_error(comparison.noise->flip_floor), comparison.noise->most_seconds));
     if (comparison.path_distance)
         list.push_back(describe_path_distance(*comparison.path_distance, comparison.rows));
     if (comparison.together)

@@ -36,7 +36,7 @@ constexpr std::string_view kFigureStyle =
     "</style><rect width=\"100%\" height=\"100%\" style=\"fill:#fff\"/>";
 
 /// Returns an SVG for a file of its own. `svg` is one to embed in a page.
-std::string make_standalone_svg(const std::string& svg) {
+std::string standalone_svg(const std::string& svg) {
     const std::size_t end = svg.find('>');
     return "<svg xmlns=\"http://www.w3.org/2000/svg\"" + svg.substr(4, end + 1 - 4) +
            std::string(kFigureStyle) + svg.substr(end + 1) + "\n";
@@ -58,23 +58,23 @@ std::string escape_latex(std::string_view text) {
     return escaped;
 }
 
-std::string make_latex_figure(const std::string& name, const std::string& content,
-                              const std::string& caption) {
+std::string latex_figure(const std::string& name, const std::string& content,
+                         const std::string& caption) {
     return "\\begin{figure}\n\\centering\n" + content + "\\caption{" + caption +
            "}\n\\label{fig:" + name + "}\n\\end{figure}\n\n";
 }
 
-std::string make_latex_picture(const std::string& file, double width) {
+std::string latex_picture(const std::string& file, double width) {
     return fmt::format("\\includegraphics[width={:.3g}\\linewidth]{{{}}}\n", width, file);
 }
 
 /// Says what all figures show, for their captions.
-std::string describe_compared_pictures(const Comparison& comparison) {
+std::string describe_pictures(const Comparison& comparison) {
     return fmt::format("scene {}, {}$\\times${} pixels, {}", escape_latex(comparison.scene.name),
                        comparison.width, comparison.height, escape_latex(comparison.device.name));
 }
 
-std::string make_latex_rows_table(const Comparison& comparison) {
+std::string latex_table(const Comparison& comparison) {
     std::string text = "\\begin{table}\n\\centering\n\\begin{tabular}{lrrrr}\n\\toprule\n"
                        "row & ms & 95\\,\\% & FLIP & rmse \\\\\n\\midrule\n";
     for (const Row& row : comparison.rows) {
@@ -83,20 +83,19 @@ std::string make_latex_rows_table(const Comparison& comparison) {
             "{} & {} & {} & {} & {} \\\\\n", escape_latex(row.label),
             escape_latex(format_ms(time.median)),
             time.ci95.is_known() ? format_ms(time.ci95.low) + "--" + format_ms(time.ci95.high) : "",
-            escape_latex(format_flip(row.error)),
-            escape_latex(format_picture_error(row.error.rmse)));
+            escape_latex(format_flip(row.error)), escape_latex(format_error(row.error.rmse)));
     }
     return text +
            "\\bottomrule\n\\end{tabular}\n\\caption{Median time of a frame with its 95\\,\\% "
            "interval, and errors over the mirrors against " +
-           escape_latex(comparison.reference_label) + "; " +
-           describe_compared_pictures(comparison) + ".}\n\\label{tab:rows}\n\\end{table}\n";
+           escape_latex(comparison.reference_label) + "; " + describe_pictures(comparison) +
+           ".}\n\\label{tab:rows}\n\\end{table}\n";
 }
 
-StackedBars make_cause_bars(const Comparison& comparison) {
+StackedBars cause_bars(const Comparison& comparison) {
     StackedBars chart{.x_name = "Share of the row's squared error over the mirrors, %",
                       .says = "Bars of each row's error by cause"};
-    for (const CausePictureColour& cause : list_cause_colours()) {
+    for (const CauseColour& cause : cause_colours()) {
         const vec3 bytes = glm::round(255.0F * cause.colour);
         const bool is_white = cause.colour == vec3(1); // as the paper
         chart.kinds.push_back(
@@ -117,17 +116,16 @@ StackedBars make_cause_bars(const Comparison& comparison) {
 }
 
 /// Writes the drawing and returns its LaTeX figure, or does nothing if there is no drawing.
-std::string write_drawing_figure(const std::string& svg, const fs::path& folder,
-                                 const std::string& name, const std::string& caption,
-                                 const DrawingConverter& make_pdf) {
+std::string write_drawing(const std::string& svg, const fs::path& folder, const std::string& name,
+                          const std::string& caption, const DrawingConverter& make_pdf) {
     if (svg.empty()) return "";
-    write_file(folder / (name + ".svg"), make_standalone_svg(svg));
+    write_file(folder / (name + ".svg"), standalone_svg(svg));
     if (make_pdf)
         make_pdf(folder / (name + ".svg"), folder / (name + ".pdf"));
     else
         fs::remove(folder /
                    (name + ".pdf")); // figures.tex would show the drawing of an earlier run
-    return make_latex_figure(name, make_latex_picture(name + ".pdf", 1), caption);
+    return latex_figure(name, latex_picture(name + ".pdf", 1), caption);
 }
 
 /// Draws a frame around the pixels, one pixel wide, in a colour that differs from the pixels below.
@@ -159,22 +157,22 @@ std::string write_crops(const Comparison& comparison, const fs::path& folder,
     for (const Row& row : comparison.rows) write(row.display, row.image, row.label);
     draw_pixel_frame(whole, crop);
     measure::write_png(whole, folder / "reference.png");
-    std::string tex = make_latex_picture("reference.png", .5) + "\n";
+    std::string tex = latex_picture("reference.png", .5) + "\n";
     for (const auto& [file, label] : crops)
-        tex += "\\begin{minipage}[t]{.19\\linewidth}\\centering\n" + make_latex_picture(file, 1) +
+        tex += "\\begin{minipage}[t]{.19\\linewidth}\\centering\n" + latex_picture(file, 1) +
                "{\\tiny " + escape_latex(label) + "}\\end{minipage}\n";
-    return make_latex_figure(
+    return latex_figure(
         "crops", tex,
         fmt::format(
             "Reference ({}) and its pixels from ({}, {}) to ({}, {}), enlarged {} times; {}.",
             escape_latex(comparison.reference_label), crop.corner.x, crop.corner.y,
             crop.corner.x + crop.size.x - 1, crop.corner.y + crop.size.y - 1, scale,
-            describe_compared_pictures(comparison)));
+            describe_pictures(comparison)));
 }
 
 } // namespace
 
-std::optional<PixelRectangle> find_pixels_where_rows_differ(const Comparison& comparison) {
+std::optional<PixelRectangle> choose_crop(const Comparison& comparison) {
     const int width = comparison.width, height = comparison.height;
     const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<const std::vector<float>*> maps;
@@ -219,7 +217,7 @@ void check_crop(const PixelRectangle& crop, ivec2 size) {
           corner.x, ",", corner.y, ",", extent.x, ",", extent.y);
 }
 
-std::vector<fs::path> list_figure_files(const std::vector<std::string>& images) {
+std::vector<fs::path> figure_files(const std::vector<std::string>& images) {
     std::vector<fs::path> files{"figures.tex", "reference.png", "crop-reference.png"};
     for (const char* drawing : {"plot", "passes", "causes"})
         for (const char* kind : {".svg", ".pdf"}) files.emplace_back(std::string(drawing) + kind);
@@ -241,30 +239,29 @@ void write_figures(const Comparison& comparison, const fs::path& folder,
     if (crop)
         check_crop(*crop, {comparison.width, comparison.height});
     else
-        crop = find_pixels_where_rows_differ(comparison);
-    const std::string shown = describe_compared_pictures(comparison);
+        crop = choose_crop(comparison);
+    const std::string shown = describe_pictures(comparison);
     std::string tex = "% Figures of catoptric compare. Needs the packages graphicx and booktabs.\n";
     if (!make_pdf)
         tex += "% Drawings as PDF: for f in *.svg; do rsvg-convert -f pdf -o \"${f%.svg}.pdf\" "
                "\"$f\"; done\n";
     tex += "\n";
-    tex += write_drawing_figure(
-        make_comparison_plot(comparison), folder, "plot",
+    tex += write_drawing(
+        comparison_plot(comparison), folder, "plot",
         "Median time of a frame against FLIP over the mirrors; " + shown +
             ". Filled: no row beats it. Dashed: the least FLIP of a mark up to each time. Horizontal lines: 95\\,\\% intervals.",
         make_pdf);
-    tex += write_drawing_figure(draw_stacked_bars(make_pass_time_bars(comparison)), folder,
-                                "passes", "Median time of the passes of a frame; " + shown + ".",
-                                make_pdf);
-    tex += write_drawing_figure(draw_stacked_bars(make_cause_bars(comparison)), folder, "causes",
-                                "Squared error over the mirrors by cause. Negative shares are left "
-                                "out; " +
-                                    shown + ".",
-                                make_pdf);
+    tex += write_drawing(draw_bars(pass_time_bars(comparison)), folder, "passes",
+                         "Median time of the passes of a frame; " + shown + ".", make_pdf);
+    tex += write_drawing(draw_bars(cause_bars(comparison)), folder, "causes",
+                         "Squared error over the mirrors by cause. Negative shares are left "
+                         "out; " +
+                             shown + ".",
+                         make_pdf);
     if (crop && !comparison.reference_display.pixels.empty())
         tex += write_crops(comparison, folder, *crop);
     // Written last, so that all files it names exist when a reader sees it.
-    write_file(folder / "figures.tex", tex + make_latex_rows_table(comparison));
+    write_file(folder / "figures.tex", tex + latex_table(comparison));
 }
 
 } // namespace catoptric::report

@@ -19,7 +19,7 @@ struct PixelRectangle {
 /// Returns the square of an eighth of the picture's shorter side, at least 16 pixels, in which the
 /// rows differ most: the sum over its pixels of the largest minus the smallest FLIP of a row is
 /// largest. Empty if fewer than two rows have a picture.
-std::optional<PixelRectangle> find_pixels_where_rows_differ(const Comparison& comparison);
+std::optional<PixelRectangle> choose_crop(const Comparison& comparison);
 
 /// Returns these pixels, each as `scale` x `scale` pixels. The rectangle must lie in the picture.
 measure::Picture enlarge_pixels(const measure::Picture& picture, const PixelRectangle& part,
@@ -30,7 +30,7 @@ void check_crop(const PixelRectangle& crop, ivec2 size);
 
 /// Returns the files that write_figures may write, relative to its folder. `images`: names of the
 /// rows' pictures.
-std::vector<std::filesystem::path> list_figure_files(const std::vector<std::string>& images);
+std::vector<std::filesystem::path> figure_files(const std::vector<std::string>& images);
 
 /// Reads the drawing of the first file, an SVG, and writes it to the second file, a PDF.
 using DrawingConverter =

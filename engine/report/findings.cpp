@@ -16,15 +16,15 @@ namespace catoptric::report {
 
 namespace {
 
-using OptionalReportSentence = std::optional<std::string>;
+using OptionalSentence = std::optional<std::string>;
 
 std::string format_percent(double share) {
     return format_fixed(100 * share, share < 0.1 ? 1 : 0) + " %";
 }
 
-std::string format_rmse(const Row& row) { return format_picture_error(row.error.rmse); }
+std::string format_rmse(const Row& row) { return format_error(row.error.rmse); }
 
-std::string format_times_of_two_rows(const Row& a, const Row& b) {
+std::string format_times(const Row& a, const Row& b) {
     return format_ms(a.time_ms().median) + " against " + format_ms(b.time_ms().median) + " ms";
 }
 /// Says that two times are equal, or that it cannot be told which of them is less.
@@ -35,21 +35,21 @@ const char* describe_time_tie(measure::Order order) {
 }
 
 /// Returns " (95 %: 1.10 to 1.25)", for example, or an empty text if the interval is not known.
-std::string format_ratio_interval(const measure::Interval& ratio) {
+std::string format_ratio(const measure::Interval& ratio) {
     if (!ratio.is_known()) return "";
     return fmt::format(" (95 %: {:.3g} to {:.3g})", ratio.low, ratio.high);
 }
 
-OptionalReportSentence describe_undrawn_dielectrics(const Comparison& comparison) {
+OptionalSentence describe_dielectrics(const Comparison& comparison) {
     const auto finding = measure::find_undrawn_dielectrics(comparison);
     if (!finding) return {};
-    const std::string tracing = join_labels_of_rows(finding->tracing);
+    const std::string tracing = join_labels(finding->tracing);
     return fmt::format(
         "Not drawn: {} of the pixels show smooth surfaces that are no mirrors, and no row{} draws "
         "what they reflect. Over these pixels the other rows' FLIP is {} at best ({}). "
         "--dielectric-mirrors makes mirrors of such surfaces.",
         format_percent(finding->share), tracing.empty() ? "" : " but " + tracing,
-        format_picture_error(finding->best->error_dielectrics.flip), finding->best->label);
+        format_error(finding->best->error_dielectrics.flip), finding->best->label);
 }
 
 std::string describe_clear_verdict(const measure::ClearCost& finding) {
@@ -68,7 +68,7 @@ std::string describe_clear_verdict(const measure::ClearCost& finding) {
         format_percent(finding.gap), format_percent(measure::kSeedReportClearCostShare));
 }
 
-OptionalReportSentence describe_clear_cost(const Comparison& comparison) {
+OptionalSentence describe_clear_cost(const Comparison& comparison) {
     using measure::kSeedReportNaiveRow, measure::kSeedReportReuseRow;
     const auto finding = measure::find_clear_cost(comparison);
     if (!finding) return {};
@@ -86,7 +86,7 @@ OptionalReportSentence describe_clear_cost(const Comparison& comparison) {
            " ms: " + describe_clear_verdict(*finding) + ".";
 }
 
-OptionalReportSentence describe_stored_distance_formats(const Comparison& comparison) {
+OptionalSentence describe_distance_formats(const Comparison& comparison) {
     const auto finding = measure::find_distance_format(comparison);
     if (!finding) return {};
     std::string text = "Stored distance: rmse over the mirrors is " + format_rmse(*finding->plain) +
@@ -107,7 +107,7 @@ OptionalReportSentence describe_stored_distance_formats(const Comparison& compar
            "made that way.";
 }
 
-OptionalReportSentence describe_bounces_versus_error(const Comparison& comparison) {
+OptionalSentence describe_bounces(const Comparison& comparison) {
     const auto finding = measure::find_bounces_result(comparison);
     if (!finding) return {};
     std::vector<std::string> figures;
@@ -117,7 +117,7 @@ OptionalReportSentence describe_bounces_versus_error(const Comparison& compariso
         finding->steps.size(), join_texts(figures, ", "));
     if (finding->helps)
         return text + "More inter-reflections bring it closer to the reference, by " +
-               format_picture_error(finding->fall) + " in all.";
+               format_error(finding->fall) + " in all.";
     text +=
         "From i = 1 on, more of them bring it no closer to the reference by as much as one 8-bit "
         "step (1/255)";
@@ -128,27 +128,27 @@ OptionalReportSentence describe_bounces_versus_error(const Comparison& compariso
     return text + ".";
 }
 
-OptionalReportSentence describe_parallax_correction_price(const Comparison& comparison) {
+OptionalSentence describe_parallax_price(const Comparison& comparison) {
     const auto finding = measure::find_parallax_price(comparison);
     if (!finding) return {};
     std::string text = fmt::format(
         "Price of the correction: in the seed report, part three takes {:.1f} ms instead of {:.1f} ms, "
         "and the complexity of its code is the only drawback that is named. Here part three takes ",
         measure::kSeedReportParallaxRow.ms, measure::kSeedReportReuseRow.ms);
-    const std::string times = format_times_of_two_rows(*finding->three, *finding->two);
+    const std::string times = format_times(*finding->three, *finding->two);
     if (finding->is_tie())
         text += "as long as part two (" + times + describe_time_tie(finding->order) + ")";
     else
         text += format_percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
                 " time than part two (" + times + "), " + format_ms(1 + finding->more) +
-                " times as much" + format_ratio_interval(finding->ratio_ci95);
+                " times as much" + format_ratio(finding->ratio_ci95);
     if (finding->more_bytes > 0)
         text += fmt::format(" and {} MiB more memory for the distances",
                             format_mebibytes(finding->more_bytes));
     return text + ".";
 }
 
-OptionalReportSentence describe_ray_tracing_time(const Comparison& comparison) {
+OptionalSentence describe_tracing_time(const Comparison& comparison) {
     using measure::kSeedReportParallaxRow, measure::kSeedReportRayTracingRow;
     const auto finding = measure::find_ray_tracing_time(comparison);
     if (!finding) return {};
@@ -157,27 +157,26 @@ OptionalReportSentence describe_ray_tracing_time(const Comparison& comparison) {
                                    "part three ({:.1f} against {:.1f} ms); here {} takes ",
                                    measure::kSeedReportRayTracingRatio, kSeedReportRayTracingRow.ms,
                                    kSeedReportParallaxRow.ms, traced.label);
-    const std::string times = format_times_of_two_rows(traced, three);
+    const std::string times = format_times(traced, three);
     if (finding->is_tie())
         text += "as long as " + three.label + " (" + times + describe_time_tie(finding->order) +
                 ")";
     else
-        text += format_ms(finding->ratio) + " times as long" +
-                format_ratio_interval(finding->ratio_ci95) + " as " + three.label + " (" + times +
-                ")";
+        text += format_ms(finding->ratio) + " times as long" + format_ratio(finding->ratio_ci95) +
+                " as " + three.label + " (" + times + ")";
     return text + ".";
 }
 
-std::string format_row_metrics(const Row& row) {
+std::string format_metrics(const Row& row) {
     if (!measure::has_known_time(row))
         return fmt::format("{} (FLIP {})", row.label, format_flip(row.error));
     return fmt::format("{} ({} ms, FLIP {})", row.label, format_ms(row.time_ms().median),
                        format_flip(row.error));
 }
 
-std::string format_metrics_of_rows(const std::vector<const Row*>& rows) {
+std::string format_metrics(const std::vector<const Row*>& rows) {
     std::vector<std::string> texts;
-    for (const Row* row : rows) texts.push_back(format_row_metrics(*row));
+    for (const Row* row : rows) texts.push_back(format_metrics(*row));
     return join_texts(texts, "; ");
 }
 
@@ -185,7 +184,7 @@ std::string format_metrics_of_rows(const std::vector<const Row*>& rows) {
 std::string describe_fastest(const measure::FastestRows& fastest) {
     if (fastest.rows.size() == 1) return "fastest is " + fastest.rows.front()->label;
     if (fastest.are_equal)
-        return "fastest are " + join_labels_of_rows(fastest.rows) + ", whose times are equal";
+        return "fastest are " + join_labels(fastest.rows) + ", whose times are equal";
     return fmt::format("{} of {} rows may be fastest", fastest.rows.size(), fastest.candidates);
 }
 
@@ -195,15 +194,15 @@ std::string describe_fastest_and_closest(const Comparison& comparison) {
     if (fastest.rows.empty()) return "no row could be judged";
     std::string text = (fastest.are_equal ? "" : "cannot tell: ") + describe_fastest(fastest);
     if (const Row* closest = measure::find_closest_row(comparison))
-        text += ", closest is " + format_row_metrics(*closest);
+        text += ", closest is " + format_metrics(*closest);
     if (const std::vector<const Row*> ties = measure::find_closest_ties(comparison); !ties.empty())
-        text += ", with which tie in FLIP: " + join_labels_of_rows(ties);
+        text += ", with which tie in FLIP: " + join_labels(ties);
     return text;
 }
 
 /// Returns a sentence that says which rows ray tracing beats. Empty if all rows are of the same
 /// kind.
-std::string describe_ray_tracing_verdict(const Comparison& comparison) {
+std::string describe_tracing(const Comparison& comparison) {
     const measure::RayTracingVerdict verdict = measure::find_ray_tracing_verdict(comparison);
     const std::size_t others = verdict.others();
     if (others == 0 || !verdict.any_traced) return "";
@@ -215,8 +214,8 @@ std::string describe_ray_tracing_verdict(const Comparison& comparison) {
                describe_fastest(measure::find_fastest_rows(comparison));
     const std::string beaten = fmt::format("beats {} of the {} other rows", verdict.beaten.size(),
                                            others),
-                      unbeaten = join_labels_of_rows(verdict.unbeaten),
-                      open = "cannot tell for " + join_labels_of_rows(verdict.open);
+                      unbeaten = join_labels(verdict.unbeaten),
+                      open = "cannot tell for " + join_labels(verdict.open);
     if (verdict.beaten.empty())
         return fmt::format("ray tracing does not beat {}; {}", unbeaten, open);
     if (verdict.unbeaten.empty()) return fmt::format("ray tracing {}; {}", beaten, open);
@@ -226,73 +225,73 @@ std::string describe_ray_tracing_verdict(const Comparison& comparison) {
 
 } // namespace
 
-std::string make_findings_title(const Comparison& comparison) {
+std::string findings_title(const Comparison& comparison) {
     return comparison.scene.is_seed ? "What this says of the seed report" : "What this says";
 }
 
 std::vector<std::string> list_findings(const Comparison& comparison) {
     struct ReportFinding {
-        OptionalReportSentence (*say)(const Comparison&);
+        OptionalSentence (*say)(const Comparison&);
         /// Compares with the seed report's numbers, so it applies to that report's scene only.
         bool beside_the_report;
     };
     std::vector<std::string> list;
-    for (const auto& [say, beside_the_report] : {ReportFinding{describe_undrawn_dielectrics, false},
+    for (const auto& [say, beside_the_report] : {ReportFinding{describe_dielectrics, false},
                                                  {describe_clear_cost, true},
-                                                 {describe_bounces_versus_error, false},
-                                                 {describe_stored_distance_formats, true},
-                                                 {describe_parallax_correction_price, true},
-                                                 {describe_ray_tracing_time, true},
-                                                 {describe_measured_lag, false}}) {
+                                                 {describe_bounces, false},
+                                                 {describe_distance_formats, true},
+                                                 {describe_parallax_price, true},
+                                                 {describe_tracing_time, true},
+                                                 {describe_lag, false}}) {
         if (beside_the_report && !comparison.scene.is_seed) continue;
-        if (const OptionalReportSentence sentence = say(comparison)) list.push_back(*sentence);
+        if (const OptionalSentence sentence = say(comparison)) list.push_back(*sentence);
     }
     return list;
 }
 
-std::string summarise_ray_tracing_verdict(const Comparison& comparison, const std::string& where) {
-    const std::string tracing = describe_ray_tracing_verdict(comparison);
+std::string summarise_verdict(const Comparison& comparison, const std::string& where) {
+    const std::string tracing = describe_tracing(comparison);
     return where + describe_judged_time(comparison) + ", " +
            (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) + ".";
 }
 
-std::string summarise_ray_tracing_verdict(const Comparison& comparison) {
-    return summarise_ray_tracing_verdict(comparison, "On this device, " + comparison.device.name);
+std::string summarise_verdict(const Comparison& comparison) {
+    return summarise_verdict(comparison, "On this device, " + comparison.device.name);
 }
 
-std::vector<std::string> describe_pareto_front(const Comparison& comparison) {
+std::vector<std::string> describe_front(const Comparison& comparison) {
     const measure::RowRanking standing = measure::rank_rows(comparison);
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
         std::string("On the front, by median ") +
         (measure::judged_time(comparison) == "cpu_ms" ? "processor " : "") +
-        "time: " + format_metrics_of_rows(standing.front) +
+        "time: " + format_metrics(standing.front) +
         ". A row beats another if it is better in time or in FLIP, and in the other better as well "
         "or equal. Times are equal if the 95 % interval of their ratio, round by round, lies within "
         "5 %, and one is better if that interval excludes 1. FLIP is equal within .002. Where an "
         "interval is too wide for either, there is no verdict."};
     if (comparison.noise)
         words.push_back("The reference has noise. FLIP is also equal within " +
-                        format_picture_error(comparison.noise->flip_floor) +
+                        format_error(comparison.noise->flip_floor) +
                         ", the FLIP between its halves.");
     if (!standing.open.empty())
         words.push_back("On the front, but whether another row beats them cannot be told: " +
-                        join_labels_of_rows(standing.open) + ".");
+                        join_labels(standing.open) + ".");
     for (const auto& [winner, losers] : standing.wins)
-        words.push_back(winner->label + " beats " + format_metrics_of_rows(losers) + ".");
+        words.push_back(winner->label + " beats " + format_metrics(losers) + ".");
     if (!standing.beaten_by_beaten.empty())
         words.push_back("Beaten only by rows that are beaten themselves: " +
-                        format_metrics_of_rows(standing.beaten_by_beaten) + ".");
+                        format_metrics(standing.beaten_by_beaten) + ".");
     if (!standing.black.empty())
         words.push_back(
             "Not on the front and not beaten, since their mirrors are black: " +
-            format_metrics_of_rows(standing.black) +
+            format_metrics(standing.black) +
             ". Their time is a lower bound for any technique that draws the same scene.");
     if (!standing.untimed.empty())
         words.push_back("Not on the front, since their time is not known: " +
-                        format_metrics_of_rows(standing.untimed) + ".");
+                        format_metrics(standing.untimed) + ".");
     if (!standing.not_judged.empty())
-        words.push_back("Not judged: " + join_labels_of_rows(standing.not_judged, "; ") + ".");
+        words.push_back("Not judged: " + join_labels(standing.not_judged, "; ") + ".");
     return words;
 }
 

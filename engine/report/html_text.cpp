@@ -38,8 +38,6 @@ std::string escape_html(std::string_view text) {
     return result;
 }
 
-std::string make_png_data_uri(std::string_view png) {
-    return "data:image/png;base64," + encode_base64(png);
-}
+std::string png_uri(std::string_view png) { return "data:image/png;base64," + encode_base64(png); }
 
 } // namespace catoptric::report

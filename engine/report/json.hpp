@@ -14,52 +14,52 @@ namespace catoptric::report {
 using Json = nlohmann::ordered_json;
 
 /// Returns report.json of one scene.
-Json make_report_json(const Comparison& comparison);
+Json report_json(const Comparison& comparison);
 /// Returns the document as ASCII text that ends with a newline.
-std::string serialise_json(const Json& document);
+std::string serialise(const Json& document);
 
 /// Return a number: integers without a fraction, and null if JSON cannot hold the value or if there
 /// is none.
-Json make_number_json(double value);
-Json make_number_json(const std::optional<double>& value);
+Json number_json(double value);
+Json number_json(const std::optional<double>& value);
 /// Returns a list with `entry` of each item.
 template <class List, class Entry>
-Json make_list_json(const List& list, Entry entry) {
+Json list_json(const List& list, Entry entry) {
     Json json = Json::array();
     for (const auto& item : list) json.push_back(entry(item));
     return json;
 }
-Json make_number_list_json(const std::vector<double>& values);
+Json numbers_json(const std::vector<double>& values);
 /// Returns the list [low, high], or null if the interval is not known.
-Json make_interval_json(const measure::Interval& interval);
+Json interval_json(const measure::Interval& interval);
 /// Describes a value for a message: "nothing", "a list", or its JSON in quotes.
 std::string describe(const Json& value);
 /// Returns the field "device".
-Json make_device_json(const DeviceFacts& device);
+Json device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.
-Json make_row_times_json(const Row& row);
+Json row_times_json(const Row& row);
 /// Adds a field for each mask of pixels with all metrics of a difference, and "error_per_mirror".
-void add_error_fields_json(Json& json, const measure::Errors& errors);
+void add_errors(Json& json, const measure::Errors& errors);
 /// Returns the value of a metric as JSON, or null if the metric has no value.
-Json make_metric_value_json(const measure::MetricValue& value);
+Json metric_json(const measure::MetricValue& value);
 /// Returns how far a reference is from path tracing.
-Json make_path_distance_json(const measure::PathDistance& distance);
+Json path_distance_json(const measure::PathDistance& distance);
 /// Returns the field "lag" of a comparison whose lag was measured.
-Json make_lag_json(const Comparison& comparison);
+Json lag_json(const Comparison& comparison);
 
 /// Return the field "views": a list for a comparison; for a row, null if no views were drawn.
-Json make_views_json(const Comparison& comparison);
-Json make_views_json(const Comparison& comparison, const Row& row);
-Json make_point_json(const dvec3& point);
-Json make_camera_json(const measure::CameraFacts& camera);
+Json views_json(const Comparison& comparison);
+Json views_json(const Comparison& comparison, const Row& row);
+Json point_json(const dvec3& point);
+Json camera_json(const measure::CameraFacts& camera);
 /// Return the lists of lights and unsupported features, and the environment or null.
-Json make_lights_json(const std::vector<LightFacts>& lights);
-Json make_environment_json(const std::optional<EnvironmentFacts>& environment);
-Json make_unsupported_features_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
+Json lights_json(const std::vector<LightFacts>& lights);
+Json environment_json(const std::optional<EnvironmentFacts>& environment);
+Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
 /// Returns the field "scene".
-Json make_scene_json(const SceneFacts& scene);
+Json scene_json(const SceneFacts& scene);
 
 /// Returns a list with one object a mirror: mirror, name, technique, settings, why.
-Json make_plan_json(const std::vector<PlanEntry>& plan);
+Json plan_json(const std::vector<PlanEntry>& plan);
 
 } // namespace catoptric::report

@@ -21,13 +21,13 @@ namespace {
 using measure::Difference;
 using measure::percentile_over_instants;
 
-constexpr auto kFlipMemberOfDifference = &Difference::flip;
+constexpr auto kFlipMember = &Difference::flip;
 
 Json to_json(const SettlingAfterCut& settling) {
-    return {{"rmse_settled", make_number_json(settling.rmse_settled)},
-            {"max_settled", make_number_json(settling.max_settled)},
-            {"rmse", make_number_list_json(settling.rmse)},
-            {"max", make_number_list_json(settling.max)}};
+    return {{"rmse_settled", number_json(settling.rmse_settled)},
+            {"max_settled", number_json(settling.max_settled)},
+            {"rmse", numbers_json(settling.rmse)},
+            {"max", numbers_json(settling.max)}};
 }
 
 /// Adds each headline metric of each instant, and its mean. Names begin with `prefix`.
@@ -35,21 +35,20 @@ void add_lag_metrics(Json& json, const std::string& prefix, const std::vector<Di
     for (const auto& [name, figure] :
          {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
           std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
-        json[prefix + name + "_mean"] = make_number_json(
-            measure::mean_over_instants(errors, figure));
-        json[prefix + name] = make_number_list_json(measure::values_at_instants(errors, figure));
+        json[prefix + name + "_mean"] = number_json(measure::mean_over_instants(errors, figure));
+        json[prefix + name] = numbers_json(measure::values_at_instants(errors, figure));
     }
 }
 
 Json to_json(const LagAtSpeed& at) {
-    Json json{{"speed", make_number_json(at.speed)}};
+    Json json{{"speed", number_json(at.speed)}};
     add_lag_metrics(json, "", at.errors);
     for (const auto& [name, figure] :
          {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
         const std::string prefix(name);
-        json[prefix + "_median"] = make_number_json(
+        json[prefix + "_median"] = number_json(
             measure::percentile_over_instants(at.errors, figure, .5));
-        json[prefix + "_max"] = make_number_json(
+        json[prefix + "_max"] = number_json(
             measure::percentile_over_instants(at.errors, figure, 1));
     }
     add_lag_metrics(json, "reference_", at.reference_errors);
@@ -58,16 +57,16 @@ Json to_json(const LagAtSpeed& at) {
 
 /// Returns the field "worst" of a row: null, or where the lag is largest, with the names of its
 /// pictures.
-Json make_worst_lag_json(const Comparison& comparison, const LagRow& row) {
+Json worst_lag_json(const Comparison& comparison, const LagRow& row) {
     if (!row.worst) return nullptr;
-    Json json{{"speed", make_number_json(row.worst->speed)},
-              {"seconds", make_number_json(row.worst->seconds)},
-              {"flip", make_number_json(row.worst->flip)}};
-    const std::string name = find_lag_image_name(comparison, row);
+    Json json{{"speed", number_json(row.worst->speed)},
+              {"seconds", number_json(row.worst->seconds)},
+              {"flip", number_json(row.worst->flip)}};
+    const std::string name = find_lag_image(comparison, row);
     if (name.empty()) return json;
     for (const std::string_view ending : kLagPictureNames)
-        json[std::string(ending.substr(1))] = report_image_path(
-            comparison, name + std::string(ending) + ".exr");
+        json[std::string(ending.substr(1))] = image_path(comparison,
+                                                         name + std::string(ending) + ".exr");
     return json;
 }
 
@@ -78,12 +77,12 @@ Json to_json(const Comparison& comparison, const LagRow& row) {
               {"after_black", to_json(row.after_black)},
               {"after_jump", to_json(row.after_jump)}};
     add_lag_metrics(json, "still_reference_", row.still_reference_errors);
-    json["worst"] = make_worst_lag_json(comparison, row);
-    json["speeds"] = make_list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
+    json["worst"] = worst_lag_json(comparison, row);
+    json["speeds"] = list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
     return json;
 }
 
-std::string format_motion_speed(double speed) { return fmt::format("{:g}x", speed); }
+std::string format_speed(double speed) { return fmt::format("{:g}x", speed); }
 
 std::string format_frame_count(const std::optional<int>& frames, int cap) {
     return frames ? std::to_string(*frames) : fmt::format("over {}", cap);
@@ -100,7 +99,7 @@ std::string describe_lag_limits(const LagResults& lag) {
         note += fmt::format(" Two references of the first instant with different random rays "
                             "differ by a FLIP of {}. Rows tie whose FLIP against the reference "
                             "differs by less.",
-                            format_picture_error(lag.reference_flip_floor));
+                            format_error(lag.reference_flip_floor));
     if (lag.reference_rays < lag.wanted_reference_rays)
         note += fmt::format(" The reference has {} instead of {} rays for each point of a rough "
                             "surface, which fit into --reference-seconds.",
@@ -114,26 +113,25 @@ std::string describe_lag_limits(const LagResults& lag) {
 
 /// Returns the FLIP of lag over all instants as text: mean, median and largest.
 std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
-    return {format_picture_error(measure::mean_over_instants(at.errors, kFlipMemberOfDifference)),
-            format_picture_error(percentile_over_instants(at.errors, kFlipMemberOfDifference, .5)),
-            format_picture_error(percentile_over_instants(at.errors, kFlipMemberOfDifference, 1))};
+    return {format_error(measure::mean_over_instants(at.errors, kFlipMember)),
+            format_error(percentile_over_instants(at.errors, kFlipMember, .5)),
+            format_error(percentile_over_instants(at.errors, kFlipMember, 1))};
 }
 
-std::vector<std::string> make_lag_table_row(const LagResults& lag, const LagRow& row,
-                                            const LagAtSpeed& at) {
+std::vector<std::string> lag_cells(const LagResults& lag, const LagRow& row, const LagAtSpeed& at) {
     const auto mean = [&](double Difference::*figure) {
         return measure::mean_over_instants(at.errors, figure);
     };
     const auto flip_to_reference = [](const std::vector<Difference>& errors) {
-        return format_picture_error(measure::mean_over_instants(errors, kFlipMemberOfDifference));
+        return format_error(measure::mean_over_instants(errors, kFlipMember));
     };
     const auto [flip, median, largest] = format_flip_values(at);
     return {row.label,
-            format_motion_speed(at.speed),
+            format_speed(at.speed),
             flip,
             format_fixed(100 * mean(&Difference::off), 2),
-            format_picture_error(mean(&Difference::mae)),
-            format_picture_error(mean(&Difference::rmse)),
+            format_error(mean(&Difference::mae)),
+            format_error(mean(&Difference::rmse)),
             median,
             largest,
             format_fixed(measure::find_worst_instant(lag, at), 2),
@@ -146,12 +144,12 @@ std::string describe_row_lag(const LagRow& row) {
     for (const LagAtSpeed& at : row.speeds) {
         const auto [flip, median, largest] = format_flip_values(at);
         parts.push_back(fmt::format("{} (median {}, largest {}) at {}", flip, median, largest,
-                                    format_motion_speed(at.speed)));
+                                    format_speed(at.speed)));
     }
     return row.label + " is behind its own still picture by a FLIP of " + join_texts(parts, ", ");
 }
 
-std::string describe_settling_after_cut(const LagRow& row, int cap) {
+std::string describe_settling(const LagRow& row, int cap) {
     const auto counts = [&](const SettlingAfterCut& settling) {
         return fmt::format("{} by rmse, {} in every pixel",
                            format_frame_count(settling.rmse_settled, cap),
@@ -162,7 +160,7 @@ std::string describe_settling_after_cut(const LagRow& row, int cap) {
                        counts(row.after_black), counts(row.after_jump));
 }
 
-std::string make_html_lag_along_path(const LagResults& lag, const LagRow& row) {
+std::string lag_along_path(const LagResults& lag, const LagRow& row) {
     LineChart chart{.x_name = "instant of the scene, s",
                     .y_name = "FLIP to the still picture",
                     .says = "Lag of " + row.label + " along the path, one line a speed",
@@ -171,12 +169,12 @@ std::string make_html_lag_along_path(const LagResults& lag, const LagRow& row) {
         chart.x_ticks.push_back(lag.seconds.front() + share * lag.path);
     std::erase_if(chart.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
-        chart.lines.push_back({format_motion_speed(at.speed),
-                               measure::values_at_instants(at.errors, kFlipMemberOfDifference)});
-    return make_html_line_chart(chart);
+        chart.lines.push_back(
+            {format_speed(at.speed), measure::values_at_instants(at.errors, kFlipMember)});
+    return html_chart(chart);
 }
 
-std::string make_html_lag_against_speed(const LagResults& lag) {
+std::string lag_by_speed(const LagResults& lag) {
     LineChart chart{.x_name = "speed of the scene's time",
                     .y_name = "FLIP to the still picture, mean",
                     .says = "Mean lag against speed, one line a row",
@@ -186,12 +184,12 @@ std::string make_html_lag_against_speed(const LagResults& lag) {
     for (const LagRow& row : lag.rows) {
         ChartLine& line = chart.lines.emplace_back(ChartLine{row.label, {}});
         for (const LagAtSpeed& at : row.speeds)
-            line.y.push_back(measure::mean_over_instants(at.errors, kFlipMemberOfDifference));
+            line.y.push_back(measure::mean_over_instants(at.errors, kFlipMember));
     }
-    return make_html_line_chart(chart);
+    return html_chart(chart);
 }
 
-std::string make_html_settling_curves(const LagResults& lag) {
+std::string settling_curves(const LagResults& lag) {
     constexpr std::size_t kMaxShownFrames = 10; // number of frames shown
     LineChart chart{.x_name = "frame after a jump of half the path",
                     .y_name = "rmse to the still picture",
@@ -203,48 +201,47 @@ std::string make_html_settling_curves(const LagResults& lag) {
             chart.x.push_back(static_cast<double>(i + 1));
     }
     chart.x_ticks = chart.x;
-    return make_html_line_chart(chart);
+    return html_chart(chart);
 }
 
-std::string make_html_lag_figure(const std::string& drawing, const std::string& caption) {
+std::string lag_figure(const std::string& drawing, const std::string& caption) {
     if (drawing.empty()) return "";
     return "<figure>" + drawing + "<figcaption>" + escape_html(caption) + "</figcaption></figure>";
 }
 
 } // namespace
 
-Json make_lag_json(const Comparison& comparison) {
+Json lag_json(const Comparison& comparison) {
     const LagResults& lag = *comparison.lag;
-    return {{"mask", "mirrors"},
-            {"complete", lag.complete},
-            {"path_seconds", make_number_json(lag.path)},
-            {"jump_from", make_number_json(lag.jump_from)},
-            {"frame_cap", lag.frame_cap},
-            {"reference_flip_floor", make_number_json(lag.reference_flip_floor)},
-            {"reference_rays", lag.reference_rays},
-            {"seconds", make_number_list_json(lag.seconds)},
-            {"without_history", lag.without_history},
-            {"rows", make_list_json(lag.rows,
-                                    [&](const LagRow& row) { return to_json(comparison, row); })}};
+    return {
+        {"mask", "mirrors"},
+        {"complete", lag.complete},
+        {"path_seconds", number_json(lag.path)},
+        {"jump_from", number_json(lag.jump_from)},
+        {"frame_cap", lag.frame_cap},
+        {"reference_flip_floor", number_json(lag.reference_flip_floor)},
+        {"reference_rays", lag.reference_rays},
+        {"seconds", numbers_json(lag.seconds)},
+        {"without_history", lag.without_history},
+        {"rows", list_json(lag.rows, [&](const LagRow& row) { return to_json(comparison, row); })}};
 }
 
-ReportTable make_lag_table(const Comparison& comparison) {
+ReportTable lag_table(const Comparison& comparison) {
     ReportTable table{"Lag: the moving scene",
-                      {make_text_column("Row"), "Speed", "FLIP", "off, %", "MAE", "rmse",
-                       "FLIP, median", "FLIP, largest", "s", "to reference, moving",
-                       "to reference, still"},
+                      {text_column("Row"), "Speed", "FLIP", "off, %", "MAE", "rmse", "FLIP, median",
+                       "FLIP, largest", "s", "to reference, moving", "to reference, still"},
                       ""};
     if (!comparison.lag) return table;
     table.note = describe_lag_limits(*comparison.lag);
     for (const LagRow& row : comparison.lag->rows)
         for (const LagAtSpeed& at : row.speeds)
-            table.rows.push_back(make_lag_table_row(*comparison.lag, row, at));
+            table.rows.push_back(lag_cells(*comparison.lag, row, at));
     return table;
 }
 
-ReportTable make_settling_table(const Comparison& comparison) {
+ReportTable settling_table(const Comparison& comparison) {
     ReportTable table{"Lag: frames after a cut",
-                      {make_text_column("Row"), "from black, rmse", "from black, every pixel",
+                      {text_column("Row"), "from black, rmse", "from black, every pixel",
                        "after a jump, rmse", "after a jump, every pixel"},
                       ""};
     if (!comparison.lag) return table;
@@ -263,14 +260,14 @@ ReportTable make_settling_table(const Comparison& comparison) {
     return table;
 }
 
-std::optional<std::string> describe_measured_lag(const Comparison& comparison) {
+std::optional<std::string> describe_lag(const Comparison& comparison) {
     if (!comparison.lag) return {};
     const LagResults& lag = *comparison.lag;
     std::vector<std::string> sentences;
     for (const LagRow& row : lag.rows)
         if (!row.speeds.empty())
             sentences.push_back(describe_row_lag(row) + "; " +
-                                describe_settling_after_cut(row, lag.frame_cap));
+                                describe_settling(row, lag.frame_cap));
     if (!lag.without_history.empty())
         sentences.push_back("Left out, since their frames read nothing of the frame before and "
                             "have no lag: " +
@@ -281,28 +278,27 @@ std::optional<std::string> describe_measured_lag(const Comparison& comparison) {
            join_texts(sentences, ". ") + ".";
 }
 
-std::string make_lag_plots(const Comparison& comparison) {
+std::string lag_plots(const Comparison& comparison) {
     if (!comparison.lag || comparison.lag->rows.empty()) return "";
     const LagResults& lag = *comparison.lag;
     std::string html = "<section><h2>Lag</h2><div class=\"panels\">";
     for (const LagRow& row : lag.rows)
-        html += make_html_lag_figure(make_html_lag_along_path(lag, row),
-                                     row.label + " along the path, one line a speed");
-    html += make_html_lag_figure(make_html_lag_against_speed(lag),
-                                 "Mean over the path against speed");
-    html += make_html_lag_figure(make_html_settling_curves(lag), "Frames after a cut");
+        html += lag_figure(lag_along_path(lag, row),
+                           row.label + " along the path, one line a speed");
+    html += lag_figure(lag_by_speed(lag), "Mean over the path against speed");
+    html += lag_figure(settling_curves(lag), "Frames after a cut");
     return html + "</div><p class=\"note\">All against the still picture of the same row and "
                   "instant, over the mirrors. The lane below is 0.</p></section>\n";
 }
 
-const RegisteredReportPart kLagReportPart{
+const RegisteredPart kLagPart{
     {.name = "lag",
      .order = 500,
      .tables =
          [](const Comparison& comparison) {
-             return std::vector{make_lag_table(comparison), make_settling_table(comparison)};
+             return std::vector{lag_table(comparison), settling_table(comparison)};
          },
      .look = "lag",
-     .plots = make_lag_plots}};
+     .plots = lag_plots}};
 
 } // namespace catoptric::report

@@ -26,32 +26,32 @@ std::size_t count_characters(const std::string& text) {
         std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::string pad_markdown_cell(const std::string& cell, std::size_t width, bool right) {
+std::string pad_cell(const std::string& cell, std::size_t width, bool right) {
     const std::string space(width - count_characters(cell), ' ');
     return right ? space + cell : cell + space;
 }
 
-std::string make_markdown_line(const std::vector<std::string>& cells,
-                               const std::vector<std::size_t>& widths,
-                               const std::vector<TableColumn>& columns) {
+std::string markdown_line(const std::vector<std::string>& cells,
+                          const std::vector<std::size_t>& widths,
+                          const std::vector<TableColumn>& columns) {
     std::string line = "|";
     for (std::size_t i = 0; i < columns.size(); ++i)
-        line += " " + pad_markdown_cell(cells[i], widths[i], columns[i].is_number) + " |";
+        line += " " + pad_cell(cells[i], widths[i], columns[i].is_number) + " |";
     return line + "\n";
 }
 
-std::string make_markdown_list(const std::vector<std::string>& sentences) {
+std::string markdown_list(const std::vector<std::string>& sentences) {
     std::string text;
     for (const std::string& sentence : sentences) text += "- " + escape_markdown(sentence) + "\n";
     return text + "\n";
 }
 
 /// Returns the tables and sentences of a part, or nothing if its tables have no rows.
-std::string make_markdown_part(const Comparison& comparison, const ReportPart& part) {
+std::string markdown_part(const Comparison& comparison, const ReportPart& part) {
     std::string text;
     for (const ReportTable& table : part.tables(comparison)) text += to_markdown(table);
     if (text.empty() || part.sentences == nullptr) return text;
-    return text + make_markdown_list(part.sentences(comparison));
+    return text + markdown_list(part.sentences(comparison));
 }
 
 } // namespace
@@ -76,7 +76,7 @@ std::string to_markdown(const ReportTable& table) {
 
     std::string text = "## " + escape_markdown(table.title) + "\n\n";
     for (const std::vector<std::string>& cells : lines)
-        text += make_markdown_line(cells, widths, table.columns);
+        text += markdown_line(cells, widths, table.columns);
     return text + (table.note.empty() ? "" : "\n" + escape_markdown(table.note) + "\n") + "\n";
 }
 
@@ -84,26 +84,25 @@ std::string to_markdown(const Comparison& comparison) {
     std::string text = "# Reflections compared: " + escape_markdown(comparison.scene.name) +
                        "\n\n" +
                        (measure::has_budget(comparison)
-                            ? "**" + escape_markdown(describe_budget_answer(comparison)) + "**\n\n"
+                            ? "**" + escape_markdown(describe_budget(comparison)) + "**\n\n"
                             : "") +
-                       escape_markdown(summarise_ray_tracing_verdict(comparison)) + "\n\n";
-    for (const ReportHeaderLine& fact : list_report_facts(comparison))
+                       escape_markdown(summarise_verdict(comparison)) + "\n\n";
+    for (const ReportHeaderLine& fact : list_facts(comparison))
         text += "- **" + fact.name + "**: " + escape_markdown(fact.value) + "\n";
     text += "\n";
-    for (const std::string& caution : list_report_cautions(comparison))
+    for (const std::string& caution : list_cautions(comparison))
         text += "> " + escape_markdown(caution) + "\n>\n";
-    text += "\n" +
-            (comparison.scene.is_seed ? to_markdown(make_seed_report_table(comparison)) : "") +
+    text += "\n" + (comparison.scene.is_seed ? to_markdown(seed_table(comparison)) : "") +
             "**Set-up**, once: " +
-            escape_markdown(describe_setup_times(measure::read_setup_facts(comparison))) + "\n\n" +
-            to_markdown(make_rows_table(comparison)) + to_markdown(make_plan_table(comparison));
-    for (const ReportPart& part : list_report_parts()) text += make_markdown_part(comparison, part);
-    text += to_markdown(make_unsupported_table(comparison.scene));
+            escape_markdown(describe_setup(measure::read_setup_facts(comparison))) + "\n\n" +
+            to_markdown(rows_table(comparison)) + to_markdown(plan_table(comparison));
+    for (const ReportPart& part : list_parts()) text += markdown_part(comparison, part);
+    text += to_markdown(unsupported_table(comparison.scene));
     text += "## The Pareto front: time against FLIP\n\n" +
-            make_markdown_list(describe_pareto_front(comparison));
+            markdown_list(describe_front(comparison));
     const std::vector<std::string> sentences = list_findings(comparison);
     if (!sentences.empty())
-        text += "## " + make_findings_title(comparison) + "\n\n" + make_markdown_list(sentences);
+        text += "## " + findings_title(comparison) + "\n\n" + markdown_list(sentences);
     return text;
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 /// Returns a squared error with two significant digits, or words for a negative estimate.
 std::string format_squared_error(double square) {
-    if (!std::isfinite(square)) return std::string(kEmptyCellText);
-    return square < 0 ? std::string(kBelowNoiseText) : fmt::format("{:.2e}", square);
+    if (!std::isfinite(square)) return std::string(kEmptyCell);
+    return square < 0 ? std::string(kBelowNoise) : fmt::format("{:.2e}", square);
 }
 
 /// Returns the entry of a row's list `noise` for the mask of mirrors.
@@ -29,7 +29,7 @@ const measure::MetricParts* find_mirror_noise(const measure::MetricValue& value)
     return found == list->end() ? nullptr : &*found;
 }
 
-double find_number_of_part(const measure::MetricParts& parts, std::string_view name) {
+double find_part(const measure::MetricParts& parts, std::string_view name) {
     for (const auto& [what, value] : parts.values)
         if (const auto* number = std::get_if<double>(&value); what == name && number != nullptr)
             return *number;
@@ -40,14 +40,14 @@ std::string format_noise_interval(const measure::MetricParts& parts) {
     for (const auto& [what, value] : parts.values)
         if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
             return fmt::format("{:.2e} to {:.2e}", list->front(), list->back());
-    return std::string(kEmptyCellText);
+    return std::string(kEmptyCell);
 }
 
-ReportTable make_noise_table(const Comparison& comparison) {
+ReportTable noise_table(const Comparison& comparison) {
     ReportTable table{
         "Errors against a reference with noise",
-        {make_text_column("Row"), "Squared error", "Deviation", make_text_column("95 %"),
-         "Not clamped", "Crossing, %", "FLIP", "Floor", make_text_column("Verdict")},
+        {text_column("Row"), "Squared error", "Deviation", text_column("95 %"), "Not clamped",
+         "Crossing, %", "FLIP", "Floor", text_column("Verdict")},
         "Over the mirrors. Squared error: the mean of (x - A)(x - B) over pixels and channels, where "
         "x is the row and A and B are the independent halves of the reference; unbiased, and "
         "negative where the error is below the noise. Deviation: standard deviation of this "
@@ -59,25 +59,23 @@ ReportTable make_noise_table(const Comparison& comparison) {
         const measure::MetricValue value = measure::study_metric(row, measure::kNoiseMetricName);
         const measure::MetricParts* noise = find_mirror_noise(value);
         if (noise == nullptr) continue;
-        const double square = find_number_of_part(*noise, "squared_error");
+        const double square = find_part(*noise, "squared_error");
         const bool hidden = measure::is_below_noise(row.error) || square < 0;
-        table.rows.push_back(
-            {row.label, format_squared_error(square),
-             format_squared_error(find_number_of_part(*noise, "deviation")),
-             format_noise_interval(*noise),
-             format_squared_error(find_number_of_part(*noise, "squared_error_unclamped")),
-             format_fixed(100 * find_number_of_part(*noise, "crossing"), 2),
-             format_picture_error(row.error.flip), format_picture_error(row.error.flip_floor),
-             hidden ? std::string(kBelowNoiseText) : "above the noise"});
+        table.rows.push_back({row.label, format_squared_error(square),
+                              format_squared_error(find_part(*noise, "deviation")),
+                              format_noise_interval(*noise),
+                              format_squared_error(find_part(*noise, "squared_error_unclamped")),
+                              format_fixed(100 * find_part(*noise, "crossing"), 2),
+                              format_error(row.error.flip), format_error(row.error.flip_floor),
+                              hidden ? std::string(kBelowNoise) : "above the noise"});
     }
     return table;
 }
 
-const RegisteredReportPart kNoiseReportPart{
+const RegisteredPart kNoisePart{
     {.name = "noise",
      .order = 50,
-     .tables =
-         [](const Comparison& comparison) { return std::vector{make_noise_table(comparison)}; },
+     .tables = [](const Comparison& comparison) { return std::vector{noise_table(comparison)}; },
      .look = "noise"}};
 
 } // namespace

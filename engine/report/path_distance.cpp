@@ -18,12 +18,12 @@ namespace {
 
 /// Returns how many ranked rows have a FLIP over the mirrors below the limit, against the
 /// reference.
-std::size_t count_rows_with_less_flip(const std::vector<Row>& rows, double limit) {
+std::size_t count_rows_below(const std::vector<Row>& rows, double limit) {
     return static_cast<std::size_t>(std::ranges::count_if(
         rows, [&](const Row& row) { return measure::is_rankable(row) && row.error.flip < limit; }));
 }
 
-std::string describe_rows_with_less_flip(const std::vector<Row>& rows, std::size_t less) {
+std::string describe_rows_below(const std::vector<Row>& rows, std::size_t less) {
     if (less == 0) return "";
     if (less == rows.size()) return " All rows are closer to the reference than that.";
     return fmt::format(" {} of {} rows {} closer to the reference than that.", less, rows.size(),
@@ -47,27 +47,27 @@ std::string describe_path_distance(const measure::PathDistance& distance,
     if (interval.low <= 0)
         return fmt::format("The reference itself is at most FLIP {} from path tracing ({}).",
                            format_fixed(interval.high, 3), where);
-    const std::size_t less = shows_mirror ? count_rows_with_less_flip(rows, interval.low) : 0;
+    const std::size_t less = shows_mirror ? count_rows_below(rows, interval.low) : 0;
     return fmt::format("The reference itself, whose light is simplified, is FLIP {} [{} - {}] from "
                        "path tracing ({}).{} To judge rows by path tracing: {}.",
                        format_fixed(shows_mirror ? distance.flip : distance.flip_all, 3),
                        format_fixed(interval.low, 3), format_fixed(interval.high, 3), where,
-                       describe_rows_with_less_flip(rows, less), escape(distance.command));
+                       describe_rows_below(rows, less), escape(distance.command));
 }
 
-Json make_path_distance_json(const measure::PathDistance& distance) {
+Json path_distance_json(const measure::PathDistance& distance) {
     const bool known = distance.is_known();
     Json json{{"known", known},
-              {"flip", make_number_json(distance.flip)},
-              {"noise", make_number_json(distance.noise)},
-              {"flip_all", make_number_json(distance.flip_all)},
-              {"noise_all", make_number_json(distance.noise_all)},
-              {"interval", make_interval_json(known ? measure::distance_interval(distance)
-                                                    : measure::Interval())},
+              {"flip", number_json(distance.flip)},
+              {"noise", number_json(distance.noise)},
+              {"flip_all", number_json(distance.flip_all)},
+              {"noise_all", number_json(distance.noise_all)},
+              {"interval",
+               interval_json(known ? measure::distance_interval(distance) : measure::Interval())},
               {"size", Json::array({distance.width, distance.height})},
               {"paths", distance.paths},
-              {"seconds", make_number_json(distance.seconds)},
-              {"most_seconds", make_number_json(distance.most_seconds)},
+              {"seconds", number_json(distance.seconds)},
+              {"most_seconds", number_json(distance.most_seconds)},
               {"kept", distance.is_kept}};
     if (!known) json["why"] = distance.unknown;
     json["command"] = distance.command;

@@ -4,10 +4,8 @@
 
 namespace catoptric::report {
 
-RegisteredReportPart::RegisteredReportPart(const ReportPart& part) {
-    table_rows<ReportPart>().push_back(part);
-}
+RegisteredPart::RegisteredPart(const ReportPart& part) { table_rows<ReportPart>().push_back(part); }
 
-std::vector<ReportPart> list_report_parts() { return sorted_rows<ReportPart>(); }
+std::vector<ReportPart> list_parts() { return sorted_rows<ReportPart>(); }
 
 } // namespace catoptric::report

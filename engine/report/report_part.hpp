@@ -44,11 +44,11 @@ struct ReportPart {
 
 /// Registers a part. Define it at namespace scope: the part enters the table while the program
 /// starts.
-struct RegisteredReportPart {
-    explicit RegisteredReportPart(const ReportPart& part);
+struct RegisteredPart {
+    explicit RegisteredPart(const ReportPart& part);
 };
 
 /// Returns all parts by `order`, then name.
-std::vector<ReportPart> list_report_parts();
+std::vector<ReportPart> list_parts();
 
 } // namespace catoptric::report

@@ -11,11 +11,11 @@
 
 namespace catoptric::report {
 
-bool MultiSceneReport::is_report_complete() const {
+bool ScenesReport::is_complete() const {
     return list.size() == asked.size() && std::ranges::all_of(list, &Comparison::complete);
 }
 
-std::string scene_images_folder(std::size_t index, const std::string& scene) {
+std::string images_folder(std::size_t index, const std::string& scene) {
     constexpr std::size_t kMaxFolderNameLength = 40;
     std::string name;
     for (const char c : scene.substr(0, kMaxFolderNameLength)) {
@@ -26,7 +26,7 @@ std::string scene_images_folder(std::size_t index, const std::string& scene) {
     return std::to_string(index + 1) + "-" + name + "/";
 }
 
-Comparison copy_without_pictures(const Comparison& comparison) {
+Comparison without_pictures(const Comparison& comparison) {
     Comparison bare = comparison;
     bare.reference_hdr = bare.reference_display = {};
     bare.mirror_hits = {};
@@ -50,7 +50,7 @@ Comparison copy_without_pictures(const Comparison& comparison) {
     return bare;
 }
 
-std::string to_json(const MultiSceneReport& scenes) {
+std::string to_json(const ScenesReport& scenes) {
     Json json{{"schema", "catoptric/compare-scenes/1"}};
     if (!scenes.list.empty()) {
         const Comparison& first = scenes.list.front();
@@ -58,36 +58,36 @@ std::string to_json(const MultiSceneReport& scenes) {
         json["command"] = first.command;
         json["date"] = first.date;
     }
-    json["complete"] = scenes.is_report_complete();
+    json["complete"] = scenes.is_complete();
     json["asked"] = scenes.asked;
     json["scenes"] = Json::array();
     for (const Comparison& comparison : scenes.list)
-        json["scenes"].push_back(make_report_json(comparison));
-    return serialise_json(json);
+        json["scenes"].push_back(report_json(comparison));
+    return serialise(json);
 }
 
-std::string to_csv(const MultiSceneReport& scenes, CsvColumnSet which) {
+std::string to_csv(const ScenesReport& scenes, CsvColumns which) {
     std::vector<const Comparison*> all;
     for (const Comparison& comparison : scenes.list) all.push_back(&comparison);
     return to_csv(all, which);
 }
 
-std::string to_markdown(const MultiSceneReport& scenes) {
+std::string to_markdown(const ScenesReport& scenes) {
     std::string text;
     for (const Comparison& comparison : scenes.list) text += to_markdown(comparison);
     return text;
 }
 
-std::string to_html(const MultiSceneReport& scenes, const std::vector<std::string>& sections) {
+std::string to_html(const ScenesReport& scenes, const std::vector<std::string>& sections) {
     std::string content = "<nav><ul>";
     for (const Comparison& comparison : scenes.list)
-        content += "<li><a href=\"#" + make_html_id_prefix(comparison) + "\">" +
+        content += "<li><a href=\"#" + id_prefix(comparison) + "\">" +
                    escape_html(comparison.scene.name) + "</a></li>";
     content += "</ul></nav>\n";
     for (std::size_t i = 0; i < sections.size(); ++i)
-        content += "<div class=\"scene\" id=\"" + make_html_id_prefix(scenes.list[i]) + "\">" +
-                   sections[i] + "</div>\n";
-    return make_html_page(join_texts(scenes.asked, ", "), content);
+        content += "<div class=\"scene\" id=\"" + id_prefix(scenes.list[i]) + "\">" + sections[i] +
+                   "</div>\n";
+    return html_page(join_texts(scenes.asked, ", "), content);
 }
 
 } // namespace catoptric::report

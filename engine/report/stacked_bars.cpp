@@ -26,21 +26,21 @@ double sum_bar(const StackedBar& bar) {
 }
 
 /// Returns a distance of ticks, 1, 2 or 5 times a power of ten, that gives 3 to 8 ticks.
-double choose_tick_distance(double longest) {
+double tick_distance(double longest) {
     const double decade = std::pow(10.0, std::floor(std::log10(longest / 3)));
     for (const double step : {1.0, 2.0, 5.0})
         if (longest / (step * decade) < 8) return step * decade;
     return 10 * decade;
 }
 
-std::string draw_bar_text(double x, double y, const char* anchor, const std::string& text) {
+std::string draw_text(double x, double y, const char* anchor, const std::string& text) {
     return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
                        escape_html(text));
 }
 
 /// Draws the names of the kinds that some bar has, in as many lines as they need. Sets `y` below
 /// the last line.
-std::string draw_bar_legend(const StackedBars& chart, double left, double& y) {
+std::string draw_legend(const StackedBars& chart, double left, double& y) {
     std::string svg;
     double x = left;
     y = kLegendLineHeight;
@@ -56,7 +56,7 @@ std::string draw_bar_legend(const StackedBars& chart, double left, double& y) {
         svg += fmt::format(
                    R"(<rect x="{:.1f}" y="{:.1f}" width="{}" height="{}" style="fill:{}"/>)", x,
                    y - kLegendBoxSize, kLegendBoxSize, kLegendBoxSize, kind.colour) +
-               draw_bar_text(x + kLegendBoxSize + 5, y, "start", kind.name);
+               draw_text(x + kLegendBoxSize + 5, y, "start", kind.name);
         x += width;
     }
     y += 10;
@@ -65,13 +65,13 @@ std::string draw_bar_legend(const StackedBars& chart, double left, double& y) {
 
 } // namespace
 
-std::string choose_bar_colour(std::size_t kind) {
+std::string bar_colour(std::size_t kind) {
     constexpr std::array kColours{"#0072b2", "#e69f00", "#009e73", "#56b4e9",
                                   "#d55e00", "#cc79a7", "#f0e442", "#999999"};
     return kColours[kind % kColours.size()];
 }
 
-std::string draw_stacked_bars(const StackedBars& chart) {
+std::string draw_bars(const StackedBars& chart) {
     double longest = 0;
     std::size_t letters = 0;
     for (const StackedBar& bar : chart.bars) {
@@ -82,22 +82,22 @@ std::string draw_stacked_bars(const StackedBars& chart) {
     const double left = std::min(kMaxLabelWidth, 16 + kLetterWidth * static_cast<double>(letters));
     const double scale = (kBarsWidth - kRightMargin - left) / longest;
     double top = 0;
-    const std::string legend = draw_bar_legend(chart, left, top);
+    const std::string legend = draw_legend(chart, left, top);
     const double bottom = top + kBarDistance * static_cast<double>(chart.bars.size());
     std::string svg = fmt::format(R"(<svg viewBox="0 0 {} {:.0f}" role="img" aria-label="{}">)",
                                   kBarsWidth, bottom + kAxisHeight, escape_html(chart.says)) +
                       legend;
-    const double step = choose_tick_distance(longest);
+    const double step = tick_distance(longest);
     for (int tick = 0; tick * step <= longest * (1 + 1e-9); ++tick) {
         const double x = left + tick * step * scale;
         svg += fmt::format(
                    R"(<line class="grid" x1="{0:.1f}" y1="{1:.1f}" x2="{0:.1f}" y2="{2:.1f}"/>)", x,
                    top, bottom) +
-               draw_bar_text(x, bottom + 15, "middle", fmt::format("{:g}", tick * step));
+               draw_text(x, bottom + 15, "middle", fmt::format("{:g}", tick * step));
     }
     double y = top;
     for (const StackedBar& bar : chart.bars) {
-        svg += draw_bar_text(left - 8, y + kBarHeight - 3, "end", bar.label);
+        svg += draw_text(left - 8, y + kBarHeight - 3, "end", bar.label);
         double x = left;
         for (std::size_t k = 0; k < bar.lengths.size(); ++k) {
             const double width = scale * bar_length(bar.lengths[k]);
@@ -112,8 +112,7 @@ std::string draw_stacked_bars(const StackedBars& chart) {
         y += kBarDistance;
     }
     return svg +
-           draw_bar_text((left + kBarsWidth - kRightMargin) / 2, bottom + 34, "middle",
-                         chart.x_name) +
+           draw_text((left + kBarsWidth - kRightMargin) / 2, bottom + 34, "middle", chart.x_name) +
            "</svg>";
 }
 

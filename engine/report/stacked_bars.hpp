@@ -25,10 +25,10 @@ struct StackedBars {
 };
 
 /// Returns an SVG to embed in a page, with a legend above the bars. Empty if no bar has a length.
-std::string draw_stacked_bars(const StackedBars& chart);
+std::string draw_bars(const StackedBars& chart);
 
 /// Returns colours that colour-blind readers can tell apart (Okabe, Ito). Further kinds repeat
 /// them.
-std::string choose_bar_colour(std::size_t kind);
+std::string bar_colour(std::size_t kind);
 
 } // namespace catoptric::report

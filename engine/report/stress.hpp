@@ -28,16 +28,16 @@ std::string to_markdown(const StressResults& stress);
 std::string describe_incomplete_run(const StressResults& stress);
 
 /// Writes the results of the finished rows into a folder, which is made as for a comparison. Files:
-/// stress.json, stress.html, stress.md and images/ID-*.png. `write_stress_results` is called again
+/// stress.json, stress.html, stress.md and images/ID-*.png. `write` is called again
 /// as rows are added and writes each picture once.
-class StressReportWriter {
+class StressWriter {
 public:
-    explicit StressReportWriter(std::filesystem::path folder) : stress_folder_(std::move(folder)) {}
+    explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
     /// Writes all files. Throws `cannot_create`, `io`.
-    void write_stress_results(const StressResults& stress);
+    void write(const StressResults& stress);
 
 private:
-    std::filesystem::path stress_folder_;
+    std::filesystem::path folder_;
     std::size_t rows_ = 0; ///< number of rows whose pictures are written
 };
 

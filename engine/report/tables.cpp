@@ -18,16 +18,15 @@ namespace catoptric::report {
 
 namespace {
 
-std::string make_empty_cell() { return std::string(kEmptyCellText); }
+std::string empty_cell() { return std::string(kEmptyCell); }
 
 /// Returns the interval of the median.
-std::string format_median_interval(const measure::SampleSummary& times, int decimals) {
-    if (!times.ci95.is_known()) return make_empty_cell();
+std::string format_median(const measure::SampleSummary& times, int decimals) {
+    if (!times.ci95.is_known()) return empty_cell();
     return format_fixed(times.ci95.low, decimals) + "–" + format_fixed(times.ci95.high, decimals);
 }
 
-const Row* find_row_of_this_program(const Comparison& comparison,
-                                    const measure::SeedReportRow& seed) {
+const Row* find_own_row(const Comparison& comparison, const measure::SeedReportRow& seed) {
     if (seed.inter_reflections >= 0)
         return measure::find_naive_row(comparison, seed.inter_reflections);
     if (seed.part == TechniqueTraits::SeedPart::parallax)
@@ -37,11 +36,11 @@ const Row* find_row_of_this_program(const Comparison& comparison,
     return measure::find_seed_row(comparison, seed.part);
 }
 
-std::vector<std::string> make_seed_report_cells(const measure::SeedReportRow& seed) {
+std::vector<std::string> seed_cells(const measure::SeedReportRow& seed) {
     const bool counted = seed.inter_reflections >= 0;
     return {std::string(seed.implementation),
-            counted ? std::to_string(seed.inter_reflections) : make_empty_cell(),
-            seed.scene_passes > 0 ? std::to_string(seed.scene_passes) : make_empty_cell(),
+            counted ? std::to_string(seed.inter_reflections) : empty_cell(),
+            seed.scene_passes > 0 ? std::to_string(seed.scene_passes) : empty_cell(),
             format_fixed(seed.fps, seed.fps < 20 ? 1 : 0), format_fixed(seed.ms, 1)};
 }
 
@@ -51,17 +50,17 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             std::to_string(row.scene_passes),
             std::to_string(row.scene_draws),
             format_fixed(row.time_ms().median, decimals),
-            format_median_interval(row.time_ms(), decimals),
+            format_median(row.time_ms(), decimals),
             format_time_places(measure::find_rank_range(comparison, row)),
             format_fps(row.elapsed_ms().median),
             format_flip(row.error),
             format_fixed(100 * row.error.off, 2),
-            format_picture_error(row.error.mae),
-            format_picture_error(row.error.rmse),
+            format_error(row.error.mae),
+            format_error(row.error.rmse),
             format_flip(row.error_first_order)};
 }
 
-std::string make_seed_report_table_note(const Comparison& comparison) {
+std::string seed_note(const Comparison& comparison) {
     std::string note =
         "Left: the seed report, frames per second in a browser on a GeForce GTX 770; R by its "
         "formula for four mirrors. Right: this run; R counted in the executed plan, a cube counted "
@@ -76,7 +75,7 @@ std::string make_seed_report_table_note(const Comparison& comparison) {
     return note;
 }
 
-std::string make_report_row_remark(const Comparison& comparison, const Row& row) {
+std::string row_remark(const Comparison& comparison, const Row& row) {
     std::vector<std::string> remarks;
     if (measure::has_nonfinite_pixels(row)) remarks.push_back("failed");
     if (row.is_reference) remarks.push_back("reference");
@@ -92,23 +91,22 @@ std::string make_report_row_remark(const Comparison& comparison, const Row& row)
 std::string format_metric_cell(const measure::MetricColumn& column,
                                const measure::MetricValue& value, int decimals) {
     using measure::ValueFormat;
-    if (measure::is_missing(value)) return make_empty_cell();
+    if (measure::is_missing(value)) return empty_cell();
     if (const auto* times = std::get_if<measure::SampleSummary>(&value)) {
-        if (column.style == ValueFormat::time_interval)
-            return format_median_interval(*times, decimals);
+        if (column.style == ValueFormat::time_interval) return format_median(*times, decimals);
         return column.style == ValueFormat::times ? format_fixed(times->median, decimals)
                                                   : format_ms(times->median);
     }
     if (const auto* mark = std::get_if<bool>(&value)) return *mark ? "yes" : "no";
     const auto* number = std::get_if<double>(&value);
-    if (number == nullptr) return make_empty_cell(); // the value is more than one number
+    if (number == nullptr) return empty_cell(); // the value is more than one number
     return format_metric_number(*number, column, decimals);
 }
 
 /// Returns a cell with the FLIP of a row. If the FLIP is not larger than the noise of the
 /// reference, the cell says so.
 std::string format_flip_cell(const measure::Difference& error) {
-    return std::isfinite(error.flip) ? format_flip(error) : make_empty_cell();
+    return std::isfinite(error.flip) ? format_flip(error) : empty_cell();
 }
 
 /// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
@@ -117,12 +115,12 @@ struct MetricTableColumn {
     measure::MetricColumn column;
     const measure::RowMask* mask = nullptr;
 
-    int metric_column_order() const { return column.order != 0 ? column.order : quantity->order; }
-    measure::MetricValue metric_value_of_row(const Row& row) const {
+    int order() const { return column.order != 0 ? column.order : quantity->order; }
+    measure::MetricValue value(const Row& row) const {
         return mask == nullptr ? measure::metric_value(*quantity, row)
                                : measure::metric_value(*quantity, row.*mask->error);
     }
-    std::string metric_column_title() const {
+    std::string title() const {
         const std::string words(column.title);
         return mask == nullptr || mask->title.empty() ? words
                                                       : words + ", " + std::string(mask->title);
@@ -131,8 +129,8 @@ struct MetricTableColumn {
 
 /// Returns the columns of the metrics in a table, by order. Columns over other masks follow all
 /// columns over the mirrors.
-std::vector<MetricTableColumn> list_metric_columns(measure::TableKind table,
-                                                   const Comparison& comparison) {
+std::vector<MetricTableColumn> metric_columns(measure::TableKind table,
+                                              const Comparison& comparison) {
     std::vector<MetricTableColumn> columns;
     int last = 0; // the last order of a metric of differences
     for (const measure::Metric& quantity : measure::difference_metrics())
@@ -151,23 +149,21 @@ std::vector<MetricTableColumn> list_metric_columns(measure::TableKind table,
                 if (!mask.title.empty()) columns.back().column.order = last;
             }
         }
-    std::ranges::stable_sort(columns, {}, &MetricTableColumn::metric_column_order);
+    std::ranges::stable_sort(columns, {}, &MetricTableColumn::order);
     return columns;
 }
 
 void add_metric_columns(ReportTable& table, const std::vector<MetricTableColumn>& columns) {
-    for (const MetricTableColumn& column : columns)
-        table.columns.emplace_back(column.metric_column_title());
+    for (const MetricTableColumn& column : columns) table.columns.emplace_back(column.title());
 }
 
 std::vector<std::string>
 format_row_cells(const Row& row, const std::vector<MetricTableColumn>& columns, int decimals) {
     std::vector<std::string> cells{row.label};
     for (const MetricTableColumn& column : columns)
-        cells.push_back(
-            column.mask != nullptr && column.quantity->name == "flip"
-                ? format_flip_cell(row.*column.mask->error)
-                : format_metric_cell(column.column, column.metric_value_of_row(row), decimals));
+        cells.push_back(column.mask != nullptr && column.quantity->name == "flip"
+                            ? format_flip_cell(row.*column.mask->error)
+                            : format_metric_cell(column.column, column.value(row), decimals));
     return cells;
 }
 
@@ -179,11 +175,11 @@ std::string format_technique(const PlanEntry& entry) {
     return entry.technique + (changed.empty() ? "" : ":" + join_texts(changed, ","));
 }
 
-struct UnsupportedFeatureText {
+struct FeatureText {
     std::string_view id, text;
 };
 
-constexpr UnsupportedFeatureText kUnsupportedFeatureTexts[] = {
+constexpr FeatureText kFeatureTexts[] = {
     {"normal-texture", "height maps are left out; surfaces are as smooth as their triangles"},
     {"occlusion-texture", "left out"},
     {"clearcoat", "left out on glass, unlit surfaces and mirrors by `reflectance`"},
@@ -243,47 +239,46 @@ std::string format_metric_number(double value, const measure::MetricColumn& colu
     case ValueFormat::mebibytes: return format_mebibytes(static_cast<std::uint64_t>(value));
     case ValueFormat::times: return format_fixed(value, decimals);
     case ValueFormat::own_times: return format_ms(value);
-    default: return format_picture_error(value);
+    default: return format_error(value);
     }
 }
 
 std::string format_time_places(const measure::RankRange& places) {
-    if (places.first == 0) return std::string(kEmptyCellText);
+    if (places.first == 0) return std::string(kEmptyCell);
     const std::string first = std::to_string(places.first);
     return places.first == places.last ? first : first + "–" + std::to_string(places.last);
 }
 
-TableColumn make_text_column(const char* title) {
+TableColumn text_column(const char* title) {
     TableColumn column(title);
     column.is_number = false;
     return column;
 }
 
-ReportTable make_seed_report_table(const Comparison& comparison) {
+ReportTable seed_table(const Comparison& comparison) {
     // "llvmpipe" for "llvmpipe (LLVM 15.0.6, 256 bits)"
     const std::string device = comparison.device.name.substr(0, comparison.device.name.find(" ("));
     ReportTable table{"The seed report's Table 1, measured again",
-                      {make_text_column("Implementation"), "i", "their R", "FPS, GTX 770",
-                       "ms, GTX 770", make_text_column("Here"), "R", "Draws", "ms, " + device,
-                       "95 %", "Place", "FPS, " + device, "FLIP", "off, %", "MAE", "rmse",
-                       "FLIP, first order"},
-                      make_seed_report_table_note(comparison)};
-    const int decimals = choose_ms_decimals(comparison);
+                      {text_column("Implementation"), "i", "their R", "FPS, GTX 770", "ms, GTX 770",
+                       text_column("Here"), "R", "Draws", "ms, " + device, "95 %", "Place",
+                       "FPS, " + device, "FLIP", "off, %", "MAE", "rmse", "FLIP, first order"},
+                      seed_note(comparison)};
+    const int decimals = ms_decimals(comparison);
     for (const measure::SeedReportRow& seed : measure::kSeedReportTable) {
-        std::vector<std::string>& cells = table.rows.emplace_back(make_seed_report_cells(seed));
+        std::vector<std::string>& cells = table.rows.emplace_back(seed_cells(seed));
         std::vector<std::string> right{"not in this run"};
-        if (const Row* row = find_row_of_this_program(comparison, seed))
+        if (const Row* row = find_own_row(comparison, seed))
             right = format_measured_cells(comparison, *row, decimals);
         cells.insert(cells.end(), right.begin(), right.end());
-        cells.resize(table.columns.size(), make_empty_cell());
+        cells.resize(table.columns.size(), empty_cell());
     }
     return table;
 }
 
-ReportTable make_rows_table(const Comparison& comparison) {
+ReportTable rows_table(const Comparison& comparison) {
     ReportTable table{
         "Every row, times on " + comparison.device.name,
-        {make_text_column("Row"), "Place"},
+        {text_column("Row"), "Place"},
         "A row's name leaves out knobs that nobody set. Place: in the order of time" +
             describe_judged_time(comparison) +
             ", from the fastest; rows whose times are equal or cannot be told apart share one. "
@@ -295,38 +290,37 @@ ReportTable make_rows_table(const Comparison& comparison) {
     if (measure::find_undrawn_dielectrics(comparison))
         table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
                       "mirror.";
-    const std::vector<MetricTableColumn> columns = list_metric_columns(measure::TableKind::rows,
-                                                                       comparison);
+    const std::vector<MetricTableColumn> columns = metric_columns(measure::TableKind::rows,
+                                                                  comparison);
     add_metric_columns(table, columns);
-    table.columns.push_back(make_text_column("Remark"));
-    const int decimals = choose_ms_decimals(comparison);
+    table.columns.push_back(text_column("Remark"));
+    const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back(
             format_row_cells(row, columns, decimals));
         cells.insert(cells.begin() + 1,
                      format_time_places(measure::find_rank_range(comparison, row)));
-        cells.push_back(make_report_row_remark(comparison, row));
+        cells.push_back(row_remark(comparison, row));
         table.marked.push_back(measure::is_on_front(comparison, row));
     }
     return table;
 }
 
-std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& comparison) {
+std::vector<RowMetricColumn> row_metric_columns(const Comparison& comparison) {
     using measure::ValueFormat;
     const std::string_view ranked = measure::judged_time(comparison);
     std::vector<RowMetricColumn> list;
-    for (const MetricTableColumn& column :
-         list_metric_columns(measure::TableKind::rows, comparison)) {
+    for (const MetricTableColumn& column : metric_columns(measure::TableKind::rows, comparison)) {
         const ValueFormat style = column.column.style;
         if (style == ValueFormat::time_interval || column.quantity->name == ranked) continue;
         const bool is_over_mirrors = column.mask != nullptr && column.mask->title.empty();
         RowMetricColumn numbers{
-            column.metric_column_title() + (is_over_mirrors ? " over the mirrors" : ""), {}, {}};
+            column.title() + (is_over_mirrors ? " over the mirrors" : ""), {}, {}};
         const double scale = style == ValueFormat::percent     ? 100
                              : style == ValueFormat::mebibytes ? 1.0 / (1 << 20)
                                                                : 1;
         for (const Row& row : comparison.rows) {
-            const measure::MetricValue value = column.metric_value_of_row(row);
+            const measure::MetricValue value = column.value(row);
             const auto* times = std::get_if<measure::SampleSummary>(&value);
             const auto* number = std::get_if<double>(&value);
             const bool is_missing = measure::is_missing(value);
@@ -347,9 +341,9 @@ std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& compariso
     return list;
 }
 
-ReportTable make_mirror_table(const Comparison& comparison) {
+ReportTable mirror_table(const Comparison& comparison) {
     ReportTable table{
-        "Mirror by mirror", {make_text_column("Row")}, "FLIP over the pixels of each mirror."};
+        "Mirror by mirror", {text_column("Row")}, "FLIP over the pixels of each mirror."};
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     for (std::size_t i = 0; i < mirrors; ++i)
@@ -358,34 +352,34 @@ ReportTable make_mirror_table(const Comparison& comparison) {
         std::vector<std::string>& cells = table.rows.emplace_back(1, row.label);
         for (const measure::Difference& error : row.error_per_mirror)
             cells.push_back(format_flip(error));
-        cells.resize(mirrors + 1, make_empty_cell());
+        cells.resize(mirrors + 1, empty_cell());
     }
     return table;
 }
 
-ReportTable make_lookup_table(const Comparison& comparison) {
+ReportTable lookup_table(const Comparison& comparison) {
     ReportTable table{
         "Where mirrors looked",
-        {make_text_column("Row")},
+        {text_column("Row")},
         "Angle between the looked-up and the true direction from the centre of the capture "
         "that was looked into, over mirror pixels whose reflected ray meets no second "
         "mirror, in whichever capture the row looked; wrong object: the capture shows "
         "another one there; unknown and miss: what the search says of itself; traced: of "
         "all mirror pixels."};
-    const std::vector<MetricTableColumn> columns = list_metric_columns(measure::TableKind::lookup,
-                                                                       comparison);
+    const std::vector<MetricTableColumn> columns = metric_columns(measure::TableKind::lookup,
+                                                                  comparison);
     add_metric_columns(table, columns);
-    const int decimals = choose_ms_decimals(comparison);
+    const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows)
         if (row.lookup) table.rows.push_back(format_row_cells(row, columns, decimals));
     return table;
 }
 
-ReportTable make_plan_table(const Comparison& comparison) {
+ReportTable plan_table(const Comparison& comparison) {
     ReportTable table{
         "Mirror by mirror, what draws it",
-        {make_text_column("Row"), "Mirror", make_text_column("Name"), make_text_column("Technique"),
-         make_text_column("Why")},
+        {text_column("Row"), "Mirror", text_column("Name"), text_column("Technique"),
+         text_column("Why")},
         "Rows that are plans. Each of their mirrors has its own technique; the error of "
         "such a row is not split by cause."};
     for (const Row& row : comparison.rows) {
@@ -397,40 +391,36 @@ ReportTable make_plan_table(const Comparison& comparison) {
     return table;
 }
 
-const RegisteredReportPart kMirrorErrorsReportPart{
+const RegisteredPart kMirrorErrorsPart{
     {.name = "mirrors",
      .order = 200,
-     .tables =
-         [](const Comparison& comparison) { return std::vector{make_mirror_table(comparison)}; },
+     .tables = [](const Comparison& comparison) { return std::vector{mirror_table(comparison)}; },
      .look = "mirrors",
      .links_rows = true}};
-const RegisteredReportPart kLookupErrorsReportPart{
+const RegisteredPart kLookupErrorsPart{
     {.name = "lookups",
      .order = 300,
-     .tables =
-         [](const Comparison& comparison) { return std::vector{make_lookup_table(comparison)}; },
+     .tables = [](const Comparison& comparison) { return std::vector{lookup_table(comparison)}; },
      .look = "lookups",
      .links_rows = true}};
 
-std::string describe_unsupported_feature(const std::string& id) {
-    const auto* const known = std::ranges::find(kUnsupportedFeatureTexts, id,
-                                                &UnsupportedFeatureText::id);
-    return known == std::end(kUnsupportedFeatureTexts) ? "" : std::string(known->text);
+std::string describe_feature(const std::string& id) {
+    const auto* const known = std::ranges::find(kFeatureTexts, id, &FeatureText::id);
+    return known == std::end(kFeatureTexts) ? "" : std::string(known->text);
 }
 
-ReportTable make_unsupported_table(const SceneFacts& scene) {
+ReportTable unsupported_table(const SceneFacts& scene) {
     ReportTable table{
         "Added, approximated, left out",
-        {make_text_column("What"), "Count", "Pixels, %", make_text_column("First"),
-         make_text_column("Instead")},
+        {text_column("What"), "Count", "Pixels, %", text_column("First"), text_column("Instead")},
         "Features of the scene that are approximated or left out, and parts that were added to "
         "it, the largest share of the picture first. Pixels: share of the picture that shows such a "
         "material first; none where pixels cannot tell."};
     for (const UnsupportedFeatureFacts& gap : measure::read_scene_contents(scene).unsupported)
         table.rows.push_back(
             {gap.id, std::to_string(gap.count),
-             gap.pixel_share ? format_fixed(100 * *gap.pixel_share, 1) : make_empty_cell(),
-             gap.first, describe_unsupported_feature(gap.id)});
+             gap.pixel_share ? format_fixed(100 * *gap.pixel_share, 1) : empty_cell(), gap.first,
+             describe_feature(gap.id)});
     return table;
 }
 

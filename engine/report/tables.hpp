@@ -21,7 +21,7 @@ struct TableColumn {
     bool is_number = true; ///< the column's cells are right-aligned
 };
 /// Returns a column of text.
-TableColumn make_text_column(const char* title);
+TableColumn text_column(const char* title);
 
 struct ReportTable {
     std::string title;
@@ -39,9 +39,9 @@ std::string format_metric_number(double value, const measure::MetricColumn& colu
 std::string to_markdown(const ReportTable& table);
 
 /// Returns the seed report's Table 1 beside our measurements.
-ReportTable make_seed_report_table(const Comparison& comparison);
+ReportTable seed_table(const Comparison& comparison);
 /// Returns the table of all rows with all its metrics. Rows on the Pareto front are marked.
-ReportTable make_rows_table(const Comparison& comparison);
+ReportTable rows_table(const Comparison& comparison);
 /// A column of the table of all rows as numbers, for charts. Values that are missing are NaN.
 struct RowMetricColumn {
     std::string name;           ///< the column's title, with the mask of its pixels
@@ -51,7 +51,7 @@ struct RowMetricColumn {
 };
 /// Returns the columns of the table of all rows that hold numbers, without the time by which the
 /// rows are ranked. The first is FLIP over the mirrors.
-std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& comparison);
+std::vector<RowMetricColumn> row_metric_columns(const Comparison& comparison);
 /// Returns the 95 % interval of a row's rmse over the mirrors against a reference with noise.
 /// Unknown for a reference without noise.
 measure::Interval find_rmse_interval(const Row& row);
@@ -59,55 +59,55 @@ measure::Interval find_rmse_interval(const Row& row);
 std::string format_time_places(const measure::RankRange& places);
 /// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
 /// empty.
-ReportTable make_plan_table(const Comparison& comparison);
+ReportTable plan_table(const Comparison& comparison);
 /// Returns FLIP of each mirror.
-ReportTable make_mirror_table(const Comparison& comparison);
+ReportTable mirror_table(const Comparison& comparison);
 /// Returns the errors of looked-up directions, for rows that search. Without such rows the table is
 /// empty.
-ReportTable make_lookup_table(const Comparison& comparison);
+ReportTable lookup_table(const Comparison& comparison);
 /// Returns the unsupported features of the scene. The table is empty if the scene file has none.
-ReportTable make_unsupported_table(const SceneFacts& scene);
+ReportTable unsupported_table(const SceneFacts& scene);
 /// Returns a text that says how an unsupported feature is left out, approximated or replaced. Empty
 /// for an unknown id.
-std::string describe_unsupported_feature(const std::string& id);
+std::string describe_feature(const std::string& id);
 /// Returns the error by cause with four lines a row. Empty if no row has causes.
-ReportTable make_cause_table(const Comparison& comparison);
+ReportTable cause_table(const Comparison& comparison);
 /// Returns each row's metrics over the mirrors in drawn views, as median and interval, and its
 /// worst view. Empty if no views were drawn.
-ReportTable make_views_table(const Comparison& comparison);
+ReportTable views_table(const Comparison& comparison);
 /// Returns the lag of each row at each speed. Empty if no lag was measured.
-ReportTable make_lag_table(const Comparison& comparison);
+ReportTable lag_table(const Comparison& comparison);
 /// Returns the table of how many frames after a cut pass until the picture equals the still
 /// picture. Empty if no lag was measured.
-ReportTable make_settling_table(const Comparison& comparison);
+ReportTable settling_table(const Comparison& comparison);
 
 /// Colour in which pictures show a cause.
-struct CausePictureColour {
+struct CauseColour {
     std::string_view cause, name;
     vec3 colour; ///< display space
 };
 
 /// Returns the colours of all causes, in the order of Causes::list, which may lack some.
 /// Colour-blind readers can tell those of perfect mirrors apart, too (Okabe, Ito).
-std::span<const CausePictureColour> list_cause_colours();
+std::span<const CauseColour> cause_colours();
 /// Returns the colours of the causes that some row has.
-std::vector<CausePictureColour> list_colours_of_found_causes(const Comparison& comparison);
+std::vector<CauseColour> found_cause_colours(const Comparison& comparison);
 
 /// Returns the row's picture, dark and grey. Each mirror pixel that is off has the colour of the
 /// cause with the largest part of its squared error. The row must have `causes`.
-measure::Picture make_cause_picture(const Row& row);
+measure::Picture cause_picture(const Row& row);
 
 /// A line at the head of a report, such as "Device": name and value.
 struct ReportHeaderLine {
     std::string name;
     std::string value;
 };
-std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison);
+std::vector<ReportHeaderLine> list_facts(const Comparison& comparison);
 /// Returns the set-up costs in one line, which stands above the rows.
-std::string describe_setup_times(const SetupFacts& setup);
+std::string describe_setup(const SetupFacts& setup);
 /// Returns cautions for the reader: a processor as device, a run cut short, rows measured together,
 /// warnings.
-std::vector<std::string> list_report_cautions(const Comparison& comparison);
+std::vector<std::string> list_cautions(const Comparison& comparison);
 
 /// Returns a sentence on how far a reference is from path tracing, or on how to find out. `rows`:
 /// rows that are judged by the reference, of which the sentence counts those with less FLIP.
@@ -117,25 +117,25 @@ std::string describe_path_distance(const measure::PathDistance& distance,
 /// Returns the findings of a run. For the seed report's scene they include its statements about its
 /// Table 1 and figures 5 and 7.
 std::vector<std::string> list_findings(const Comparison& comparison);
-std::string make_findings_title(const Comparison& comparison);
+std::string findings_title(const Comparison& comparison);
 
 /// Returns sentences that answer the budgets of the comparison: the best row on this device, rows
 /// that tie with it, or the rows that come nearest. Empty if the comparison has no budget.
-std::string describe_budget_answer(const Comparison& comparison);
+std::string describe_budget(const Comparison& comparison);
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
 /// it. If all rows are of one kind, it names the fastest and the closest row.
-std::string summarise_ray_tracing_verdict(const Comparison& comparison);
+std::string summarise_verdict(const Comparison& comparison);
 /// Returns the sentence on whether ray tracing beats the other rows. The given words replace "on
 /// this device, NAME" at its beginning.
-std::string summarise_ray_tracing_verdict(const Comparison& comparison, const std::string& where);
+std::string summarise_verdict(const Comparison& comparison, const std::string& where);
 
 /// Returns sentences that compare the measured lag with the seed report's statement that parts one
 /// and two show no difference, and which rows have no lag.
-std::optional<std::string> describe_measured_lag(const Comparison& comparison);
+std::optional<std::string> describe_lag(const Comparison& comparison);
 /// Returns the order of the rows over drawn views by each headline metric, and which of them tie.
 std::vector<std::string> describe_drawn_views(const Comparison& comparison);
 
 /// Returns the Pareto front in words: the rows on it, and which row beats each of the others.
-std::vector<std::string> describe_pareto_front(const Comparison& comparison);
+std::vector<std::string> describe_front(const Comparison& comparison);
 
 } // namespace catoptric::report

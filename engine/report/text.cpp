@@ -30,7 +30,7 @@ bool is_spreadsheet_formula(const std::string& text) {
 
 } // namespace
 
-std::string escape_csv_field(const std::string& field) {
+std::string escape_csv(const std::string& field) {
     std::string shown = escape(field, "\n");
     if (is_spreadsheet_formula(shown)) shown.insert(0, "'");
     if (shown.find_first_of("\",\n") == std::string::npos) return shown;
@@ -44,28 +44,28 @@ std::string format_csv_number(double value) {
 }
 
 std::string format_fixed(double value, int decimals) {
-    if (!std::isfinite(value)) return std::string(kEmptyCellText);
+    if (!std::isfinite(value)) return std::string(kEmptyCell);
     std::string text = fmt::format("{:.{}f}", value, decimals);
     if (text.find_first_of("123456789") == std::string::npos && text.front() == '-')
         text.erase(0, 1); // avoids -0.0
     return text;
 }
 
-std::string format_picture_error(double error) {
+std::string format_error(double error) {
     if (error == 0) return "0";
-    if (error < 0) return std::string(kBelowNoiseText);
+    if (error < 0) return std::string(kBelowNoise);
     const bool tiny = std::abs(error) < 5e-5; // four decimals would read 0.0000
     return tiny ? fmt::format("{:.0e}", error) : format_fixed(error, 4);
 }
 
 std::string format_flip(const measure::Difference& error) {
-    const std::string text = format_picture_error(error.flip);
-    return measure::is_below_noise(error) ? text + ", " + std::string(kBelowNoiseText) : text;
+    const std::string text = format_error(error.flip);
+    return measure::is_below_noise(error) ? text + ", " + std::string(kBelowNoise) : text;
 }
 
 std::string format_ms(double ms) { return format_fixed(ms, choose_decimals(ms)); }
 
-int choose_ms_decimals(const Comparison& comparison) {
+int ms_decimals(const Comparison& comparison) {
     double fastest = INFINITY;
     for (const Row& row : comparison.rows)
         if (row.time_ms().median > 0) fastest = std::min(fastest, row.time_ms().median);
@@ -78,18 +78,18 @@ std::string describe_judged_time(const Comparison& comparison) {
 
 std::string format_fps(double ms) {
     return ms > 0 ? format_fixed(1000 / ms, std::min(choose_decimals(1000 / ms), 2))
-                  : std::string(kEmptyCellText);
+                  : std::string(kEmptyCell);
 }
 
 std::string format_mebibytes(std::uint64_t bytes) {
     return format_fixed(static_cast<double>(bytes) / (1024 * 1024), 1);
 }
 
-std::string report_image_path(const Comparison& comparison, const std::string& file) {
+std::string image_path(const Comparison& comparison, const std::string& file) {
     return "images/" + comparison.images + file;
 }
 
-std::string format_row_settings(const Row& row) {
+std::string format_settings(const Row& row) {
     std::vector<std::string> parts;
     for (const Setting& setting : row.settings) parts.push_back(setting.name + "=" + setting.text);
     return join_texts(parts, ", ");
@@ -131,7 +131,7 @@ std::string join_texts(const std::vector<std::string>& parts, std::string_view b
     return fmt::format("{}", fmt::join(parts, between));
 }
 
-std::string join_labels_of_rows(const std::vector<const Row*>& rows, std::string_view between) {
+std::string join_labels(const std::vector<const Row*>& rows, std::string_view between) {
     std::vector<std::string> labels;
     for (const Row* row : rows) labels.push_back(row->label);
     return join_texts(labels, between);
@@ -143,15 +143,13 @@ std::string describe_worst_view(const Comparison& comparison, const measure::Wor
                        comparison.views.size(), view.camera.name, view.time);
 }
 
-std::string make_lag_image_name(const std::string& image) { return "lag-" + image; }
+std::string lag_image_name(const std::string& image) { return "lag-" + image; }
 
-std::string find_lag_image_name(const Comparison& comparison, const measure::LagRow& row) {
+std::string find_lag_image(const Comparison& comparison, const measure::LagRow& row) {
     const auto found = std::ranges::find(comparison.rows, row.label, &Row::label);
-    return found == comparison.rows.end() ? "" : make_lag_image_name(found->image);
+    return found == comparison.rows.end() ? "" : lag_image_name(found->image);
 }
 
-std::string make_worst_view_image_name(const std::string& image) {
-    return "worst-" + image + ".png";
-}
+std::string worst_view_image(const std::string& image) { return "worst-" + image + ".png"; }
 
 } // namespace catoptric::report

@@ -22,7 +22,7 @@ struct DrawnViewMetric {
 };
 
 /// Returns the metrics of differences that the table of rows shows, too.
-std::vector<DrawnViewMetric> list_view_metrics() {
+std::vector<DrawnViewMetric> view_metrics() {
     std::vector<DrawnViewMetric> list;
     for (const measure::Metric& quantity : measure::difference_metrics())
         for (const measure::MetricColumn& column : quantity.columns)
@@ -41,20 +41,20 @@ std::string format_view_cell(const Row& row, const DrawnViewMetric& figure) {
 }
 
 /// Returns the effect of shared instants on the row's FLIP over the mirrors.
-std::optional<measure::SharedInstants> find_effect_of_shared_instants(const Comparison& comparison,
-                                                                      const Row& row) {
+std::optional<measure::SharedInstants> find_instant_effect(const Comparison& comparison,
+                                                           const Row& row) {
     std::vector<double> values;
     for (const measure::Errors& view : row.views) values.push_back(view.error.flip);
     return measure::estimate_shared_instants(comparison.views, values);
 }
 
 /// Returns the title of the metric's column without the unit.
-std::string_view title_of_report_metric(const measure::Metric& quantity) {
+std::string_view metric_title(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));
 }
 
-std::string format_pairs_of_rows(const measure::RowOrder::RowPairs& list) {
+std::string format_pairs(const measure::RowOrder::RowPairs& list) {
     std::vector<std::string> pairs;
     for (const auto& [a, b] : list) pairs.push_back(a->label + " and " + b->label);
     return join_texts(pairs, "; ");
@@ -63,93 +63,91 @@ std::string format_pairs_of_rows(const measure::RowOrder::RowPairs& list) {
 std::string format_tied_rows(const measure::RowOrder& order) {
     const std::size_t pairs = order.rows.size() * (order.rows.size() - 1) / 2;
     if (order.ties.size() == pairs) return "No two of them are apart.";
-    std::string text = order.ties.empty() ? "Every two of them are apart."
-                                          : "Ties: " + format_pairs_of_rows(order.ties) +
-                                                ". All other pairs are apart.";
+    std::string text = order.ties.empty()
+                           ? "Every two of them are apart."
+                           : "Ties: " + format_pairs(order.ties) + ". All other pairs are apart.";
     if (!order.reversed.empty())
-        text += " The other way round: " + format_pairs_of_rows(order.reversed) + ".";
+        text += " The other way round: " + format_pairs(order.reversed) + ".";
     return text;
 }
 
 /// Returns a JSON object with the summary over views of each metric that is one number, for one
 /// mask of pixels.
-Json make_view_metrics_json(const Row& row, const measure::RowMask& mask) {
+Json view_metrics_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
     for (const measure::Metric& quantity : measure::difference_metrics()) {
         if (!measure::is_scalar(quantity)) continue;
         const measure::MetricOverViews over = measure::metric_over_views(row, mask, quantity);
-        figures[std::string(quantity.name)] = {{"median", make_number_json(over.median)},
-                                               {"ci95", make_interval_json(over.ci95)},
-                                               {"values", make_metric_value_json(over.values)}};
+        figures[std::string(quantity.name)] = {{"median", number_json(over.median)},
+                                               {"ci95", interval_json(over.ci95)},
+                                               {"values", metric_json(over.values)}};
     }
     return figures;
 }
 
 /// Returns HTML with the pictures of each row in its worst view.
-std::string make_html_worst_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
+std::string worst_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<p>Each row at its view of the largest FLIP, beside the reference.</p>";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
         if (!row.worst) continue;
         const std::string where = describe_worst_view(comparison, *row.worst);
-        html += make_html_figure(
+        html += html_figure(
             row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
             row.label + ", to its right the reference, at " + where, row.label + ": " + where, "",
-            find_picture_file(comparison, encoded, make_worst_view_image_name(row.image)));
+            picture_file(comparison, encoded, worst_view_image(row.image)));
     }
-    return make_html_titled_section("Worst views", html);
+    return titled_section("Worst views", html);
 }
 
-const RegisteredReportPart kDrawnViewsReportPart{
+const RegisteredPart kDrawnViewsPart{
     {.name = "views",
      .order = 100,
-     .tables =
-         [](const Comparison& comparison) { return std::vector{make_views_table(comparison)}; },
+     .tables = [](const Comparison& comparison) { return std::vector{views_table(comparison)}; },
      .look = "views",
      .sentences = describe_drawn_views,
      .title = "Apart and ties",
-     .pictures = make_html_worst_pictures}};
+     .pictures = worst_pictures}};
 
 } // namespace
 
-Json make_views_json(const Comparison& comparison) {
-    return make_list_json(comparison.views, [](const measure::View& view) {
-        return Json{{"camera", make_camera_json(view.camera)},
-                    {"time", make_number_json(view.time)},
+Json views_json(const Comparison& comparison) {
+    return list_json(comparison.views, [](const measure::View& view) {
+        return Json{{"camera", camera_json(view.camera)},
+                    {"time", number_json(view.time)},
                     {"seed", view.seed}};
     });
 }
 
-Json make_views_json(const Comparison& comparison, const Row& row) {
+Json views_json(const Comparison& comparison, const Row& row) {
     if (row.views.empty()) return nullptr;
     Json json = Json::object();
     for (const measure::RowMask& mask : measure::row_masks())
-        json[std::string(mask.field)] = make_view_metrics_json(row, mask);
+        json[std::string(mask.field)] = view_metrics_json(row, mask);
     json["shared_instants"] = nullptr;
-    if (const auto shared = find_effect_of_shared_instants(comparison, row))
+    if (const auto shared = find_instant_effect(comparison, row))
         json["shared_instants"] = {{"instants", shared->instants},
-                                   {"flip_design_effect", make_number_json(shared->design_effect)},
-                                   {"effective_views", make_number_json(shared->effective_views)}};
+                                   {"flip_design_effect", number_json(shared->design_effect)},
+                                   {"effective_views", number_json(shared->effective_views)}};
     json["worst"] = nullptr;
     if (row.worst)
-        json["worst"] = {
-            {"view", row.worst->view},
-            {"flip", make_number_json(row.views[row.worst->view].error.flip)},
-            {"image", report_image_path(comparison, make_worst_view_image_name(row.image))}};
+        json["worst"] = {{"view", row.worst->view},
+                         {"flip", number_json(row.views[row.worst->view].error.flip)},
+                         {"image", image_path(comparison, worst_view_image(row.image))}};
     return json;
 }
 
-ReportTable make_views_table(const Comparison& comparison) {
+ReportTable views_table(const Comparison& comparison) {
     ReportTable table{
         fmt::format("Over {} views", comparison.views.size()),
-        {make_text_column("Row")},
+        {text_column("Row")},
         "Cameras drawn from the seed that see a mirror, at drawn instants where the scene "
         "moves; each row's picture as render takes it. Over the pixels whose first hit is "
         "a mirror: median over the views, and its 95 % interval by order statistics. Worst: "
         "the largest FLIP, and the options that render it again."};
     if (comparison.views.empty()) return table;
     const bool shares_instants = std::ranges::any_of(comparison.rows, [&](const Row& row) {
-        return find_effect_of_shared_instants(comparison, row).has_value();
+        return find_instant_effect(comparison, row).has_value();
     });
     if (shares_instants)
         table.note +=
@@ -158,25 +156,25 @@ ReportTable make_views_table(const Comparison& comparison) {
             "certain (Kish's design effect). Where it is much smaller than the number of "
             "views, the intervals are too narrow and too few rows tie, because both treat "
             "all views as independent.";
-    const std::vector<DrawnViewMetric> columns = list_view_metrics();
+    const std::vector<DrawnViewMetric> columns = view_metrics();
     for (const DrawnViewMetric& figure : columns)
         table.columns.emplace_back(std::string(figure.column->title));
     if (shares_instants) table.columns.emplace_back("Effective views");
     table.columns.emplace_back("Worst FLIP");
-    table.columns.push_back(make_text_column("Worst view"));
+    table.columns.push_back(text_column("Worst view"));
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
         for (const DrawnViewMetric& figure : columns)
             cells.push_back(format_view_cell(row, figure));
         if (shares_instants) {
-            const auto shared = find_effect_of_shared_instants(comparison, row);
+            const auto shared = find_instant_effect(comparison, row);
             cells.push_back(shared ? fmt::format("{:.0f}", shared->effective_views)
-                                   : std::string(kEmptyCellText));
+                                   : std::string(kEmptyCell));
         }
         cells.push_back(row.worst ? format_flip(row.views[row.worst->view].error)
-                                  : std::string(kEmptyCellText));
+                                  : std::string(kEmptyCell));
         cells.push_back(row.worst ? describe_worst_view(comparison, *row.worst)
-                                  : std::string(kEmptyCellText));
+                                  : std::string(kEmptyCell));
         table.rows.push_back(std::move(cells));
     }
     return table;
@@ -186,8 +184,8 @@ std::vector<std::string> describe_drawn_views(const Comparison& comparison) {
     std::vector<std::string> sentences;
     for (const measure::RowOrder& order : measure::order_rows(comparison))
         sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
-                                        title_of_report_metric(*order.figure),
-                                        join_labels_of_rows(order.rows), format_tied_rows(order)));
+                                        metric_title(*order.figure), join_labels(order.rows),
+                                        format_tied_rows(order)));
     if (!sentences.empty())
         sentences.emplace_back(
             "Two rows are apart where the 95 % interval of their difference, view by view, "

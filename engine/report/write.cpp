@@ -39,7 +39,7 @@ void create_folder(const fs::path& folder) {
 namespace {
 
 /// Returns the folder of a comparison's pictures, which is made.
-fs::path make_images_folder(const fs::path& folder, const Comparison& comparison) {
+fs::path make_folder(const fs::path& folder, const Comparison& comparison) {
     fs::path images = folder / "images";
     if (!comparison.images.empty()) images /= comparison.images;
     create_folder(images);
@@ -49,18 +49,18 @@ fs::path make_images_folder(const fs::path& folder, const Comparison& comparison
 /// Returns the bytes of a comparison's pictures in its page.
 std::size_t count_picture_bytes(const EncodedPictures& pictures) {
     std::size_t bytes = pictures.reference.size();
-    for (const EncodedPictures::RowPngPictures& row : pictures.rows)
+    for (const EncodedPictures::RowPictures& row : pictures.rows)
         bytes += row.picture.size() + row.error.size() + row.causes.size() + row.worst.size();
     return bytes;
 }
 
 /// Writes the pictures of each row's largest lag that are new since the last call.
-void write_new_lag_pictures(EncodedPictures& pictures, const Comparison& comparison,
-                            const fs::path& images) {
+void write_lag_pictures(EncodedPictures& pictures, const Comparison& comparison,
+                        const fs::path& images) {
     pictures.worst_lags.resize(comparison.lag->rows.size(), {NAN, NAN});
     for (std::size_t i = 0; i < comparison.lag->rows.size(); ++i) {
         const LagRow& row = comparison.lag->rows[i];
-        const std::string name = find_lag_image_name(comparison, row);
+        const std::string name = find_lag_image(comparison, row);
         if (!row.worst || name.empty()) continue;
         const std::pair<double, double> place(row.worst->speed, row.worst->seconds);
         if (pictures.worst_lags[i] == place) continue;
@@ -68,22 +68,20 @@ void write_new_lag_pictures(EncodedPictures& pictures, const Comparison& compari
         for (std::size_t k = 0; k < shown.size(); ++k) {
             const std::string file = name + std::string(kLagPictureNames[k]);
             measure::write_exr(*shown[k], images / (file + ".exr"));
-            write_file(
-                images / (file + ".js"),
-                make_picture_values_script(*shown[k], report_image_path(comparison, file + ".js")));
+            write_file(images / (file + ".js"),
+                       picture_script(*shown[k], image_path(comparison, file + ".js")));
         }
         const std::string mirrors = name + "-mirrors.js";
         write_file(images / mirrors,
-                   make_mirror_pixels_script(row.worst->mirror_hits,
-                                             report_image_path(comparison, mirrors)));
+                   mirror_script(row.worst->mirror_hits, image_path(comparison, mirrors)));
         pictures.worst_lags[i] = place;
     }
 }
 
 /// Writes the report on `shown`, one comparison or several scenes.
 template <class Shown>
-void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet csv,
-                        const std::string& html) {
+void write_texts(const fs::path& folder, const Shown& shown, CsvColumns csv,
+                 const std::string& html) {
     write_file(folder / "rows.csv", report::to_csv(shown, csv));
     write_file(folder / "report.md", report::to_markdown(shown));
     write_file(folder / "report.html", html);
@@ -93,9 +91,9 @@ void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet
 
 } // namespace
 
-std::string find_picture_file(const Comparison& comparison, const EncodedPictures& pictures,
-                              const std::string& name) {
-    return pictures.is_inlined ? std::string() : report_image_path(comparison, name);
+std::string picture_file(const Comparison& comparison, const EncodedPictures& pictures,
+                         const std::string& name) {
+    return pictures.is_inlined ? std::string() : image_path(comparison, name);
 }
 
 /// Encodes pictures of reports as PNG, and writes them and their values into a folder.
@@ -112,13 +110,13 @@ public:
     }
     void write_values(const std::string& name, const measure::Picture& picture) const {
         if (!picture.pixels.empty())
-            write(name + ".js", [&] { return make_picture_values_script(picture, path(name)); });
+            write(name + ".js", [&] { return picture_script(picture, path(name)); });
     }
     /// Writes the bytes of a PNG as a script.
     void write_script(const std::string& name, const std::string& png) const {
-        write(name + ".js", [&] { return make_bytes_script(png, path(name)); });
+        write(name + ".js", [&] { return bytes_script(png, path(name)); });
     }
-    void encode_row(EncodedPictures::RowPngPictures& encoded, const Row& row) const {
+    void encode_row(EncodedPictures::RowPictures& encoded, const Row& row) const {
         if (!images_.empty() && !row.hdr.pixels.empty())
             measure::write_exr(row.hdr, images_ / (row.image + ".exr"));
         write_values(row.image, row.hdr);
@@ -133,15 +131,14 @@ public:
     void encode_reference(std::string& png) const {
         write_values("reference", comparison_.reference_hdr);
         if (!comparison_.mirror_hits.empty())
-            write("mirrors.js", [&] {
-                return make_mirror_pixels_script(comparison_.mirror_hits, path("mirrors"));
-            });
+            write("mirrors.js",
+                  [&] { return mirror_script(comparison_.mirror_hits, path("mirrors")); });
         encode(png, comparison_.reference_display, "reference.png");
     }
 
 private:
     std::string path(const std::string& name) const {
-        return report_image_path(comparison_, name + ".js");
+        return image_path(comparison_, name + ".js");
     }
     template <typename Text>
     void write(const std::string& file, Text&& text) const {
@@ -151,8 +148,8 @@ private:
     const fs::path& images_;
 };
 
-void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison,
-                         const fs::path& images) {
+void encode_pictures(EncodedPictures& pictures, const Comparison& comparison,
+                     const fs::path& images) {
     const PictureEncoder encoder(comparison, images);
     const int noise_frames = comparison.noise
                                  ? comparison.noise->frames * std::max(comparison.noise->rays, 1)
@@ -163,7 +160,7 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
     pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
-        EncodedPictures::RowPngPictures& encoded = pictures.rows[i];
+        EncodedPictures::RowPictures& encoded = pictures.rows[i];
         if (encoded.pictured != row.pictured || encoded.noise_frames != noise_frames) {
             encoder.encode_row(encoded, row);
             encoded.pictured = row.pictured;
@@ -171,27 +168,26 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
         }
         if (row.causes && encoded.causes.empty()) {
             const std::string name = "causes-" + row.image;
-            encoder.encode(encoded.causes, make_cause_picture(row), name + ".png");
+            encoder.encode(encoded.causes, cause_picture(row), name + ".png");
             encoder.write_script(name, encoded.causes);
         }
         if (row.worst && encoded.worst_view != row.worst->view) {
-            encoder.encode(encoded.worst, row.worst->display,
-                           make_worst_view_image_name(row.image));
+            encoder.encode(encoded.worst, row.worst->display, worst_view_image(row.image));
             encoded.worst_view = row.worst->view;
         }
     }
-    if (!images.empty() && comparison.lag) write_new_lag_pictures(pictures, comparison, images);
+    if (!images.empty() && comparison.lag) write_lag_pictures(pictures, comparison, images);
 }
 
-void ReportWriter::write_comparison(const Comparison& comparison) {
-    encode_new_pictures(pictures_, comparison, make_images_folder(report_folder_, comparison));
+void ReportWriter::write(const Comparison& comparison) {
+    encode_pictures(pictures_, comparison, make_folder(folder_, comparison));
     pictures_.is_inlined = page_ == PagePictures::inlined ||
                            count_picture_bytes(pictures_) <= kMaxInlinedBytes;
-    write_report_texts(report_folder_, comparison, csv_, to_html(comparison, pictures_));
+    write_texts(folder_, comparison, csv_, to_html(comparison, pictures_));
 }
 
-std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
-                                        const std::string& folder) {
+std::vector<fs::path> list_files(const std::vector<std::string>& images,
+                                 const std::string& folder) {
     const fs::path there = fs::path("images") / folder;
     std::vector<fs::path> files{
         "report.json",           "report.html",          "report.md",         "rows.csv",
@@ -199,10 +195,10 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
     for (const std::string& image : images) {
         for (const char* ending : {".exr", ".js", ".png", "-error.png", "-error.js"})
             files.push_back(there / (image + ending));
-        for (const std::string& more : {"causes-" + image + ".png", "causes-" + image + ".js",
-                                        make_worst_view_image_name(image)})
+        for (const std::string& more :
+             {"causes-" + image + ".png", "causes-" + image + ".js", worst_view_image(image)})
             files.push_back(there / more);
-        const std::string lag = make_lag_image_name(image);
+        const std::string lag = lag_image_name(image);
         for (const std::string_view name : kLagPictureNames)
             for (const char* ending : {".exr", ".js"})
                 files.push_back(there / (lag + std::string(name) + ending));
@@ -211,34 +207,31 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
     return files;
 }
 
-MultiSceneReportWriter::MultiSceneReportWriter(fs::path folder,
-                                               const std::vector<std::string>& scenes,
-                                               CsvColumnSet csv, PagePictures page)
-    : multi_scene_folder_(std::move(folder)), csv_(csv), page_(page) {
+ScenesWriter::ScenesWriter(fs::path folder, const std::vector<std::string>& scenes, CsvColumns csv,
+                           PagePictures page)
+    : folder_(std::move(folder)), csv_(csv), page_(page) {
     scenes_.asked = scenes;
 }
 
-void MultiSceneReportWriter::write_scene_comparison(std::size_t index,
-                                                    const Comparison& comparison) {
+void ScenesWriter::write_scene(std::size_t index, const Comparison& comparison) {
     if (scenes_.list.size() == index) {
         scenes_.list.emplace_back();
         pictures_.emplace_back();
         sections_.emplace_back();
     }
-    encode_new_pictures(pictures_.at(index), comparison,
-                        make_images_folder(multi_scene_folder_, comparison));
-    scenes_.list[index] = copy_without_pictures(comparison);
+    encode_pictures(pictures_.at(index), comparison, make_folder(folder_, comparison));
+    scenes_.list[index] = without_pictures(comparison);
     // The sections of earlier scenes are not written again. If their pictures were few, the
     // sections contain them.
     std::size_t bytes = 0;
     for (const EncodedPictures& pictures : pictures_) bytes += count_picture_bytes(pictures);
     pictures_[index].is_inlined = page_ == PagePictures::inlined || bytes <= kMaxInlinedBytes;
-    sections_[index] = make_html_section(comparison, pictures_[index]);
-    write_report_texts(multi_scene_folder_, scenes_, csv_, to_html(scenes_, sections_));
+    sections_[index] = html_section(comparison, pictures_[index]);
+    write_texts(folder_, scenes_, csv_, to_html(scenes_, sections_));
 }
 
 void write(const Comparison& comparison, const fs::path& folder) {
-    ReportWriter(folder).write_comparison(comparison);
+    ReportWriter(folder).write(comparison);
 }
 
 } // namespace catoptric::report

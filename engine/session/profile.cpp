@@ -43,7 +43,7 @@ std::uint8_t find_or_add(const gpu::ShaderVariant& variant, const Json& choice, 
          quote(variant.choices[1]), ", found ", format_for_message(choice));
 }
 
-Json make_device_json(const DeviceInfo& device) {
+Json device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
@@ -91,7 +91,7 @@ std::string make_profile_file_name(const DeviceInfo& device) {
 std::string make_profile_text(const DeviceInfo& device,
                               const std::vector<measure::VariantTrial>& tried) {
     Json document{{"schema", kProfileSchema}, {"version", version()}, {"commit", commit()}};
-    document["device"] = make_device_json(device);
+    document["device"] = device_json(device);
     document["variants"] = Json::object();
     document["measured"] = Json::array();
     for (const measure::VariantTrial& one : tried) {
@@ -101,11 +101,11 @@ std::string make_profile_text(const DeviceInfo& device,
                                         {"choice", one.choice},
                                         {"against", one.standard},
                                         {"benchmark", one.benchmark},
-                                        {"ratio", report::make_number_json(ratio.median)},
-                                        {"ci95", report::make_interval_json(ratio.ci95)},
+                                        {"ratio", report::number_json(ratio.median)},
+                                        {"ci95", report::interval_json(ratio.ci95)},
                                         {"taken", one.is_faster()}});
     }
-    return report::serialise_json(document);
+    return report::serialise(document);
 }
 
 gpu::VariantChoices parse_device_profile(const std::string& text, const std::string& file,
@@ -117,7 +117,7 @@ gpu::VariantChoices parse_device_profile(const std::string& text, const std::str
     check(member(document, "schema") == kProfileSchema, Failure::bad_data, file,
           ": wanted a device profile, schema '", kProfileSchema, "', found ",
           format_for_message(member(document, "schema")));
-    const Json found = member(document, "device"), wanted = make_device_json(device);
+    const Json found = member(document, "device"), wanted = device_json(device);
     for (const auto& [name, value] : wanted.items())
         check(member(found, name.c_str()) == value, Failure::bad_data, file,
               ": is another device's or driver's profile: device.", name, ": wanted ",

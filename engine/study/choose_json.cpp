@@ -42,10 +42,10 @@ Json make_plan_rules_json(const std::string& text) {
 
 Json make_judged_plan_json(const JudgedPlan& plan) {
     return {{"technique", plan.text},
-            {"ms", report::make_number_json(plan.ms)},
-            {"ms_range", report::make_interval_json(plan.ms_range)},
-            {"largest_error", report::make_number_json(plan.largest_error)},
-            {"errors", report::make_number_list_json(plan.errors)}};
+            {"ms", report::number_json(plan.ms)},
+            {"ms_range", report::interval_json(plan.ms_range)},
+            {"largest_error", report::number_json(plan.largest_error)},
+            {"errors", report::numbers_json(plan.errors)}};
 }
 
 Json make_candidate_json(const JudgedPlan& plan) {
@@ -63,8 +63,8 @@ Json make_time_verdict_json(TimeVerdict verdict) {
 Json make_proof_json(const PlanProof& proof) {
     Json json = make_judged_plan_json(proof.plan);
     json["views"] = proof.plan.errors.size(), json["failures"] = proof.failures;
-    json["share_bound"] = report::make_number_json(proof.share_bound);
-    json["error_bound"] = report::make_number_json(proof.error_bound);
+    json["share_bound"] = report::number_json(proof.share_bound);
+    json["error_bound"] = report::number_json(proof.error_bound);
     json["keeps_error"] = proof.keeps_error;
     json["keeps_time"] = make_time_verdict_json(proof.time);
     return json;
@@ -73,9 +73,9 @@ Json make_proof_json(const PlanProof& proof) {
 /// Returns the noise of the proof views; null if the reference has no noise.
 Json make_noise_json(const std::optional<NoiseOfViews>& noise) {
     if (!noise) return nullptr;
-    return {{"median_floor", report::make_number_json(noise->median_floor)},
-            {"largest_floor", report::make_number_json(noise->largest_floor)},
-            {"wanted_floor", report::make_number_json(noise->wanted_floor)},
+    return {{"median_floor", report::number_json(noise->median_floor)},
+            {"largest_floor", report::number_json(noise->largest_floor)},
+            {"wanted_floor", report::number_json(noise->wanted_floor)},
             {"views_above_wanted", noise->views_above}};
 }
 
@@ -101,16 +101,16 @@ StatedLimits state_kept_limits(const ChooseRequest& request, const PlanProof& pr
 Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
                            const StatedLimits& limits, const std::string& scene) {
     return {{"quantity", error_quantity_name(request.quantity)},
-            {"max_error", report::make_number_json(limits.max_error)},
-            {"max_ms", report::make_number_json(limits.max_ms)},
+            {"max_error", report::number_json(limits.max_error)},
+            {"max_ms", report::number_json(limits.max_ms)},
             {"share", request.share},
             {"confidence", request.confidence},
             {"views", proof.plan.errors.size()},
             {"failures", limits.failures},
-            {"share_bound", report::make_number_json(proof.share_bound)},
-            {"error_bound", report::make_number_json(proof.error_bound)},
-            {"ms", report::make_number_json(proof.plan.ms)},
-            {"ms_range", report::make_interval_json(proof.plan.ms_range)},
+            {"share_bound", report::number_json(proof.share_bound)},
+            {"error_bound", report::number_json(proof.error_bound)},
+            {"ms", report::number_json(proof.plan.ms)},
+            {"ms_range", report::interval_json(proof.plan.ms_range)},
             {"device", proof.device},
             {"times", request.costs.empty() ? "measured" : "predicted"},
             {"scene", scene},
@@ -181,13 +181,13 @@ Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
         const PlanProof& proof = choice.proofs.at(choice.nearest.value());
         document["plan"] = make_plan_rules_json(proof.plan.text);
         document["nearest"] = {{"why", choice.failure},
-                               {"max_error", report::make_number_json(request.max_error)},
-                               {"max_ms", report::make_number_json(request.max_ms)}};
+                               {"max_error", report::number_json(request.max_error)},
+                               {"max_ms", report::number_json(request.max_ms)}};
         document["certificate"] = make_certificate_json(request, proof,
                                                         state_kept_limits(request, proof), scene);
     }
-    document["proofs"] = report::make_list_json(choice.proofs, make_proof_json);
-    document["candidates"] = report::make_list_json(choice.candidates, make_candidate_json);
+    document["proofs"] = report::list_json(choice.proofs, make_proof_json);
+    document["candidates"] = report::list_json(choice.candidates, make_candidate_json);
     return document;
 }
 
@@ -204,10 +204,9 @@ Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan
 ChosenPlan choose(Engine& engine, const ChooseRequest& request) {
     scene::check_scene(request.base.scene);
     const PlanChoice choice = choose_plan(engine, request);
-    return {
-        .plan = choice.chosen ? choice.proofs[*choice.chosen].plan.text : "",
-        .failure = choice.failure,
-        .json = report::serialise_json(make_choice_json(request, choice, request.base.scene.name))};
+    return {.plan = choice.chosen ? choice.proofs[*choice.chosen].plan.text : "",
+            .failure = choice.failure,
+            .json = report::serialise(make_choice_json(request, choice, request.base.scene.name))};
 }
 
 ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::string& plan) {
@@ -215,7 +214,7 @@ ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::stri
     const PlanProof proof = prove_plan(engine, request, plan);
     return {.plan = proof.may_hold() ? plan : "",
             .failure = proof.may_hold() ? "" : "does not hold: " + describe_proof(request, proof),
-            .json = report::serialise_json(
+            .json = report::serialise(
                 make_proved_plan_json(request, plan, proof, request.base.scene.name))};
 }
 

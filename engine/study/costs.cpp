@@ -97,7 +97,7 @@ std::string format_cost_cell(const PredictedCostCells& cells) {
 
 std::vector<ReportTable> make_cost_tables(const report::Comparison& comparison) {
     ReportTable table{"Predicted time on other devices, ms",
-                      {report::make_text_column("row"), "FLIP"},
+                      {report::text_column("row"), "FLIP"},
                       "Counted work times the costs of each device, with the smallest and the "
                       "largest cost of its range; of another renderer's row, its own time "
                       "(--row-times). *: on the device's front of time and FLIP.",
@@ -131,8 +131,8 @@ std::string describe_predicted_front(const report::Comparison& comparison, std::
     std::ranges::stable_sort(front, {}, [](const auto& one) { return one.first; });
     std::vector<const report::Row*> rows;
     for (const auto& [ms, row] : front) rows.push_back(row);
-    return fmt::format("{} ({} of {} not ray traced alone)", report::join_labels_of_rows(rows),
-                       captured, rows.size());
+    return fmt::format("{} ({} of {} not ray traced alone)", report::join_labels(rows), captured,
+                       rows.size());
 }
 
 std::vector<std::string> describe_predicted_fronts(const report::Comparison& comparison) {
@@ -170,9 +170,8 @@ list_comparisons_on_other_devices(const report::Comparison& comparison) {
     if (comparison.rows.empty()) return devices;
     const std::vector<std::string> fronts = describe_predicted_fronts(comparison);
     for (std::size_t device = 0; device < fronts.size(); ++device) {
-        report::ComparisonOnDevice& other = devices.emplace_back(
-            report::ComparisonOnDevice{report::copy_without_pictures(comparison),
-                                       "predicted from counted work", fronts[device]});
+        report::ComparisonOnDevice& other = devices.emplace_back(report::ComparisonOnDevice{
+            report::without_pictures(comparison), "predicted from counted work", fronts[device]});
         other.comparison.device = {};
         other.comparison.reference_gpu_ms.median = NAN;
         other.comparison.pareto.clear();

@@ -71,10 +71,10 @@ void keep_path_distance(const std::filesystem::path& file, const ReferenceKey& k
                         const std::function<void(const std::string&)>& warn) {
     const report::Json json{{"schema", kPathDistanceSchema},
                             {"key", make_key_json(key)},
-                            {"flip", report::make_number_json(distance.flip)},
-                            {"noise", report::make_number_json(distance.noise)},
-                            {"flip_all", report::make_number_json(distance.flip_all)},
-                            {"noise_all", report::make_number_json(distance.noise_all)},
+                            {"flip", report::number_json(distance.flip)},
+                            {"noise", report::number_json(distance.noise)},
+                            {"flip_all", report::number_json(distance.flip_all)},
+                            {"noise_all", report::number_json(distance.noise_all)},
                             {"size", report::Json::array({distance.width, distance.height})},
                             {"paths", distance.paths},
                             {"seconds", distance.seconds},
@@ -82,7 +82,7 @@ void keep_path_distance(const std::filesystem::path& file, const ReferenceKey& k
     try {
         std::error_code ignored; // write_file says what is wrong
         std::filesystem::create_directories(file.parent_path(), ignored);
-        write_file(file, report::serialise_json(json));
+        write_file(file, report::serialise(json));
     } catch (const Error& error) {
         warn(std::string(error.what()) +
              "; each comparison of this scene measures the distance to path tracing again");

@@ -103,10 +103,10 @@ void check_folder_shows_views(const std::string& folder, const std::vector<measu
     for (std::size_t i = 0; i <= drawn.size(); ++i) {
         const measure::CameraFacts camera = i == 0 ? make_camera_facts(base.camera, base.time)
                                                    : drawn[i - 1].camera;
-        const nlohmann::json wanted{{"camera", nlohmann::json(report::make_camera_json(camera))},
-                                    {"name", view_picture_name(i)},
-                                    {"time", nlohmann::json(report::make_number_json(
-                                                 i == 0 ? base.time : drawn[i - 1].time))}};
+        const nlohmann::json wanted{
+            {"camera", nlohmann::json(report::camera_json(camera))},
+            {"name", view_picture_name(i)},
+            {"time", nlohmann::json(report::number_json(i == 0 ? base.time : drawn[i - 1].time))}};
         check(list.is_array() && i < list.size() && list[i] == wanted, Failure::bad_data,
               file.string(), ": wanted the views of this comparison, found another ",
               view_picture_name(i),

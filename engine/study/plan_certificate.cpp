@@ -73,8 +73,8 @@ bool is_certificate_of_this_scene(const measure::MetricParts& certificate) {
 std::vector<ReportTable> make_certificate_tables(const report::Comparison& comparison) {
     ReportTable table{
         "Certificates of chosen plans",
-        {report::make_text_column("row"), report::make_text_column("statement"),
-         report::make_text_column("for this scene")},
+        {report::text_column("row"), report::text_column("statement"),
+         report::text_column("for this scene")},
         "As catoptric choose proved them, for drawn views of the named size. They say "
         "nothing of the times in this report.",
         {},
@@ -107,10 +107,10 @@ const measure::RegisteredMetric kCertificateMetric{
      .order = 795,
      .study = kCertificateMetricName,
      .get = measure::Metric::FromStudy{}}};
-const report::RegisteredReportPart kCertificatePart{{.name = kCertificateMetricName,
-                                                     .order = 650,
-                                                     .tables = make_certificate_tables,
-                                                     .first_sentence = quote_certificates}};
+const report::RegisteredPart kCertificatePart{{.name = kCertificateMetricName,
+                                               .order = 650,
+                                               .tables = make_certificate_tables,
+                                               .first_sentence = quote_certificates}};
 
 } // namespace
 

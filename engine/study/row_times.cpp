@@ -29,7 +29,7 @@ void check_rows_of_times(const CompareRequest& request, int /*count*/,
     for (const StudyChoice& choice : request.studies) {
         if (choice.name != "row-times") continue;
         for (const std::string& file : choice.texts) {
-            const report::PictureRowTimes times = report::read_row_times_file(file);
+            const report::RowTimes times = report::read_row_times(file);
             for (const auto& [row, ms] : times.rows) {
                 check(
                     std::ranges::any_of(request.pictures,
@@ -60,7 +60,7 @@ void add_row_times(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
     std::vector<std::vector<measure::MetricParts>> lists(rows.size());
     for (const std::string& file : input.texts) {
-        const report::PictureRowTimes times = report::read_row_times_file(file);
+        const report::RowTimes times = report::read_row_times(file);
         for (const auto& [name, list] : times.rows) {
             const auto row = std::ranges::find(rows, name, &report::Row::label);
             check(row != rows.end(), Failure::internal, "times of rows: no row ", name);
@@ -94,20 +94,20 @@ double read_time_part(const measure::MetricParts& parts, std::size_t index) {
 }
 
 std::vector<ReportTable> make_row_time_tables(const report::Comparison& comparison) {
-    ReportTable table{"Times of other renderers, ms",
-                      {report::make_text_column("row"), report::make_text_column("device"), "ms",
-                       "95 %", "frames", "FLIP"},
-                      "As stated by the files of --row-times. Times on the comparison's own device "
-                      "rank their rows; others do so on the device of --costs with the same name.",
-                      {},
-                      {}};
+    ReportTable table{
+        "Times of other renderers, ms",
+        {report::text_column("row"), report::text_column("device"), "ms", "95 %", "frames", "FLIP"},
+        "As stated by the files of --row-times. Times on the comparison's own device "
+        "rank their rows; others do so on the device of --costs with the same name.",
+        {},
+        {}};
     for (const report::Row& row : comparison.rows)
         for (const measure::MetricParts& time : list_row_times(row)) {
             const double low = read_time_part(time, 1), high = read_time_part(time, 2);
             table.rows.push_back(
                 {row.label, time.name, report::format_ms(read_time_part(time, 0)),
                  low <= high ? report::format_ms(low) + "–" + report::format_ms(high)
-                             : std::string(report::kEmptyCellText),
+                             : std::string(report::kEmptyCell),
                  fmt::format("{:.0f}", read_time_part(time, 3)), report::format_flip(row.error)});
         }
     return {table};
@@ -120,7 +120,7 @@ const RegisteredStudy kRowTimesStudy{
      .words = "FILE",
      .check_words =
          [](const std::vector<std::string>& files) {
-             for (const std::string& file : files) report::read_row_times_file(file);
+             for (const std::string& file : files) report::read_row_times(file);
          },
      .prepare = check_rows_of_times,
      .run = add_row_times,

@@ -15,7 +15,7 @@ RegisteredStudy::RegisteredStudy(Study study) {
         const measure::RegisteredMetric registers(std::move(metric));
     }
     study.part.name = study.name;
-    if (study.part.tables != nullptr) const report::RegisteredReportPart registers(study.part);
+    if (study.part.tables != nullptr) const report::RegisteredPart registers(study.part);
     table_rows<Study>().push_back(std::move(study));
 }
 

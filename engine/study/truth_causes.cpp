@@ -283,15 +283,14 @@ double find_part_number(const measure::MetricParts& parts, const std::string& na
 }
 
 std::string format_square(double square) {
-    return std::isfinite(square) ? fmt::format("{:.2e}", square)
-                                 : std::string(report::kEmptyCellText);
+    return std::isfinite(square) ? fmt::format("{:.2e}", square) : std::string(report::kEmptyCell);
 }
 
 report::ReportTable make_truth_cause_table(const report::Comparison& comparison,
                                            const std::string& title, const std::string& prefix) {
     report::ReportTable table{
         title,
-        {report::make_text_column("Cause"), "Share, %", "Squared error",
+        {report::text_column("Cause"), "Share, %", "Squared error",
          "Squared error without the cause", "Deviation", "FLIP", "FLIP without the cause"},
         "The table compares simple ray tracing with path tracing. Each line removes one more cause "
         "of the difference, in this order. Glass: simple ray tracing draws it as a diffuse "

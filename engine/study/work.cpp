@@ -15,7 +15,7 @@ using report::ReportTable;
 
 /// Returns the table of the counts of each row. Kinds that no row has are left out.
 std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) {
-    ReportTable table{"Work of one frame", {report::make_text_column("row")}, "", {}, {}};
+    ReportTable table{"Work of one frame", {report::text_column("row")}, "", {}, {}};
     std::vector<std::size_t> kinds;
     for (std::size_t kind = 0; kind < kWorkKindCount; ++kind)
         for (const report::Row& row : comparison.rows)
@@ -34,7 +34,7 @@ std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) 
         std::vector<std::string> cells{row.label};
         for (const std::size_t kind : kinds)
             cells.push_back(counts.values[kind] ? std::to_string(*counts.values[kind])
-                                                : std::string(report::kEmptyCellText));
+                                                : std::string(report::kEmptyCell));
         table.rows.push_back(std::move(cells));
     }
     return {table};

@@ -51,18 +51,18 @@ BaselineGate::BaselineGate(const BaselineOptions& options) : baseline_options_(o
 
 void BaselineGate::check_baseline_scene(const report::Comparison& comparison) const {
     if (json_.empty()) return;
-    report::check_baseline_matches_comparison(comparison, json_, baseline_options_.baseline);
+    report::check_baseline(comparison, json_, baseline_options_.baseline);
 }
 
 void BaselineGate::judge_scene_against_baseline(const report::Comparison& comparison) {
     if (json_.empty()) return;
-    const std::vector<report::BaselineFinding> findings = report::judge_comparison_against_baseline(
+    const std::vector<report::BaselineFinding> findings = report::judge_comparison(
         comparison, json_, baseline_options_.baseline, baseline_options_.limits);
-    text_ += comparison.scene.name + "\n" + report::format_baseline_findings(findings);
+    text_ += comparison.scene.name + "\n" + report::format_findings(findings);
     summary_ += (summary_.empty() ? "" : "\n") +
-                report::make_baseline_markdown(findings, comparison.scene.name);
-    junit_ += report::make_baseline_junit(findings, comparison.scene.name);
-    passes_ = passes_ && std::ranges::none_of(findings, report::is_baseline_failure);
+                report::to_markdown(findings, comparison.scene.name);
+    junit_ += report::to_junit(findings, comparison.scene.name);
+    passes_ = passes_ && std::ranges::none_of(findings, report::is_failure);
 }
 
 std::string BaselineGate::finish() {

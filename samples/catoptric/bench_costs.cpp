@@ -63,7 +63,7 @@ measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments,
                                                const session::Watcher& watcher) {
     const report::OtherDeviceTimes times = report::read_times_file(arguments.times);
     request.techniques.clear();
-    for (const report::OtherDeviceTimes::TimedRowElsewhere& row : times.rows)
+    for (const report::OtherDeviceTimes::TimedRow& row : times.rows)
         request.techniques.push_back(row.technique);
     std::vector<measure::TimedWork> samples = benchmark::count_work_samples(engine, request,
                                                                             watcher);

@@ -48,7 +48,7 @@ double read_positive(const PathJson& number, double high, const std::string& pla
     return number.get<double>();
 }
 
-/// Returns a camera as report::make_camera_json writes it.
+/// Returns a camera as report::camera_json writes it.
 scene::Camera read_view_camera(const PathJson& json, const std::string& place) {
     check(json.is_object(), Failure::bad_data, place, ": wanted an object, found ",
           report::describe(json));

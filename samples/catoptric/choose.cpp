@@ -211,7 +211,7 @@ measure_distance_of_reference(const ChooseOptions& options, const study::ChooseR
 /// Adds the distance of the reference to path tracing to the file of a plan.
 void add_path_distance(report::Json& document,
                        const std::optional<measure::PathDistance>& distance) {
-    if (distance) document["path_distance"] = report::make_path_distance_json(*distance);
+    if (distance) document["path_distance"] = report::path_distance_json(*distance);
 }
 
 std::string make_path_distance_line(const std::optional<measure::PathDistance>& distance) {
@@ -229,10 +229,10 @@ int certify_plan_and_print_result(const ChooseOptions& options, const study::Cho
     add_path_distance(document, distance);
     document["command"] = options.command;
     if (!options.output.empty() && proof.may_hold())
-        write_file(options.output, report::serialise_json(document));
+        write_file(options.output, report::serialise(document));
     if (options.common.device.validate) engine.check_validation();
     print_result(options.common.output_options.json
-                     ? report::serialise_json(document)
+                     ? report::serialise(document)
                      : study::describe_verdict(request, proof) + ": " +
                            study::describe_proof(request, proof) + "\n" +
                            make_path_distance_line(distance));
@@ -282,9 +282,9 @@ int run_choose(const ChooseOptions& options) {
     report::Json document = study::make_choice_json(request, choice, options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
-    write_file(options.output, report::serialise_json(document));
+    write_file(options.output, report::serialise(document));
     print_result(options.common.output_options.json
-                     ? report::serialise_json(document)
+                     ? report::serialise(document)
                      : describe_choice(request, choice) + make_path_distance_line(distance));
     print_note_unless_quiet(options.common.output_options,
                             (choice.chosen ? "written: " : "written, the nearest plan: ") +

@@ -67,7 +67,7 @@ struct CompareOptions {
     double max_ms = NAN, max_flip = NAN, max_rmse = NAN; ///< budgets; NaN: none
     BaselineOptions baseline;
     std::optional<int> rounds; ///< none: study::kRounds, or one per frame if there are fewer frames
-    report::CsvColumnSet csv = report::CsvColumnSet::table;
+    report::CsvColumns csv = report::CsvColumns::table;
     bool inlines_pictures = false; ///< pictures are in report.html, however large it becomes
     FigureOptions figures;
     report::PagePictures page_pictures() const {
@@ -154,7 +154,7 @@ std::vector<study::CompareRequest> make_compare_requests(const CompareOptions& o
     for (const std::string& scene : scenes) {
         study::CompareRequest request = make_compare_request(options, scene);
         if (scenes.size() > 1)
-            request.images = report::scene_images_folder(requests.size(), request.base.scene.name);
+            request.images = report::images_folder(requests.size(), request.base.scene.name);
         if (!options.axes.empty())
             request.base.techniques = expand_techniques_along_axes(list_requested_rows(request),
                                                                    options.axes);
@@ -181,11 +181,11 @@ void check_output_places(const CompareOptions& options,
             inputs.emplace_back(request.pictures[i].second);
         }
         const bool is_first = &request == &requests.front();
-        for (const std::filesystem::path& file : report::list_report_files(images, request.images))
+        for (const std::filesystem::path& file : report::list_files(images, request.images))
             if (is_first || file.has_parent_path()) // the documents cover all scenes
                 outputs.push_back(std::filesystem::path(options.folder) / file);
         if (!options.figures.folder.empty())
-            for (const std::filesystem::path& file : report::list_figure_files(images))
+            for (const std::filesystem::path& file : report::figure_files(images))
                 outputs.push_back(options.figures.scene_folder(request.images) / file);
         const std::vector<std::filesystem::path>& files = request.base.scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
@@ -223,8 +223,7 @@ public:
           is_one_(count == 1) {}
 
     void write_scene_report(std::size_t index, const report::Comparison& comparison) {
-        is_one_ ? one_.write_comparison(comparison)
-                : several_.write_scene_comparison(index, comparison);
+        is_one_ ? one_.write(comparison) : several_.write_scene(index, comparison);
     }
     /// Prints the table of one finished scene, and the warnings but the first `known`, which were
     /// printed when the scene was read.
@@ -248,7 +247,7 @@ public:
             print_result(
                 (is_one_ ? "" : escape(comparison.scene.name) + "\n") +
                 make_compare_table(comparison) +
-                (measure::has_budget(comparison) ? report::describe_budget_answer(comparison) + "\n"
+                (measure::has_budget(comparison) ? report::describe_budget(comparison) + "\n"
                                                  : "") +
                 (comparison.path_distance
                      ? report::describe_path_distance(*comparison.path_distance, comparison.rows) +
@@ -266,7 +265,7 @@ public:
 private:
     const CompareOptions& compare_options_;
     report::ReportWriter one_;
-    report::MultiSceneReportWriter several_;
+    report::ScenesWriter several_;
     bool is_one_;
 };
 
@@ -497,7 +496,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
     verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",
                 [options](const std::string& text) {
                     const bool all = parse_choice_index("--csv", text, {"table", "all"}) == 1;
-                    options->csv = all ? report::CsvColumnSet::all : report::CsvColumnSet::table;
+                    options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;
                 });
     verb.flag("--inline",
               "put all pictures into report.html; without it, a page with more than 16 MiB of "

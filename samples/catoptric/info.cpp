@@ -141,8 +141,7 @@ int print_scene_info(const InfoOptions& options) {
     words.exposure = find_shown_exposure(request, options); // moves the scene away
     words.ambient = request.ambient;
     if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
-    print_result(options.common.output_options.json ? make_scene_json(words)
-                                                    : format_scene_info(words));
+    print_result(options.common.output_options.json ? scene_json(words) : format_scene_info(words));
     return 0;
 }
 

@@ -20,14 +20,14 @@ namespace {
 
 using report::Json;
 
-std::string serialise_json(const Json& document) {
+std::string serialise(const Json& document) {
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 Json vector_to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json device_info_to_json(const session::DeviceInfo& device) {
-    Json row = report::make_device_json(session::make_device_facts(device));
+    Json row = report::device_json(session::make_device_facts(device));
     row["id"] = device.id;
     row["usable"] = device.missing.empty();
     if (!device.missing.empty()) row["missing"] = device.missing;
@@ -45,7 +45,7 @@ Json make_times_json(const session::RunResult& result, const session::DeviceInfo
                       return std::ranges::find(last, pass.name, &session::PassTime::name) ==
                              last.end();
                   });
-    return report::make_row_times_json(row);
+    return report::row_times_json(row);
 }
 
 Json make_culled_work_json(const session::TechniqueResult& part) {
@@ -96,14 +96,14 @@ std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
     document["exposure"] = facts.exposure;
     document["flip_source"] = facts.flip_source;
     for (const measure::Metric& quantity : measure::difference_metrics())
-        document[std::string(quantity.name)] = report::make_metric_value_json(
+        document[std::string(quantity.name)] = report::metric_json(
             measure::metric_value(quantity, facts.difference));
     document["mean"] = {{"a", vector_to_json(facts.a_mean.rgb)},
                         {"b", vector_to_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", vector_to_json(facts.a_clamped.rgb)},
                                 {"b", vector_to_json(facts.b_clamped.rgb)}};
     document["over"] = facts.over;
-    return serialise_json(document);
+    return serialise(document);
 }
 
 std::string make_render_json(const session::Request& request, int first_frame,
@@ -131,7 +131,7 @@ std::string make_render_json(const session::Request& request, int first_frame,
     document["technique"] = choice.technique;
     document["label"] = choice.label;
     document["settings"] = make_settings_json(choice.settings);
-    document["plan"] = report::make_plan_json(part.plan);
+    document["plan"] = report::plan_json(part.plan);
     document["notes"] = part.notes;
     document["model"] = rendered_work_name(part.model);
     document["left_out"] = make_culled_work_json(part);
@@ -150,7 +150,7 @@ std::string make_render_json(const session::Request& request, int first_frame,
                             {"shadow", part.rays->shadow}};
     document["mean"] = vector_to_json(measure::mean_of(part.hdr, ValueRange::unclamped).rgb);
     document["mean_clamped"] = vector_to_json(measure::mean_of(part.hdr, ValueRange::clamped).rgb);
-    return serialise_json(document);
+    return serialise(document);
 }
 
 std::string make_picture_origin_json(const PictureOrigin& origin) {
@@ -163,7 +163,7 @@ std::string make_picture_origin_json(const PictureOrigin& origin) {
                     {"scene_hash", origin.scene_hash},
                     {"technique", origin.technique},
                     {"model", origin.model},
-                    {"camera", report::make_camera_json(origin.camera)},
+                    {"camera", report::camera_json(origin.camera)},
                     {"time", origin.time},
                     {"seed", origin.seed},
                     {"exposure", origin.exposure}};
@@ -186,13 +186,13 @@ std::string make_trace_json(const session::FrameTimes& frame, const std::string&
                           {"dur", 1000 * pass.ms()},
                           {"pid", 1},
                           {"tid", 1}});
-    return serialise_json({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
+    return serialise({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
 }
 
 std::string make_devices_json(const std::vector<session::DeviceInfo>& devices) {
     Json rows = Json::array();
     for (const session::DeviceInfo& device : devices) rows.push_back(device_info_to_json(device));
-    return serialise_json({{"schema", "catoptric/list/1"}, {"devices", rows}});
+    return serialise({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
 Json make_traits_json(const TechniqueTraits& traits) {
@@ -224,7 +224,7 @@ std::string make_techniques_json(const std::vector<session::TechniqueInfo>& tech
              {"traits", make_traits_json(session::parse_technique(technique.name).traits())},
              {"knobs", knobs}});
     }
-    return serialise_json({{"schema", "catoptric/list/1"}, {"techniques", rows}});
+    return serialise({{"schema", "catoptric/list/1"}, {"techniques", rows}});
 }
 
 std::string make_named_list_json(const std::string& kind,
@@ -232,7 +232,7 @@ std::string make_named_list_json(const std::string& kind,
     Json rows = Json::array();
     for (const NamedListEntry& row : named)
         rows.push_back({{"name", row.name}, {"summary", row.summary}});
-    return serialise_json({{"schema", "catoptric/list/1"}, {kind, rows}});
+    return serialise({{"schema", "catoptric/list/1"}, {kind, rows}});
 }
 
 std::string make_metrics_json() {
@@ -243,7 +243,7 @@ std::string make_metrics_json() {
                         {"unit", quantity.unit},
                         {"mask", quantity.mask},
                         {"better", make_better_direction_json(quantity.better)}});
-    return serialise_json({{"schema", "catoptric/list/1"}, {"metrics", rows}});
+    return serialise({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 
 std::string make_info_json(const ProgramInfo& facts) {
@@ -256,7 +256,7 @@ std::string make_info_json(const ProgramInfo& facts) {
     Json features = Json::object();
     for (const auto& [group, names] : facts.features) features[group] = names;
     document["features"] = features;
-    return serialise_json(document);
+    return serialise(document);
 }
 
 } // namespace catoptric::cli

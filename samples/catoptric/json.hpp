@@ -77,6 +77,6 @@ struct SceneInfoFacts {
     std::string scene_file; ///< scene file that was read; empty: none
     std::vector<std::string> warnings;
 };
-std::string make_scene_json(const SceneInfoFacts& words);
+std::string scene_json(const SceneInfoFacts& words);
 
 } // namespace catoptric::cli

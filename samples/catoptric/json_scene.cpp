@@ -37,9 +37,9 @@ Json make_mirror_shape_json(const scene::MirrorShape& shape) {
     Json json{{"kind", scene::shape_name(shape.kind)}, {"closed", shape.is_closed}};
     json["sphere"] = nullptr;
     if (shape.fit)
-        json["sphere"] = {{"centre", report::make_point_json(shape.fit->centre)},
-                          {"radius", report::make_number_json(shape.fit->radius)},
-                          {"tolerance", report::make_number_json(shape.tolerance)}};
+        json["sphere"] = {{"centre", report::point_json(shape.fit->centre)},
+                          {"radius", report::number_json(shape.fit->radius)},
+                          {"tolerance", report::number_json(shape.tolerance)}};
     return json;
 }
 
@@ -47,14 +47,14 @@ Json make_mirror_json(const session::MirrorInfo& mirror) {
     return {{"mirror", mirror.number},
             {"name", mirror.name},
             {"shape", make_mirror_shape_json(mirror.shape)},
-            {"screen_share", report::make_number_json(mirror.screen_share)},
-            {"capture_centre", report::make_point_json(mirror.capture_centre)},
+            {"screen_share", report::number_json(mirror.screen_share)},
+            {"capture_centre", report::point_json(mirror.capture_centre)},
             {"reflectance", make_colour_json(mirror.reflectance)},
             {"constant", mirror.is_constant}};
 }
 
 template <typename List, typename ToJson>
-Json make_list_json(const List& list, ToJson&& to_json) {
+Json list_json(const List& list, ToJson&& to_json) {
     Json json = Json::array();
     for (const auto& item : list) json.push_back(to_json(item));
     return json;
@@ -62,7 +62,7 @@ Json make_list_json(const List& list, ToJson&& to_json) {
 
 } // namespace
 
-std::string make_scene_json(const SceneInfoFacts& words) {
+std::string scene_json(const SceneInfoFacts& words) {
     const session::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
     const measure::SceneContents& contents = measure::read_scene_contents(facts);
@@ -81,17 +81,17 @@ std::string make_scene_json(const SceneInfoFacts& words) {
     document["bytes"] = {{"geometry", info.geometry_bytes},
                          {"images", info.image_bytes},
                          {"files", info.file_bytes}};
-    document["materials"] = make_list_json(info.materials, make_material_json);
-    document["mirrors"] = make_list_json(info.mirrors, make_mirror_json);
+    document["materials"] = list_json(info.materials, make_material_json);
+    document["mirrors"] = list_json(info.mirrors, make_mirror_json);
     document["mirror_options"] = info.mirror_options;
-    document["lights"] = report::make_lights_json(contents.lights);
-    document["environment"] = report::make_environment_json(contents.environment);
-    document["cameras"] = make_list_json(info.cameras, report::make_camera_json);
-    document["camera"] = report::make_camera_json(facts.camera);
-    document["ambient"] = report::make_number_json(words.ambient);
-    document["exposure"] = words.exposure ? report::make_number_json(*words.exposure) : Json();
+    document["lights"] = report::lights_json(contents.lights);
+    document["environment"] = report::environment_json(contents.environment);
+    document["cameras"] = list_json(info.cameras, report::camera_json);
+    document["camera"] = report::camera_json(facts.camera);
+    document["ambient"] = report::number_json(words.ambient);
+    document["exposure"] = words.exposure ? report::number_json(*words.exposure) : Json();
     document["auto_exposure"] = words.auto_exposure;
-    document["gaps"] = report::make_unsupported_features_json(contents.unsupported);
+    document["gaps"] = report::unsupported_json(contents.unsupported);
     document["warnings"] = words.warnings;
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }

@@ -37,10 +37,10 @@ int run_results(const ResultsOptions& options) {
         check_folder_can_be_made(words[2]);
         const AddedReport added = add_report_to_site(words[1], words[2]);
         if (options.output_options.json)
-            print_result(report::serialise_json({{"schema", "catoptric/results-added/1"},
-                                                 {"report", added.name},
-                                                 {"comparisons", added.comparisons},
-                                                 {"known", added.is_known}}));
+            print_result(report::serialise({{"schema", "catoptric/results-added/1"},
+                                            {"report", added.name},
+                                            {"comparisons", added.comparisons},
+                                            {"known", added.is_known}}));
         print_note_unless_quiet(
             options.output_options,
             added.is_known ? "the site has this report: " + added.name
@@ -50,10 +50,10 @@ int run_results(const ResultsOptions& options) {
     }
     const BuiltSite built = build_site(words[1]);
     if (options.output_options.json)
-        print_result(report::serialise_json({{"schema", "catoptric/results-built/1"},
-                                             {"index", words[1] + "/index.html"},
-                                             {"pages", built.pages},
-                                             {"reports", built.reports}}));
+        print_result(report::serialise({{"schema", "catoptric/results-built/1"},
+                                        {"index", words[1] + "/index.html"},
+                                        {"pages", built.pages},
+                                        {"reports", built.reports}}));
     print_note_unless_quiet(options.output_options,
                             fmt::format("written: {}/index.html, {} pages from {} "
                                         "reports",

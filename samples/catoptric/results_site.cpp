@@ -96,7 +96,7 @@ std::vector<const SiteRow*> list_front_rows(const SiteComparison& run) {
 /// Returns a chart of time (logarithmic) against FLIP or RMSE. Marks of rows on the front are
 /// filled, and have the rows' numbers.
 std::string make_front_chart(const SiteComparison& run) {
-    using report::make_number_json;
+    using report::number_json;
     const std::vector<const SiteRow*> front = list_front_rows(run);
     SiteJson rows = SiteJson::array(), times = rows, intervals = rows, flips = rows, rmses = rows,
              flip_intervals = rows, unknown = rows;
@@ -108,10 +108,10 @@ std::string make_front_chart(const SiteComparison& run) {
                         {"name", is_on_front ? std::to_string(place - front.begin() + 1) : ""},
                         {"front", is_on_front}});
         times.push_back(row.ms);
-        intervals.push_back(report::make_interval_json({row.ms_low, row.ms_high}));
+        intervals.push_back(report::interval_json({row.ms_low, row.ms_high}));
         flips.push_back(row.flip);
-        flip_intervals.push_back(report::make_interval_json({row.flip_low, row.flip_high}));
-        rmses.push_back(make_number_json(row.rmse));
+        flip_intervals.push_back(report::interval_json({row.flip_low, row.flip_high}));
+        rmses.push_back(number_json(row.rmse));
         unknown.push_back(nullptr);
     }
     if (rows.empty()) return "";
@@ -129,8 +129,8 @@ std::string make_front_chart(const SiteComparison& run) {
                         {"log_x", true},
                         {"log_y", false}};
     return "<figure class=\"plot\">" +
-           report::make_html_chart(data, "<p class=\"note\">The chart needs JavaScript; the table "
-                                         "has the same values.</p>") +
+           report::html_chart(data, "<p class=\"note\">The chart needs JavaScript; the table "
+                                    "has the same values.</p>") +
            "<figcaption>Each mark is a row. Filled marks are on the front, and have their numbers in "
            "the table; stairs join them. Bars are 95 % intervals.</figcaption></figure>";
 }
@@ -143,9 +143,9 @@ std::string describe_place_on_front(const SiteRow& row, const std::vector<const 
 }
 
 std::string describe_flip_interval(const SiteRow& row) {
-    return std::isfinite(row.flip_low) ? report::format_picture_error(row.flip_low) + " to " +
-                                             report::format_picture_error(row.flip_high)
-                                       : std::string(report::kEmptyCellText);
+    return std::isfinite(row.flip_low)
+               ? report::format_error(row.flip_low) + " to " + report::format_error(row.flip_high)
+               : std::string(report::kEmptyCell);
 }
 
 std::string make_latest_table(const SiteComparison& run) {
@@ -171,10 +171,10 @@ std::string make_latest_table(const SiteComparison& run) {
             format_cell(row->ms, 3),
             std::isfinite(row->ms_low)
                 ? format_cell(row->ms_low, 3) + " to " + format_cell(row->ms_high, 3)
-                : std::string(report::kEmptyCellText),
-            report::format_picture_error(row->flip),
+                : std::string(report::kEmptyCell),
+            report::format_error(row->flip),
             has_flip_intervals ? "<td>" + describe_flip_interval(*row) + "</td>" : std::string(),
-            report::format_picture_error(row->rmse), describe_place_on_front(*row, front));
+            report::format_error(row->rmse), describe_place_on_front(*row, front));
     return html + "</tbody></table></div>";
 }
 
@@ -199,9 +199,9 @@ std::string make_history_table(const std::vector<SiteComparison>& runs) {
         html += "<tr><th scope=\"row\" class=\"text\">" + escape_html(label) + "</th>";
         for (const SiteComparison& run : shown) {
             const auto row = std::ranges::find(run.rows, label, &SiteRow::label);
-            html += row == run.rows.end() ? "<td>" + std::string(report::kEmptyCellText) + "</td>"
+            html += row == run.rows.end() ? "<td>" + std::string(report::kEmptyCell) + "</td>"
                                           : "<td>" + format_cell(row->ms, 3) + " / " +
-                                                report::format_picture_error(row->flip) + "</td>";
+                                                report::format_error(row->flip) + "</td>";
         }
         html += "</tr>";
     }
@@ -244,9 +244,8 @@ std::string make_overview_table(const std::vector<std::string>& sections,
         html += "<tr><th scope=\"row\" class=\"text\">" + escape_html(label) + "</th>";
         for (const SiteComparison& run : latest) {
             const auto row = std::ranges::find(run.rows, label, &SiteRow::label);
-            const std::string flip = row == run.rows.end()
-                                         ? std::string(report::kEmptyCellText)
-                                         : report::format_picture_error(row->flip);
+            const std::string flip = row == run.rows.end() ? std::string(report::kEmptyCell)
+                                                           : report::format_error(row->flip);
             const bool is_on_front = row != run.rows.end() && row->on_front;
             html += is_on_front ? "<td><b>" + flip + "</b></td>" : "<td>" + flip + "</td>";
         }
@@ -277,9 +276,9 @@ std::string make_scene_page(const SitePage& page) {
             if (!section.empty()) parts += "<h3>" + escape_html(section) + "</h3>";
             parts += make_comparison_parts(list);
         }
-        html += report::make_html_titled_section(escape_html(device), parts);
+        html += report::titled_section(escape_html(device), parts);
     }
-    return report::make_html_page(page.scene, html + "</main>");
+    return report::html_page(page.scene, html + "</main>");
 }
 
 /// Script of the search field: hides the lines of the table that lack a word of the search text.
@@ -320,7 +319,7 @@ std::string join_labels_of_front_rows(const SitePage& page,
         if (page.sections.size() > 1)
             text += fmt::format(" ({} of {})", count, page.sections.size());
     }
-    return text.empty() ? std::string(report::kEmptyCellText) : text;
+    return text.empty() ? std::string(report::kEmptyCell) : text;
 }
 
 std::string make_index_page(const std::vector<SitePage>& pages, std::size_t reports) {
@@ -341,8 +340,7 @@ std::string make_index_page(const std::vector<SitePage>& pages, std::size_t repo
                 page.file, escape_html(page.scene), escape_html(page.setting), escape_html(device),
                 escape_html(join_labels_of_front_rows(page, runs)),
                 list_runs_of_section(runs, runs.back().section).size());
-    return report::make_html_page("all scenes",
-                                  html + "</tbody></table></div></main>" + kSearchScript);
+    return report::html_page("all scenes", html + "</tbody></table></div></main>" + kSearchScript);
 }
 
 /// Removes the pages of scenes that no report contains any more.

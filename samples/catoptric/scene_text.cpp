@@ -137,7 +137,7 @@ std::string describe_exposure(const SceneInfoFacts& words) {
 }
 
 SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
-    const report::ReportTable table = report::make_unsupported_table(facts);
+    const report::ReportTable table = report::unsupported_table(facts);
     SceneTableCells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);

@@ -68,9 +68,9 @@ int run_stress(const StressOptions& options) {
     if (!options.folder.empty())
         report::create_folder(std::filesystem::path(options.folder) / "images");
     ProgressPrinter progress(options.output_options);
-    report::StressReportWriter writer(options.folder);
+    report::StressWriter writer(options.folder);
     const auto write = [&](const report::StressResults& so_far) {
-        if (!options.folder.empty()) writer.write_stress_results(so_far);
+        if (!options.folder.empty()) writer.write(so_far);
     };
     const report::StressResults found = stress::run_stress_properties(
         engine, {.only = options.only,

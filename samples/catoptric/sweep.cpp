@@ -56,9 +56,9 @@ void run_sweep_plan_action(const SweepOptions& options) {
                                         (folder / "plan.json").string(),
                                         plan.pieces.size() - timings, timings, folder.string()));
     if (options.run.output_options.json)
-        print_result(report::serialise_json({{"schema", "catoptric/sweep-planned/1"},
-                                             {"pictures", plan.pieces.size() - timings},
-                                             {"timings", timings}}));
+        print_result(report::serialise({{"schema", "catoptric/sweep-planned/1"},
+                                        {"pictures", plan.pieces.size() - timings},
+                                        {"timings", timings}}));
 }
 
 void run_sweep_run_action(const SweepOptions& options) {
@@ -71,10 +71,10 @@ void run_sweep_run_action(const SweepOptions& options) {
         text += fmt::format(", {} are in work in other processes", counts.elsewhere);
     print_note_unless_quiet(options.run.output_options, text);
     if (options.run.output_options.json)
-        print_result(report::serialise_json({{"schema", "catoptric/sweep-run/1"},
-                                             {"run", counts.run},
-                                             {"finished_before", counts.finished_before},
-                                             {"elsewhere", counts.elsewhere}}));
+        print_result(report::serialise({{"schema", "catoptric/sweep-run/1"},
+                                        {"run", counts.run},
+                                        {"finished_before", counts.finished_before},
+                                        {"elsewhere", counts.elsewhere}}));
 }
 
 report::Json make_sweep_state_json(const SweepState& state) {
@@ -83,7 +83,7 @@ report::Json make_sweep_state_json(const SweepState& state) {
                       {"finished", state.finished},
                       {"missing", state.missing},
                       {"in_work", state.in_work}};
-    json["broken"] = report::make_list_json(state.broken, [](const auto& piece) {
+    json["broken"] = report::list_json(state.broken, [](const auto& piece) {
         return report::Json{{"id", piece.first}, {"why", piece.second}};
     });
     json["unknown"] = state.unknown;
@@ -107,7 +107,7 @@ int run_sweep_check_action(const SweepOptions& options) {
     const SweepState state = check_sweep(options.path, read_sweep_plan(options.path));
     const OutputOptions& output_options = options.run.output_options;
     if (output_options.json) {
-        print_result(report::serialise_json(make_sweep_state_json(state)));
+        print_result(report::serialise(make_sweep_state_json(state)));
         return state.is_complete() ? 0 : 1;
     }
     std::string text = fmt::format("{} of {} pieces have a result, {} are in work\n",

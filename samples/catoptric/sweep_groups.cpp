@@ -103,7 +103,7 @@ SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>
 
 void CsvTable::add_line(const std::vector<std::string>& fields) {
     std::vector<std::string> escaped;
-    for (const std::string& field : fields) escaped.push_back(report::escape_csv_field(field));
+    for (const std::string& field : fields) escaped.push_back(report::escape_csv(field));
     text_ += fmt::format("{}\r\n", fmt::join(escaped, ","));
 }
 

@@ -118,10 +118,10 @@ void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
 
 OrderedJson make_summary_json(const SweepSummary& summary) {
     return {{"views", summary.count},
-            {"mean", report::make_number_json(summary.mean)},
-            {"median", report::make_number_json(summary.median)},
-            {"ci95", report::make_interval_json(summary.ci95)},
-            {"largest", report::make_number_json(summary.largest)}};
+            {"mean", report::number_json(summary.mean)},
+            {"median", report::number_json(summary.median)},
+            {"ci95", report::interval_json(summary.ci95)},
+            {"largest", report::number_json(summary.largest)}};
 }
 
 OrderedJson make_sweep_group_json(const SweepGroup& group,
@@ -262,13 +262,13 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
     if (merged.is_mixed)
         document["identity_difference"] = {{"pixels", merged.difference.pixels},
                                            {"share", merged.difference.share()}};
-    document["groups"] = report::make_list_json(
+    document["groups"] = report::list_json(
         groups, [&](const SweepGroup& group) { return make_sweep_group_json(group, metrics); });
     merged.files = {{"errors.csv", make_errors_csv(groups, metrics)},
                     {"summary.csv", make_summary_csv(groups, metrics)}};
     for (auto& [name, content] : make_time_tables(groups))
         merged.files.emplace_back(std::move(name), std::move(content));
-    merged.files.emplace_back("merged.json", report::serialise_json(document));
+    merged.files.emplace_back("merged.json", report::serialise(document));
     return merged;
 }
 

@@ -332,7 +332,7 @@ private:
         report::Json rows = report::Json::array();
         for (const report::Row& row : comparison.rows) {
             report::Json json{{"label", row.label}};
-            report::add_error_fields_json(json, row.views.front());
+            report::add_errors(json, row.views.front());
             rows.push_back(json);
         }
         return {{"rows", sort_members(rows)}};
@@ -353,18 +353,18 @@ private:
         for (const report::Row& row : comparison.rows) {
             const measure::SampleSummary& times = row.time_ms();
             rows.push_back({{"label", row.label},
-                            {"ms", report::make_number_json(times.median)},
-                            {"ci95", report::make_interval_json(times.ci95)},
-                            {"rounds", report::make_number_list_json(times.rounds)},
-                            {"waited", report::make_number_json(row.waited)},
+                            {"ms", report::number_json(times.median)},
+                            {"ci95", report::interval_json(times.ci95)},
+                            {"rounds", report::numbers_json(times.rounds)},
+                            {"waited", report::number_json(row.waited)},
                             {"noisy", row.noisy},
                             {"ranked", measure::is_rankable(row)}});
         }
         return {{"rows", sort_members(rows)},
                 {"machine", read_host_name()},
                 {"date", comparison.date},
-                {"load", sort_members(report::make_number_list_json(
-                             {comparison.load_start, comparison.load_end}))}};
+                {"load",
+                 sort_members(report::numbers_json({comparison.load_start, comparison.load_end}))}};
     }
 
     bool is_common(const SweepPiece& piece) const {

@@ -99,11 +99,11 @@ std::vector<SweepMachinesTime> list_times_over_machines(const SweepGroup& group)
 
 OrderedJson make_machines_summary_json(const std::vector<double>& values) {
     const SweepSummary summary = summarise(values);
-    return {{"median", report::make_number_json(summary.median)},
-            {"ci95", report::make_interval_json(summary.ci95)},
-            {"least", report::make_number_json(summary.least)},
-            {"largest", report::make_number_json(summary.largest)},
-            {"machines", report::make_number_list_json(values)}};
+    return {{"median", report::number_json(summary.median)},
+            {"ci95", report::interval_json(summary.ci95)},
+            {"least", report::number_json(summary.least)},
+            {"largest", report::number_json(summary.largest)},
+            {"machines", report::numbers_json(values)}};
 }
 
 OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
@@ -117,8 +117,8 @@ OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
                  {"label", time.label},
                  {"machine", time.machine},
                  {"identity", time.identity},
-                 {"ms", report::make_number_json(summary.median)},
-                 {"ci95", report::make_interval_json(summary.ci95)},
+                 {"ms", report::number_json(summary.median)},
+                 {"ci95", report::interval_json(summary.ci95)},
                  {"rounds", time.rounds},
                  {"pieces", time.pieces},
                  {"interval_over",
@@ -250,12 +250,12 @@ std::vector<std::size_t> find_front_of_medians(const std::vector<SweepSiteRow>& 
 OrderedJson make_site_row_json(const SweepSiteRow& row) {
     return {{"label", row.label},
             {"gpu_ms",
-             {{"median", report::make_number_json(row.ms.median)},
-              {"ci95", report::make_interval_json(row.ms.ci95)}}},
+             {{"median", report::number_json(row.ms.median)},
+              {"ci95", report::interval_json(row.ms.ci95)}}},
             {"error",
-             {{"flip", report::make_number_json(row.flip.median)},
-              {"rmse", report::make_number_json(row.rmse.median)}}},
-            {"flip_ci95", report::make_interval_json(row.flip.ci95)}};
+             {{"flip", report::number_json(row.flip.median)},
+              {"rmse", report::number_json(row.rmse.median)}}},
+            {"flip_ci95", report::interval_json(row.flip.ci95)}};
 }
 
 OrderedJson make_results_json(const std::vector<SweepGroup>& groups) {
@@ -277,7 +277,7 @@ OrderedJson make_results_json(const std::vector<SweepGroup>& groups) {
             json["date"] = machine.date;
             json["setting"] = describe_sweep_setting(group, axes);
             json["section"] = describe_axis_values(group, axes);
-            json["rows"] = report::make_list_json(rows, make_site_row_json);
+            json["rows"] = report::list_json(rows, make_site_row_json);
             json["pareto"] = find_front_of_medians(rows);
             comparisons.push_back(json);
         }
@@ -291,10 +291,10 @@ std::vector<std::pair<std::string, std::string>>
 make_time_tables(const std::vector<SweepGroup>& groups) {
     if (std::ranges::all_of(groups, [](const SweepGroup& group) { return group.timings.empty(); }))
         return {};
-    return {{"times.json", report::serialise_json(make_times_json(groups))},
+    return {{"times.json", report::serialise(make_times_json(groups))},
             {"times.csv", make_times_csv(groups)},
             {"machines.csv", make_machines_csv(groups)},
-            {"results.json", report::serialise_json(make_results_json(groups))}};
+            {"results.json", report::serialise(make_results_json(groups))}};
 }
 
 } // namespace catoptric::cli

@@ -55,13 +55,13 @@ Json make_views_document(const session::Request& request, const std::vector<meas
     document["scene"] = request.scene.name;
     document["width"] = request.size.x, document["height"] = request.size.y;
     document["exposure"] = request.auto_exposure ? Json("auto")
-                                                 : report::make_number_json(request.exposure);
+                                                 : report::number_json(request.exposure);
     document["seed"] = request.seed;
     document["views"] = Json::array();
     for (std::size_t i = 0; i < views.size(); ++i)
         document["views"].push_back({{"name", study::view_picture_name(i)},
-                                     {"time", report::make_number_json(views[i].time)},
-                                     {"camera", report::make_camera_json(views[i].camera)}});
+                                     {"time", report::number_json(views[i].time)},
+                                     {"camera", report::camera_json(views[i].camera)}});
     return document;
 }
 
@@ -140,9 +140,9 @@ int run_views(const ViewsOptions& options) {
         files.push_back(folder / name);
     check_outputs_differ_from_inputs(files, request.scene.files);
     report::create_folder(folder);
-    const std::string document = report::serialise_json(make_views_document(request, views));
+    const std::string document = report::serialise(make_views_document(request, views));
     write_file(files[2], make_views_text(views));
-    write_file(files[1], report::serialise_json(make_views_gltf(views, request.size)));
+    write_file(files[1], report::serialise(make_views_gltf(views, request.size)));
     write_file(files[0], document);
     if (options.common.output_options.json) print_result(document);
     print_note_unless_quiet(options.common.output_options,

@@ -307,7 +307,7 @@ TEST(Causes, CauseThatCannotOccurHasNoShare) {
 
 TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     const ErrorCauseSplit found = split_error_by_causes(scene::make_cornell(), "parallax:face=64");
-    const auto read_json_number_member = [&](const std::string& name) {
+    const auto read_number = [&](const std::string& name) {
         return &found.find_cause(name) - found.causes.list.data() + 1;
     };
     const std::vector<std::uint8_t>& painted = found.causes.largest;
@@ -316,11 +316,11 @@ TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     for (std::size_t i = 0; i < painted.size(); ++i) {
         if (painted[i] == 0) continue;
         EXPECT_TRUE(measure::first_mirror(found.hits[i])) << "pixel " << i;
-        if (painted[i] == read_json_number_member("mirror in mirror")) {
+        if (painted[i] == read_number("mirror in mirror")) {
             EXPECT_TRUE(measure::second_mirror(found.hits[i])) << "pixel " << i;
             ++mirrored;
         }
-        by_direction += painted[i] == read_json_number_member("direction");
+        by_direction += painted[i] == read_number("direction");
     }
     EXPECT_GT(mirrored, 20u);
     EXPECT_GT(by_direction, 50u);

@@ -43,7 +43,7 @@ Comparison make_timed_comparison() {
 
 std::vector<BaselineFinding> judge(const Comparison& now, const Comparison& before,
                                    const BaselineLimits& limits = {}) {
-    return judge_comparison_against_baseline(now, to_json(before), "old.json", limits);
+    return judge_comparison(now, to_json(before), "old.json", limits);
 }
 
 std::vector<std::string> list_quantities_with_verdict(const std::vector<BaselineFinding>& findings,
@@ -61,7 +61,7 @@ TEST(Baseline, EqualComparisonIsKept) {
     const std::vector<BaselineFinding> findings = judge(made, made);
     EXPECT_EQ(findings.size(), 6U); // FLIP and time of two rows, and the times of two passes
     EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::kept).size(), 6U);
-    EXPECT_EQ(format_baseline_findings(findings), "baseline: 0 worse, 0 unknown, 6 kept\n");
+    EXPECT_EQ(format_findings(findings), "baseline: 0 worse, 0 unknown, 6 kept\n");
 }
 
 TEST(Baseline, SlowerPassIsNamedWithItsRow) {
@@ -74,7 +74,7 @@ TEST(Baseline, SlowerPassIsNamedWithItsRow) {
     // 1.15 / 1.0284 = 1.118. Both are above the limit 1.1.
     EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
               (Names{row + ": ms", row + ": ms of search"}));
-    EXPECT_THAT(format_baseline_findings(judge(now, before)),
+    EXPECT_THAT(format_findings(judge(now, before)),
                 HasSubstr("worse: " + row +
                           ", ms of search: 18.0 ms, before 15.0 ms: 1.17 to 1.23 "
                           "times with 95 % confidence; at most 1.1 times"));
@@ -169,9 +169,8 @@ TEST(Baseline, MoreCountedWorkIsWorse) {
     }
     now.device.name = "another", now.studies.emplace_back("work");
     const auto judge_nodes = [&](double nodes) {
-        return list_quantities_with_verdict(
-            judge_comparison_against_baseline(now, with_work(nodes), "old.json", {}),
-            BaselineVerdict::worse);
+        return list_quantities_with_verdict(judge_comparison(now, with_work(nodes), "old.json", {}),
+                                            BaselineVerdict::worse);
     };
     const Names both{now.rows[0].label + ": work: nodes", now.rows[1].label + ": work: nodes"};
     EXPECT_EQ(judge_nodes(100), both);
@@ -187,23 +186,22 @@ TEST(Baseline, MissingRowFailsAndNewRowIsSaidApart) {
     std::vector<BaselineFinding> findings = judge(now, before);
     EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::worse), Names{});
     EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::missing), second);
-    EXPECT_TRUE(std::ranges::any_of(findings, is_baseline_failure));
-    EXPECT_EQ(format_baseline_findings(findings),
+    EXPECT_TRUE(std::ranges::any_of(findings, is_failure));
+    EXPECT_EQ(format_findings(findings),
               "missing: " + before.rows[1].label +
                   ", row: is in the baseline, and not in this comparison\n"
                   "baseline: 0 worse, 1 missing, 0 unknown, 2 kept\n");
-    EXPECT_THAT(make_baseline_junit(findings, "s"), HasSubstr("failures=\"1\""));
-    EXPECT_THAT(make_baseline_markdown(findings, "s"), HasSubstr("worse than the baseline"));
+    EXPECT_THAT(to_junit(findings, "s"), HasSubstr("failures=\"1\""));
+    EXPECT_THAT(to_markdown(findings, "s"), HasSubstr("worse than the baseline"));
 
     findings = judge(before, now);
     EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::added), second);
-    EXPECT_FALSE(std::ranges::any_of(findings, is_baseline_failure));
-    EXPECT_EQ(format_baseline_findings(findings),
-              "added: " + before.rows[1].label +
-                  ", row: is not in the baseline, and not judged\n"
-                  "baseline: 0 worse, 0 unknown, 2 kept, 1 added\n");
-    EXPECT_THAT(make_baseline_junit(findings, "s"), HasSubstr("failures=\"0\""));
-    EXPECT_THAT(make_baseline_markdown(findings, "s"), HasSubstr("| added | "));
+    EXPECT_FALSE(std::ranges::any_of(findings, is_failure));
+    EXPECT_EQ(format_findings(findings), "added: " + before.rows[1].label +
+                                             ", row: is not in the baseline, and not judged\n"
+                                             "baseline: 0 worse, 0 unknown, 2 kept, 1 added\n");
+    EXPECT_THAT(to_junit(findings, "s"), HasSubstr("failures=\"0\""));
+    EXPECT_THAT(to_markdown(findings, "s"), HasSubstr("| added | "));
 }
 
 /// A technique whose settings changed has another label. It takes the place of its earlier row
@@ -217,14 +215,14 @@ TEST(Baseline, NewRowOfTheSameTechniqueReplacesAMissingRowIfItErrsNoMore) {
         const std::vector<BaselineFinding> findings = judge(now, before);
         EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::replaced),
                   (Names{before.rows[1].label + ": row"}));
-        EXPECT_FALSE(std::ranges::any_of(findings, is_baseline_failure));
-        EXPECT_THAT(format_baseline_findings(findings),
+        EXPECT_FALSE(std::ranges::any_of(findings, is_failure));
+        EXPECT_THAT(format_findings(findings),
                     HasSubstr("whose new row " + now.rows[1].label + " errs no more\n"));
     }
     now.rows[1].error.flip = 1.01 * before.rows[1].error.flip;
-    EXPECT_TRUE(std::ranges::any_of(judge(now, before), is_baseline_failure));
+    EXPECT_TRUE(std::ranges::any_of(judge(now, before), is_failure));
     now.rows[1].error.flip = 0, now.rows[1].technique = "another";
-    EXPECT_TRUE(std::ranges::any_of(judge(now, before), is_baseline_failure));
+    EXPECT_TRUE(std::ranges::any_of(judge(now, before), is_failure));
 }
 
 /// Programs beside the comparison lengthen its device times, and not its processor time.
@@ -237,7 +235,7 @@ TEST(Baseline, TimesOnAProcessorAreProcessorTimes) {
     now.rows[1].cpu_ms = make_six_timed_rounds(20 * 1.3);
     EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
               (Names{before.rows[1].label + ": ms"}));
-    EXPECT_THAT(format_baseline_findings(judge(now, before)),
+    EXPECT_THAT(format_findings(judge(now, before)),
                 HasSubstr("26.0 ms of processor time, before 20.0 ms"));
     before.rows[0].cpu_ms = {}; // an older report
     EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
@@ -248,7 +246,7 @@ TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
     const Comparison before = make_timed_comparison();
     const auto refusal = [&](const Comparison& now, const std::string& json) -> std::string {
         try {
-            judge_comparison_against_baseline(now, json, "old.json", {});
+            judge_comparison(now, json, "old.json", {});
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::bad_data);
             return error.what();
@@ -303,8 +301,7 @@ TEST(Baseline, FilesForPipelinesHoldEveryFinding) {
     now.rows[0].error.flip *= 2;
     now.rows[1].noisy = true;
     const std::vector<BaselineFinding> findings = judge(now, before);
-    const std::string xml = make_baseline_junit(findings, "a<b"),
-                      markdown = make_baseline_markdown(findings, "a|b");
+    const std::string xml = to_junit(findings, "a<b"), markdown = to_markdown(findings, "a|b");
     EXPECT_THAT(xml, HasSubstr("<testsuite name=\"a&lt;b\" tests=\"6\" failures=\"1\" "
                                "skipped=\"3\">"));
     const auto count = [&](const std::string& tag) {

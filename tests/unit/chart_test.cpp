@@ -11,7 +11,7 @@
 namespace {
 
 using catoptric::report::Comparison;
-using catoptric::report::make_html_rows_chart;
+using catoptric::report::rows_chart;
 using namespace catoptric::report::sample;
 using nlohmann::json;
 using testing::HasSubstr;
@@ -28,7 +28,7 @@ TEST(Chart, RowsHaveTheirTimesMetricsAndIntervals) {
     Comparison made = make_usual_comparison();
     made.rows[1].gpu_ms = make_time_samples(7, .2);
     made.rows[3].gpu_ms.ci95 = {};
-    const json data = read_chart_data(make_html_rows_chart(made));
+    const json data = read_chart_data(rows_chart(made));
     ASSERT_EQ(data["rows"].size(), made.rows.size());
     EXPECT_EQ(data["metrics"][0]["name"], "FLIP over the mirrors");
     for (std::size_t i = 0; i < made.rows.size(); ++i) {
@@ -55,13 +55,13 @@ TEST(Chart, RowsWithoutATimeAreLeftOutAndMissingValuesAreNull) {
     Comparison made = make_usual_comparison();
     made.rows[0].gpu_ms.median = test::kDoubleNan;
     made.rows[2].error.flip = test::kDoubleNan;
-    const json data = read_chart_data(make_html_rows_chart(made));
+    const json data = read_chart_data(rows_chart(made));
     ASSERT_EQ(data["rows"].size(), made.rows.size() - 1);
     EXPECT_EQ(data["rows"][0]["picture"], 2);
     EXPECT_TRUE(data["metrics"][0]["values"][1].is_null());
     for (catoptric::report::Row& row : made.rows) row.gpu_ms.median = 0;
-    EXPECT_EQ(make_html_rows_chart(made), "");
-    EXPECT_EQ(make_html_rows_chart(Comparison()), "");
+    EXPECT_EQ(rows_chart(made), "");
+    EXPECT_EQ(rows_chart(Comparison()), "");
 }
 
 TEST(Chart, ANoisyReferenceHasAFloorAndIntervalsOfRmse) {
@@ -72,7 +72,7 @@ TEST(Chart, ANoisyReferenceHasAFloorAndIntervalsOfRmse) {
     estimate.squared_error = .0001;
     estimate.ci95 = {-.0001, .0004};
     catoptric::measure::set_noise(made.rows[1], {catoptric::measure::row_masks().size(), estimate});
-    const json data = read_chart_data(make_html_rows_chart(made));
+    const json data = read_chart_data(rows_chart(made));
     EXPECT_EQ(data["floor"]["value"], .03);
     const json intervals = find_chart_column(data, "rmse over the mirrors")["intervals"];
     EXPECT_TRUE(intervals[0].is_null());
@@ -83,7 +83,7 @@ TEST(Chart, ANoisyReferenceHasAFloorAndIntervalsOfRmse) {
 TEST(Chart, LabelsCannotBecomeMarkup) {
     Comparison made = make_usual_comparison();
     made.rows[0].label = "</script><b>";
-    const std::string html = make_html_rows_chart(made);
+    const std::string html = rows_chart(made);
     EXPECT_THAT(html, Not(HasSubstr("</script><b>")));
     EXPECT_EQ(read_chart_data(html)["rows"][0]["label"], "</script><b>");
 }
@@ -92,11 +92,11 @@ TEST(Chart, LinesHaveNullForMissingPoints) {
     catoptric::report::LineChart chart{
         .x_name = "x", .y_name = "y", .says = "both", .x = {0, 1, 2}};
     chart.lines = {{"a", {0, 0.5, 0}}, {"b", {test::kDoubleNan, 0.25, 1}}};
-    const json data = read_chart_data(make_html_line_chart(chart));
+    const json data = read_chart_data(html_chart(chart));
     EXPECT_EQ(data["lines"], json::parse(R"([{"name": "a", "y": [0, 0.5, 0]},
                                              {"name": "b", "y": [null, 0.25, 1]}])"));
     chart.lines = {{"a", {test::kDoubleNan}}};
-    EXPECT_EQ(make_html_line_chart(chart), "");
+    EXPECT_EQ(html_chart(chart), "");
 }
 
 } // namespace

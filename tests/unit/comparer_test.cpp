@@ -15,7 +15,7 @@
 namespace {
 
 using namespace catoptric::measure;
-using catoptric::report::make_html_comparer;
+using catoptric::report::html_comparer;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -50,7 +50,7 @@ double decode_half_float(unsigned half) {
 }
 
 json read_comparer_data(const Comparison& comparison) {
-    const std::string html = make_html_comparer(comparison), open = "json\">";
+    const std::string html = html_comparer(comparison), open = "json\">";
     const std::size_t begin = html.find(open) + open.size();
     return json::parse(html.substr(begin, html.find("</script>") - begin));
 }
@@ -61,8 +61,7 @@ TEST(Comparer, ValuesAreThoseOfThePictureAsHalves) {
         const float x = static_cast<float>(i);
         picture.pixels[i] = {std::exp2(x - 12), 1.0F / (x + 3), -x};
     }
-    const std::string script = catoptric::report::make_picture_values_script(picture,
-                                                                             "images/a.js");
+    const std::string script = catoptric::report::picture_script(picture, "images/a.js");
     EXPECT_THAT(script, StartsWith("catoptric_values(\"images/a.js\", \""));
     const std::vector<unsigned> words = decode_words(script);
     ASSERT_EQ(words.size(), 3 * picture.pixels.size());
@@ -77,7 +76,7 @@ TEST(Comparer, ExtremeValuesStayWhatTheyAre) {
     picture.pixels[0] = {NAN, INFINITY, -INFINITY};
     picture.pixels[1] = {0x1p-24F, 65504, 1e9F};
     const std::vector<unsigned> words = decode_words(
-        catoptric::report::make_picture_values_script(picture, "a.js"));
+        catoptric::report::picture_script(picture, "a.js"));
     ASSERT_EQ(words.size(), 6U);
     EXPECT_TRUE(std::isnan(decode_half_float(words[0])));
     EXPECT_EQ(decode_half_float(words[1]), INFINITY);
@@ -91,9 +90,8 @@ TEST(Comparer, ExtremeValuesStayWhatTheyAre) {
 TEST(Comparer, MirrorOfEachPixelIsThatOfTheFirstHit) {
     Comparison made = catoptric::report::sample::make_usual_comparison();
     made.mirror_hits = {0, 3, 2U << 16 | 1, 7U << 16};
-    EXPECT_EQ(
-        decode_words(catoptric::report::make_mirror_pixels_script(made.mirror_hits, "mirrors.js")),
-        (std::vector<unsigned>{0, 3, 1, 0}));
+    EXPECT_EQ(decode_words(catoptric::report::mirror_script(made.mirror_hits, "mirrors.js")),
+              (std::vector<unsigned>{0, 3, 1, 0}));
 }
 
 TEST(Comparer, ListsTheReferenceAndEveryRowAndBeginsWithTheClosestRowThatDiffers) {
@@ -138,7 +136,7 @@ TEST(Comparer, NamesTheMapsOfEachRowAndTheColoursOfTheirCauses) {
     EXPECT_EQ(picture["error"]["file"], "images/" + row.image + "-error.js");
     EXPECT_EQ(picture["causes"]["file"], "images/causes-" + row.image + ".js");
     catoptric::report::EncodedPictures encoded;
-    catoptric::report::encode_new_pictures(encoded, made, {});
+    catoptric::report::encode_pictures(encoded, made, {});
     const std::string page = catoptric::report::to_html(made, encoded);
     for (const char* map : {"error", "causes"})
         EXPECT_THAT(page, HasSubstr("id=\"" + picture[map]["id"].get<std::string>() + "\"")) << map;
@@ -147,7 +145,7 @@ TEST(Comparer, NamesTheMapsOfEachRowAndTheColoursOfTheirCauses) {
 TEST(Comparer, LabelsCannotEndTheScript) {
     Comparison made = catoptric::report::sample::make_usual_comparison();
     made.rows[0].label = "</script><script>alert(1)</script>";
-    EXPECT_THAT(make_html_comparer(made), testing::Not(HasSubstr("<script>alert")));
+    EXPECT_THAT(html_comparer(made), testing::Not(HasSubstr("<script>alert")));
     EXPECT_EQ(read_comparer_data(made)["pictures"][1]["label"], made.rows[0].label);
 }
 
@@ -161,9 +159,9 @@ TEST(Comparer, IsLeftOutWithoutReferenceOrRows) {
     Comparison made = catoptric::report::sample::make_usual_comparison();
     Comparison without = made;
     without.reference_display = {};
-    EXPECT_EQ(make_html_comparer(without), "");
+    EXPECT_EQ(html_comparer(without), "");
     made.rows.clear();
-    EXPECT_EQ(make_html_comparer(made), "");
+    EXPECT_EQ(html_comparer(made), "");
 }
 
 } // namespace

@@ -39,7 +39,7 @@ TEST(StackedBarsDrawing, WidthsAreInProportionToTheLengths) {
                             .says = "a <drawing>",
                             .kinds = {{"view", "#000"}, {"trace", "#111"}, {"unused", "#222"}},
                             .bars = {{"long", {30, 10, 0}}, {"short & thin", {NAN, 20}}}};
-    const std::string svg = draw_stacked_bars(chart);
+    const std::string svg = draw_bars(chart);
     const std::vector<double> widths = list_bar_widths(svg);
     ASSERT_EQ(widths.size(), 3U);
     EXPECT_NEAR(widths[0], 3 * widths[1], .02);
@@ -49,11 +49,11 @@ TEST(StackedBarsDrawing, WidthsAreInProportionToTheLengths) {
     EXPECT_THAT(svg, HasSubstr(">40</text>")); // the last tick
     EXPECT_THAT(svg, HasSubstr(">trace</text>"));
     EXPECT_THAT(svg, Not(HasSubstr(">unused</text>")));
-    EXPECT_EQ(draw_stacked_bars({.kinds = {{"view", "#000"}}, .bars = {{"none", {0}}}}), "");
+    EXPECT_EQ(draw_bars({.kinds = {{"view", "#000"}}, .bars = {{"none", {0}}}}), "");
 }
 
 TEST(StackedBarsDrawing, NumbersOfTheAxisAreBetweenTheBarsAndTheNameOfTheAxis) {
-    const std::string svg = draw_stacked_bars(
+    const std::string svg = draw_bars(
         {.x_name = "ms", .kinds = {{"view", "#000"}}, .bars = {{"one", {30}}, {"two", {20}}}});
     const auto list_heights = [&](const std::string& pattern) {
         std::vector<double> heights;
@@ -84,7 +84,7 @@ TEST(PassTimes, PassesOfOneKindAreSummed) {
     made.rows[1].passes = {{"shadow", make_time_samples(5)}, {"view", make_time_samples(1)}};
     made.rows[2].passes.clear();
     made.rows.resize(3);
-    const StackedBars chart = make_pass_time_bars(made);
+    const StackedBars chart = pass_time_bars(made);
     ASSERT_EQ(chart.kinds.size(), 3U);
     EXPECT_EQ(chart.kinds[0].name, "capture");
     EXPECT_EQ(chart.kinds[1].name, "view");
@@ -119,7 +119,7 @@ Comparison make_comparison_with_one_difference() {
 
 TEST(Figures, CropShowsWhereTheRowsDiffer) {
     Comparison made = make_comparison_with_one_difference();
-    const std::optional<PixelRectangle> found = find_pixels_where_rows_differ(made);
+    const std::optional<PixelRectangle> found = choose_crop(made);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->size, ivec2(16));
     EXPECT_LE(found->corner.x, 40);
@@ -127,7 +127,7 @@ TEST(Figures, CropShowsWhereTheRowsDiffer) {
     EXPECT_GE(found->corner.x + 16, 44);
     EXPECT_GE(found->corner.y + 16, 24);
     made.rows.resize(1);
-    EXPECT_FALSE(find_pixels_where_rows_differ(made));
+    EXPECT_FALSE(choose_crop(made));
 }
 
 class FiguresOfComparison : public test::InFolder {};
@@ -163,8 +163,8 @@ TEST_F(FiguresOfComparison, CropsHoldThePixelsThatTheCaptionNames) {
 TEST_F(FiguresOfComparison, BarsOfCausesAreInProportionToTheirShares) {
     Comparison made = make_comparison_with_one_difference();
     auto causes = std::make_shared<measure::Causes>();
-    const std::string first(list_cause_colours()[0].cause);
-    const std::string third(list_cause_colours()[2].cause);
+    const std::string first(cause_colours()[0].cause);
+    const std::string third(cause_colours()[2].cause);
     causes->list = {{.name = third, .share = .2}, {.name = first, .share = .8}};
     made.rows[1].causes = causes;
     write_figures(made, folder, {});

@@ -272,7 +272,7 @@ TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
     EXPECT_FALSE(hidden.psnr);
     EXPECT_GT(hidden.flip_floor, hidden.flip);
     EXPECT_TRUE(measure::is_below_noise(hidden));
-    EXPECT_EQ(report::format_picture_error(hidden.rmse), "below the noise");
+    EXPECT_EQ(report::format_error(hidden.rmse), "below the noise");
     EXPECT_THAT(report::format_flip(hidden), HasSubstr(", below the noise"));
 
     report::Row row = report::sample::make_row("parallax", 5, .1, .1);

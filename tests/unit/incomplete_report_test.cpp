@@ -107,12 +107,12 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     made.rows[0].causes->largest.resize(made.rows[0].display.pixels.size());
     whole.rows[0].causes = made.rows[0].causes;
     catoptric::report::ReportWriter writer(folder / "out");
-    writer.write_comparison(made);
+    writer.write(made);
     EXPECT_EQ(list_image_files(), (std::vector<std::string>{
                                       "causes-naive0.js", "causes-naive0.png", "mirrors.js",
                                       "naive0-error.js", "naive0-error.png", "naive0.exr",
                                       "naive0.js", "naive0.png", "reference.js", "reference.png"}));
-    std::vector<fs::path> missing = catoptric::report::list_report_files({"naive0"});
+    std::vector<fs::path> missing = catoptric::report::list_files({"naive0"});
     EXPECT_EQ(missing.size(), 4 + list_image_files().size() + 8);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
     EXPECT_EQ(missing, (std::vector<fs::path>{
@@ -123,7 +123,7 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
                            "images/lag-naive0-reference.js", "images/lag-naive0-mirrors.js"}));
     fs::remove_all(folder / "out/images");
     made.rows.push_back(whole.rows[1]);
-    writer.write_comparison(made);
+    writer.write(made);
     const std::string second = whole.rows[1].image;
     EXPECT_EQ(list_image_files(),
               (std::vector<std::string>{second + "-error.js", second + "-error.png",
@@ -131,11 +131,11 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     // The causes of a row's error may arrive after the row itself.
     made.rows[1].causes = whole.rows[1].causes = made.rows[0].causes;
     fs::remove_all(folder / "out/images");
-    writer.write_comparison(made);
+    writer.write(made);
     EXPECT_EQ(list_image_files(),
               (std::vector<std::string>{"causes-" + second + ".js", "causes-" + second + ".png"}));
     EXPECT_EQ(json::parse(catoptric::read_file(folder / "out/report.json"))["rows"].size(), 2U);
-    writer.write_comparison(whole);
+    writer.write(whole);
     for (const auto& [file, text] : {std::pair("report.json", catoptric::report::to_json(whole)),
                                      std::pair("report.html", catoptric::report::to_html(whole)),
                                      std::pair("report.md", catoptric::report::to_markdown(whole)),
@@ -152,7 +152,7 @@ TEST_F(GrowingReport, LagPicturesAreWrittenAgainWhenTheirInstantChanges) {
     made.lag->seconds = {0, 1};
     for (const auto& row : made.rows) made.lag->rows.push_back({.label = row.label});
     catoptric::report::ReportWriter writer(folder / "out");
-    writer.write_comparison(made);
+    writer.write(made);
     const std::string lag = "lag-" + made.rows[1].image;
     const auto list_lag_files = [&] {
         std::vector<std::string> files = list_image_files();
@@ -170,7 +170,7 @@ TEST_F(GrowingReport, LagPicturesAreWrittenAgainWhenTheirInstantChanges) {
                                .still = catoptric::measure::Picture(9, 3),
                                .reference = grey,
                                .mirror_hits = std::vector<std::uint32_t>(27, 0x10002)};
-    writer.write_comparison(made);
+    writer.write(made);
     const std::vector<std::string> wanted{
         lag + "-mirrors.js",   lag + "-moving.exr", lag + "-moving.js", lag + "-reference.exr",
         lag + "-reference.js", lag + "-still.exr",  lag + "-still.js"};
@@ -192,13 +192,13 @@ TEST_F(GrowingReport, LagPicturesAreWrittenAgainWhenTheirInstantChanges) {
     EXPECT_THAT(page, HasSubstr("worst lag of " + made.rows[1].label + ": 2x, 1.00 s"));
     EXPECT_THAT(page, Not(HasSubstr("worst lag of " + made.rows[0].label + ":")));
     fs::remove_all(folder / "out/images");
-    writer.write_comparison(made);
+    writer.write(made);
     EXPECT_EQ(list_lag_files(), std::vector<std::string>());
     made.lag->rows[1].worst->speed = 4;
-    writer.write_comparison(made);
+    writer.write(made);
     EXPECT_EQ(list_lag_files(), wanted);
     // A copy for a report on several scenes keeps the figures.
-    const Comparison bare = catoptric::report::copy_without_pictures(made);
+    const Comparison bare = catoptric::report::without_pictures(made);
     EXPECT_TRUE(bare.lag->rows[1].worst->moving.pixels.empty());
     EXPECT_TRUE(bare.lag->rows[1].worst->mirror_hits.empty());
     EXPECT_EQ(json::parse(catoptric::report::to_json(bare))["lag"],
@@ -215,18 +215,18 @@ TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
     made.views.resize(6);
     for (auto& row : made.rows) row.views.resize(3);
     catoptric::report::ReportWriter writer(folder / "out");
-    writer.write_comparison(made);
+    writer.write(made);
     made.rows[0].worst = std::make_shared<catoptric::measure::WorstView>(
         catoptric::measure::WorstView{0, catoptric::measure::Picture(9, 3)});
     made.rows[1].worst = std::make_shared<catoptric::measure::WorstView>(
         catoptric::measure::WorstView{0, catoptric::measure::Picture(9, 3)});
     fs::remove_all(folder / "out/images");
-    writer.write_comparison(made);
+    writer.write(made);
     const auto of = [&](int row) { return "worst-" + made.rows[row].image + ".png"; };
     EXPECT_EQ(list_image_files(), (std::vector<std::string>{of(0), of(1)}));
     fs::remove_all(folder / "out/images");
     made.rows[1].worst->view = 2;
-    writer.write_comparison(made);
+    writer.write(made);
     EXPECT_EQ(list_image_files(), std::vector<std::string>{of(1)});
     EXPECT_EQ(catoptric::read_file(folder / "out/report.html"), catoptric::report::to_html(made));
 }
@@ -237,9 +237,9 @@ TEST_F(GrowingReport, PageWithManyBytesOfPicturesLoadsThemFromFiles) {
     using catoptric::report::PagePictures;
     Comparison made = make_usual_comparison();
     const auto measure_page = [&](PagePictures pictures) {
-        catoptric::report::ReportWriter writer(folder / "out",
-                                               catoptric::report::CsvColumnSet::table, pictures);
-        writer.write_comparison(made);
+        catoptric::report::ReportWriter writer(folder / "out", catoptric::report::CsvColumns::table,
+                                               pictures);
+        writer.write(made);
         return catoptric::read_file(folder / "out/report.html");
     };
     const std::string file = R"( loading="lazy" src="images/)" + made.rows[1].image + R"(.png">)";
@@ -271,10 +271,10 @@ TEST_F(GrowingReport, FailedWriteIsRepeatedWithTheNextRow) {
     fs::create_directories(folder / "out/images/naive0.exr");
     Comparison made = make_usual_comparison();
     made.rows.resize(1);
-    EXPECT_THROW(writer.write_comparison(made), Error);
+    EXPECT_THROW(writer.write(made), Error);
     EXPECT_FALSE(fs::exists(folder / "out/report.json"));
     fs::remove(folder / "out/images/naive0.exr");
-    writer.write_comparison(made);
+    writer.write(made);
     EXPECT_TRUE(fs::exists(folder / "out/images/naive0.exr"));
     EXPECT_TRUE(fs::exists(folder / "out/report.json"));
 }
@@ -286,8 +286,8 @@ TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
     stress.asked = 27;
     stress.stopped = kDeviceLostError;
     stress.rows = {{.id = "N1", .pictures = {{"N1-found", 4, 3, "a PNG"}}}};
-    StressReportWriter writer(folder / "out");
-    writer.write_stress_results(stress);
+    StressWriter writer(folder / "out");
+    writer.write(stress);
     EXPECT_EQ(catoptric::read_file(folder / "out/images/N1-found.png"), "a PNG");
     const std::string why = "1 of 27 rows: Vulkan: cannot run frame 7: ";
     const json document = json::parse(catoptric::read_file(folder / "out/stress.json"));
@@ -298,7 +298,7 @@ TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
         EXPECT_THAT(catoptric::read_file(folder / "out" / file), HasSubstr("Incomplete, " + why));
     fs::remove_all(folder / "out/images");
     stress.complete = true;
-    writer.write_stress_results(stress);
+    writer.write(stress);
     EXPECT_EQ(list_image_files(), std::vector<std::string>{}) << "pictures are written once";
     for (const char* file : {"stress.html", "stress.md", "stress.json"})
         EXPECT_THAT(catoptric::read_file(folder / "out" / file), Not(HasSubstr("ncomplete,")));

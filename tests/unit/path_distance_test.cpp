@@ -69,12 +69,12 @@ TEST(PathDistanceSentence, SaysWhyTheDistanceIsNotKnownAndHowToFindOut) {
 TEST(PathDistanceSentence, StandsInEveryReport) {
     report::Comparison comparison;
     comparison.rows = make_rows({.01});
-    EXPECT_FALSE(report::make_report_json(comparison)["reference"].contains("path_distance"));
+    EXPECT_FALSE(report::report_json(comparison)["reference"].contains("path_distance"));
     EXPECT_THAT(report::to_markdown(comparison), testing::Not(HasSubstr("path tracing")));
     comparison.path_distance = std::make_shared<measure::PathDistance>(make_distance(.75, .1));
     EXPECT_THAT(report::to_markdown(comparison), HasSubstr("simplified, is FLIP 0.750"));
     EXPECT_THAT(report::to_html(comparison), HasSubstr("simplified, is FLIP 0.750"));
-    const report::Json json = report::make_report_json(comparison)["reference"]["path_distance"];
+    const report::Json json = report::report_json(comparison)["reference"]["path_distance"];
     EXPECT_EQ(json["known"], true);
     EXPECT_EQ(json["flip"], .75);
     EXPECT_EQ(json["noise"], .1);
@@ -83,7 +83,7 @@ TEST(PathDistanceSentence, StandsInEveryReport) {
     EXPECT_EQ(json["paths"], 40);
     EXPECT_FALSE(json.contains("why"));
     comparison.path_distance->unknown = "no time";
-    const report::Json unknown = report::make_report_json(comparison)["reference"]["path_distance"];
+    const report::Json unknown = report::report_json(comparison)["reference"]["path_distance"];
     EXPECT_EQ(unknown["known"], false);
     EXPECT_EQ(unknown["why"], "no time");
     EXPECT_TRUE(unknown["interval"].is_null());

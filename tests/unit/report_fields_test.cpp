@@ -287,11 +287,10 @@ TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
     }
     made.setup = std::make_shared<SetupFacts>(SetupFacts{{}, 2.25, 0, 444.5, 6, "made"});
     EXPECT_TRUE(json::parse(to_json(made))["setup"]["load_ms"].is_null());
-    EXPECT_EQ(describe_setup_times(*made.setup),
-              "upload 2.25 ms; no hierarchy; 6 pipelines 444 ms, the "
-              "cache on disk was empty");
+    EXPECT_EQ(describe_setup(*made.setup), "upload 2.25 ms; no hierarchy; 6 pipelines 444 ms, the "
+                                           "cache on disk was empty");
     made.setup->pipeline_cache = "none";
-    EXPECT_THAT(describe_setup_times(*made.setup), testing::EndsWith("444 ms, no cache on disk"));
+    EXPECT_THAT(describe_setup(*made.setup), testing::EndsWith("444 ms, no cache on disk"));
 }
 
 /// Collects the JSON pointers of all numbers in a document.
@@ -338,7 +337,7 @@ bool is_test_registered_metric_name(const std::string& name) {
 
 TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
     const DistinctRowFiller filler;
-    const std::string csv = to_csv(make_comparison_of_distinct_figures(filler), CsvColumnSet::all);
+    const std::string csv = to_csv(make_comparison_of_distinct_figures(filler), CsvColumns::all);
     const std::vector<std::string> names = test::split_csv_fields(csv),
                                    cells = test::split_csv_fields(csv.substr(csv.find('\n') + 1));
     ASSERT_EQ(names.size(), cells.size());
@@ -393,7 +392,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     const auto percent = [](double share) { return format_with_decimals(100 * share, 2); };
 
     std::map<std::string, std::string> cells = cells_of_table_row_by_column(
-        make_rows_table(make_comparison_of_distinct_figures(filler)), 0);
+        rows_table(make_comparison_of_distinct_figures(filler)), 0);
     const std::map<std::string, std::string> wanted{
         {"Row", row.label},
         {"R", std::to_string(row.scene_passes)},
@@ -438,8 +437,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     EXPECT_EQ(cells, wanted);
 
     EXPECT_EQ(
-        cells_of_table_row_by_column(make_mirror_table(make_comparison_of_distinct_figures(filler)),
-                                     0),
+        cells_of_table_row_by_column(mirror_table(make_comparison_of_distinct_figures(filler)), 0),
         (std::map<std::string, std::string>{{"Row", row.label},
                                             {"Mirror 1", error(row.error_per_mirror[0].flip)},
                                             {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
@@ -448,31 +446,31 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     Comparison two_rows = make_comparison_of_distinct_figures(filler);
     two_rows.rows.push_back(two_rows.rows.front());
     two_rows.rows[1].error_per_mirror.pop_back();
-    const ReportTable by_mirror = make_mirror_table(two_rows);
+    const ReportTable by_mirror = mirror_table(two_rows);
     ASSERT_EQ(by_mirror.rows.size(), 2u);
     EXPECT_EQ(by_mirror.rows[0].size(), by_mirror.columns.size());
     EXPECT_EQ(by_mirror.rows[1].size(), by_mirror.columns.size());
 
     const LookupSummary& lookup = *row.lookup;
-    EXPECT_EQ(cells_of_table_row_by_column(
-                  make_lookup_table(make_comparison_of_distinct_figures(filler)), 0),
-              (std::map<std::string, std::string>{
-                  {"Row", row.label},
-                  {"Pixels", std::to_string(lookup.pixels)},
-                  {"Mean, degrees", format_with_decimals(lookup.mean_degrees, 3)},
-                  {"95 %", degrees(lookup.p95_degrees)},
-                  {"99 %", degrees(lookup.p99_degrees)},
-                  {"Wrong object, %", percent(lookup.wrong_object)},
-                  {"Unknown, %", percent(lookup.unknown)},
-                  {"Miss, %", percent(lookup.miss)},
-                  {"Traced, %", percent(*row.traced_fraction)}}));
+    EXPECT_EQ(
+        cells_of_table_row_by_column(lookup_table(make_comparison_of_distinct_figures(filler)), 0),
+        (std::map<std::string, std::string>{
+            {"Row", row.label},
+            {"Pixels", std::to_string(lookup.pixels)},
+            {"Mean, degrees", format_with_decimals(lookup.mean_degrees, 3)},
+            {"95 %", degrees(lookup.p95_degrees)},
+            {"99 %", degrees(lookup.p99_degrees)},
+            {"Wrong object, %", percent(lookup.wrong_object)},
+            {"Unknown, %", percent(lookup.unknown)},
+            {"Miss, %", percent(lookup.miss)},
+            {"Traced, %", percent(*row.traced_fraction)}}));
 }
 
 /// The errors by which rows are ranked come first, in the same order in tables and in JSON.
 TEST(ReportFields, ErrorsThatRankRowsComeFirst) {
     const Comparison made = make_comparison_of_distinct_figures(DistinctRowFiller());
     std::vector<std::string> titles;
-    for (const TableColumn& column : make_rows_table(made).columns) titles.push_back(column.name);
+    for (const TableColumn& column : rows_table(made).columns) titles.push_back(column.name);
     const auto first = std::ranges::find(titles, "FLIP");
     ASSERT_GE(titles.end() - first, 7);
     EXPECT_THAT(std::vector(first, first + 7),
@@ -502,11 +500,11 @@ TEST(ReportFields, ReportNamesTheTechniqueOfEachMirrorOfAPlan) {
                   {make_number_setting("face", 64, true), make_choice_setting("colour", "half")},
                   "rule '2'"}};
     const Comparison both = make_comparison({one, plan});
-    const ReportTable table = make_plan_table(both);
+    const ReportTable table = plan_table(both);
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_EQ(table.rows[1],
               (std::vector<std::string>{plan.label, "2", "right", "secant:face=64", "rule '2'"}));
-    EXPECT_TRUE(make_plan_table(make_comparison({one})).rows.empty());
+    EXPECT_TRUE(plan_table(make_comparison({one})).rows.empty());
     const auto rows = json::parse(to_json(both))["rows"];
     EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
     EXPECT_EQ(rows[1]["plan"][1],

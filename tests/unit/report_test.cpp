@@ -148,7 +148,7 @@ TEST(ReportCsv, CsvReportQuotesFieldsAndEndsLinesByTheStandard) {
     Comparison made = make_usual_comparison();
     made.rows[0].label = "naive:bounces=0,face=512";
     made.rows[1].model = "say \"everything\"\nor not";
-    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumnSet::all);
+    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
     EXPECT_THAT(csv, HasSubstr("\"naive:bounces=0,face=512\",\"bounces=0, face=256\","));
     EXPECT_THAT(csv, HasSubstr("\"say \"\"everything\"\"\nor not\""));
     EXPECT_TRUE(
@@ -160,7 +160,7 @@ TEST(ReportCsv, CsvReportQuotesFieldsAndEndsLinesByTheStandard) {
 TEST(ReportCsv, EveryCsvLineHasTheSameNumberOfFields) {
     Comparison made = make_usual_comparison();
     made.rows[2].error_per_mirror.clear();
-    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumnSet::all);
+    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
     std::vector<std::ptrdiff_t> commas;
     bool quoted = false;
     commas.push_back(0);

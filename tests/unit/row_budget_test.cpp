@@ -57,7 +57,7 @@ TEST(RowBudget, BudgetOfRmseChoosesTheFastestRowThatIsCloseEnough) {
     made.rows[3].error.rmse = .02; // the slow row
     made.max_rmse = .05;
     EXPECT_EQ(label_of_row_or_none(measure::find_best_rows(made).row), "slow");
-    EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("Within rmse 0.05 on card: slow"));
+    EXPECT_THAT(report::describe_budget(made), HasSubstr("Within rmse 0.05 on card: slow"));
     made.max_flip = .15, made.max_rmse = .1;
     EXPECT_EQ(label_of_row_or_none(measure::find_best_rows(made).row), "middle")
         << "the fast row keeps rmse alone";
@@ -96,7 +96,7 @@ TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
     EXPECT_TRUE(found.equal.empty());
     ASSERT_EQ(found.open.size(), 1u);
     EXPECT_EQ(label_of_row_or_none(found.open[0]), "other");
-    EXPECT_EQ(report::describe_budget_answer(made),
+    EXPECT_EQ(report::describe_budget(made),
               "Within FLIP 0.15 on card: cannot tell which of 2 rows has the least time: middle "
               "(5.00 ms [4.50 - 5.50], FLIP 0.1000); other (5.00 ms [5.50 - 4.50], FLIP 0.1000).");
 }
@@ -110,23 +110,23 @@ TEST(RowBudget, FailedRowsAreNeverChosen) {
 
 TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {
     measure::Comparison made = make_rows_of_rising_quality();
-    EXPECT_EQ(report::describe_budget_answer(made), "");
+    EXPECT_EQ(report::describe_budget(made), "");
     made.max_ms = 6;
-    EXPECT_EQ(report::describe_budget_answer(made),
+    EXPECT_EQ(report::describe_budget(made),
               "Within 6 ms on card: middle (5.00 ms [5.00 - 5.00], FLIP 0.1000) has the least "
               "FLIP.");
     made.max_flip = .05;
-    EXPECT_THAT(report::describe_budget_answer(made),
+    EXPECT_THAT(report::describe_budget(made),
                 HasSubstr("No row keeps 6 ms and FLIP 0.05 on card. The closest row within the "
                           "time is middle (5.00 ms"));
     made.max_ms = 2;
-    EXPECT_THAT(report::describe_budget_answer(made),
+    EXPECT_THAT(report::describe_budget(made),
                 HasSubstr("The row with the least median time is fast (3.00 ms"));
     made.max_ms = NAN, made.max_flip = .001;
-    EXPECT_THAT(report::describe_budget_answer(made),
+    EXPECT_THAT(report::describe_budget(made),
                 HasSubstr("No row keeps FLIP 0.001 on card. The closest row is slow (9.00 ms"));
     made.rows.clear();
-    EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("no row could be judged"));
+    EXPECT_THAT(report::describe_budget(made), HasSubstr("no row could be judged"));
 }
 
 } // namespace

@@ -104,7 +104,7 @@ constexpr std::string_view kCausesOfLobes[] = {"noise", "filter", "distance law"
 /// the whole error.
 Causes make_causes_with_first_whole(bool is_rough = false) {
     Causes causes{.squared_error = .25, .squared_error_per_mirror = {.25}};
-    for (const report::CausePictureColour& colour : report::list_cause_colours()) {
+    for (const report::CauseColour& colour : report::cause_colours()) {
         const bool is_of_lobes = std::ranges::find(kCausesOfLobes, colour.cause) !=
                                  std::end(kCausesOfLobes);
         if (is_of_lobes && !is_rough) continue;
@@ -125,7 +125,7 @@ TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
     row.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
     row.light_edges = std::make_shared<measure::LightEdgeErrors>();
     row.light_edges->share = .5;
-    const report::ReportTable table = report::make_cause_table(
+    const report::ReportTable table = report::cause_table(
         report::sample::make_comparison({report::sample::make_row("raytrace", 6, 0, 0), row}));
     using Cells = std::vector<std::string>;
     ASSERT_EQ(table.columns.size(), 13U);
@@ -147,9 +147,9 @@ TEST(CauseTable, CausesOfRoughMirrorsHaveColumnsWhereTheyOccur) {
                 rough = report::sample::make_row("parallax", 6, .5, .1);
     sharp.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
     rough.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole(true));
-    const report::ReportTable perfect = report::make_cause_table(
+    const report::ReportTable perfect = report::cause_table(
                                   report::sample::make_comparison({sharp})),
-                              both = report::make_cause_table(
+                              both = report::cause_table(
                                   report::sample::make_comparison({sharp, rough}));
     EXPECT_EQ(perfect.note.find("On rough mirrors"), std::string::npos);
     EXPECT_NE(both.note.find("On rough mirrors, further causes"), std::string::npos);
@@ -170,18 +170,18 @@ TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     report::Row row = report::sample::make_row("parallax", 6, .5, .1);
     row.display.pixels[0] = vec3(1);
     row.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
-    const measure::Picture picture = report::make_cause_picture(row);
+    const measure::Picture picture = report::cause_picture(row);
     EXPECT_EQ(picture.pixels[0], vec3(.35F)) << "dark";
     EXPECT_EQ(picture.pixels[1], vec3(86, 180, 233) / 255.0F);
     EXPECT_EQ(picture.pixels[2], vec3(190) / 255.0F);
     EXPECT_EQ(picture.pixels[3], vec3(0, 114, 178) / 255.0F);
     *row.causes = make_causes_with_first_whole(true);
-    EXPECT_EQ(report::make_cause_picture(row).pixels[3], vec3(110, 60, 160) / 255.0F);
+    EXPECT_EQ(report::cause_picture(row).pixels[3], vec3(110, 60, 160) / 255.0F);
     row.causes->largest.pop_back();
-    test::expect_error([&] { report::make_cause_picture(row); }, Failure::internal,
+    test::expect_error([&] { report::cause_picture(row); }, Failure::internal,
                        {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
-    for (const report::CausePictureColour& a : report::list_cause_colours())
-        for (const report::CausePictureColour& b : report::list_cause_colours())
+    for (const report::CauseColour& a : report::cause_colours())
+        for (const report::CauseColour& b : report::cause_colours())
             if (&a != &b) {
                 EXPECT_GT(glm::distance(a.colour, b.colour), .25F) << a.name << ", " << b.name;
             }

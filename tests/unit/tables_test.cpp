@@ -138,7 +138,7 @@ TEST(Tables, RegisteredMetricIsInEveryReportFile) {
     EXPECT_EQ(row["test_only"]["redness"], .25);
     EXPECT_EQ(row["error"]["test_only_greener"], 12);
     EXPECT_TRUE(row["error_all"]["test_only_greener"].is_null()) << "nobody computed it there";
-    const std::string csv = report::to_csv(made, report::CsvColumnSet::all);
+    const std::string csv = report::to_csv(made, report::CsvColumns::all);
     for (const char* name : {",test_only_redness,", ",mirrors_test_only_greener,",
                              ",first_order_test_only_greener,", ",mirror_1_test_only_greener,"})
         EXPECT_THAT(csv, HasSubstr(name));

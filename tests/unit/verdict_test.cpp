@@ -109,7 +109,7 @@ TEST(Verdict, RowsThatAreShownEqualTie) {
     EXPECT_TRUE(measure::find_fastest_rows(made).are_equal);
     EXPECT_TRUE(measure::rank_rows(made).open.empty());
     EXPECT_EQ(measure::find_ray_tracing_verdict(made).unbeaten.size(), 3u);
-    EXPECT_THAT(report::summarise_ray_tracing_verdict(made),
+    EXPECT_THAT(report::summarise_verdict(made),
                 HasSubstr("no ray-traced row beats any other row"));
 }
 
@@ -118,12 +118,12 @@ TEST(Verdict, WideIntervalsGiveNoVerdict) {
     Comparison made = draw_table(
         random, 6, .3, [](std::size_t) { return 10.; }, [](std::size_t) { return .1; });
     EXPECT_EQ(measure::rank_rows(made).open.size(), 6u);
-    EXPECT_EQ(report::summarise_ray_tracing_verdict(made),
+    EXPECT_EQ(report::summarise_verdict(made),
               "On this device, Card, cannot tell whether ray tracing beats another row: 6 of 6 "
               "rows may be fastest.");
     std::erase_if(made.rows, [](const Row& row) { return row.technique == "raytrace"; });
     made.pareto = measure::find_pareto_front(made.rows);
-    EXPECT_THAT(report::summarise_ray_tracing_verdict(made),
+    EXPECT_THAT(report::summarise_verdict(made),
                 HasSubstr("On this device, Card, cannot tell: 3 of 3 rows may be fastest, closest "
                           "is "));
 }
@@ -258,7 +258,7 @@ TEST(Verdict, PlacesBudgetAndSentenceAgree) {
         made.max_flip = 1; // every row keeps it, so the answer is the fastest row
         const measure::BestRows answer = measure::find_best_rows(made);
         EXPECT_EQ(std::ranges::count(fastest.rows, answer.row), 1);
-        const std::string said = report::describe_budget_answer(made);
+        const std::string said = report::describe_budget(made);
         EXPECT_EQ(answer.open.empty(), said.find("cannot tell which of") == said.npos);
         EXPECT_EQ(fastest.rows.size() == 1, answer.open.empty() && answer.equal.empty());
     }
@@ -271,25 +271,25 @@ TEST(Verdict, RowsOnAProcessorAreJudgedByProcessorTime) {
     a.cpu_ms = report::sample::make_time_samples(5),
     b.cpu_ms = report::sample::make_time_samples(9);
     Comparison made = report::sample::make_comparison({a, b});
-    EXPECT_THAT(report::summarise_ray_tracing_verdict(made), HasSubstr("no ray-traced row beats"));
+    EXPECT_THAT(report::summarise_verdict(made), HasSubstr("no ray-traced row beats"));
     EXPECT_EQ(measure::judged_time(made), "gpu_ms");
     made.device.type = "cpu";
     for (Row& row : made.rows) row.on_processor = true;
     made.pareto = measure::find_pareto_front(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{0});
     EXPECT_EQ(measure::judged_time(made), "cpu_ms");
-    EXPECT_EQ(report::summarise_ray_tracing_verdict(made),
+    EXPECT_EQ(report::summarise_verdict(made),
               "On this device, Card, by processor time, ray tracing beats every other row, 1 of "
               "1.");
     made.max_ms = 6;
-    EXPECT_EQ(report::describe_budget_answer(made),
+    EXPECT_EQ(report::describe_budget(made),
               "Within 6 ms on Card, by processor time: raytrace (5.00 ms [5.00 - 5.00], FLIP "
               "0.0100) has the least FLIP.");
-    EXPECT_THAT(report::make_comparison_plot(made), HasSubstr("Processor time of a frame"));
+    EXPECT_THAT(report::comparison_plot(made), HasSubstr("Processor time of a frame"));
     const auto document = nlohmann::json::parse(report::to_json(made));
     EXPECT_EQ(document["judged_time"], "cpu_ms");
     EXPECT_EQ(document["verdict"]["ray_tracing"]["beats"], nlohmann::json({"planar"}));
-    EXPECT_EQ(document["verdict"]["text"], report::summarise_ray_tracing_verdict(made));
+    EXPECT_EQ(document["verdict"]["text"], report::summarise_verdict(made));
     const std::string text = report::to_markdown(made);
     EXPECT_THAT(text, HasSubstr("rows are judged by processor time of its software driver"));
     made.rows[1].noisy = true;
@@ -314,7 +314,7 @@ TEST(Verdict, NoMarkLiesLeftOfTheDrawnFrontAndBelow) {
         made.rows[2].error.flip = made.rows[3].error.flip - .001; // equal, and slower
         set_rounds(made.rows[2], std::vector<double>(kRoundsOfDrawnRows, 20));
         made.pareto = measure::find_pareto_front(made.rows);
-        const std::string svg = report::make_comparison_plot(made);
+        const std::string svg = report::comparison_plot(made);
         EXPECT_THAT(svg, Not(HasSubstr("<title>" + made.rows[1].label + ":")));
         std::smatch path;
         ASSERT_TRUE(std::regex_search(svg, path, std::regex(R"re(class="step" d="([^"]*)")re")));

@@ -184,7 +184,7 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
 }
 
 TEST(Views, ViewsTableHasMediansAndTheWorstView) {
-    const ReportTable table = make_views_table(
+    const ReportTable table = views_table(
         make_comparison_with_views({make_row_with_view_flips("a", kFlipOfEachView)}));
     EXPECT_EQ(table.title, "Over 8 views");
     std::map<std::string, std::string> cells;
@@ -406,11 +406,11 @@ TEST(SharedInstants, IndependentViewsHaveNoDesignEffect) {
 TEST(SharedInstants, TableAndJsonStateTheEffectiveNumberOfViews) {
     Comparison comparison = make_comparison_with_views(
         {make_row_with_view_flips("a", {.1, .1, .3, .3, .2, .2, .4, .4})});
-    EXPECT_THAT(report::make_views_table(comparison).note, Not(HasSubstr("Effective views")));
+    EXPECT_THAT(report::views_table(comparison).note, Not(HasSubstr("Effective views")));
     EXPECT_TRUE(json::parse(to_json(comparison))["rows"][0]["views"]["shared_instants"].is_null());
     for (std::size_t i = 0; i < comparison.views.size(); ++i)
         comparison.views[i].time = static_cast<double>(i / 2);
-    const report::ReportTable table = report::make_views_table(comparison);
+    const report::ReportTable table = report::views_table(comparison);
     EXPECT_THAT(table.note, HasSubstr("Effective views"));
     const auto column = std::ranges::find(table.columns, "Effective views",
                                           &report::TableColumn::name);
