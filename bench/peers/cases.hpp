@@ -12,7 +12,7 @@ namespace peers {
 /// The devices and settings that all comparisons use.
 struct EmbreeComparisonBench {
     catoptric::session::Engine& engine;
-    const catoptric::session::ProcessorUsageMeter& meter; ///< measures the whole process
+    const catoptric::session::UsageMeter& meter; ///< measures the whole process
     const EmbreeDevice& device;
     int threads = 1; ///< number of threads for our tracer, and for Embree
     int rounds = 0;

@@ -77,15 +77,14 @@ int parse_benchmark_round_count(std::vector<std::string>& words) {
 } // namespace
 
 int main(int argc, char** argv) try {
-    const session::ProcessorUsageMeter meter(
-        session::ProcessorUsageMeter::CountedThreadChoice::process); // created before other threads
-                                                                     // start
+    const session::UsageMeter meter(session::UsageMeter::Threads::process); // created before other
+                                                                            // threads start
     std::vector<std::string> words(argv + 1, argv + argc);
     const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples),
                                 parse_benchmark_round_count(words));
     const std::vector<EmbreeComparisonCase> cases = select_comparison_cases_by_name(words);
-    if (!meter.reason_cycles_are_uncounted().empty())
-        std::printf("cycles are not counted: %s\n", meter.reason_cycles_are_uncounted().c_str());
+    if (!meter.why_uncounted().empty())
+        std::printf("cycles are not counted: %s\n", meter.why_uncounted().c_str());
     for (const gpu::EmbeddedShader& shader : peers::prototype_shaders()) gpu::add_shader(shader);
     const peers::EmbreeDevice device;
     session::Engine engine({});

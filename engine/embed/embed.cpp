@@ -61,10 +61,9 @@ session::Frame render_into(session::Session& session, const session::FrameSpec& 
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
     static_cast<void>(resource_use_for_vulkan_layout(target.leaves)); // throws before any work
-    return session::EmbeddingEngineAccess::submit_embedded_frame(
-        session, spec, [&](session::FrameGraph& frame) {
-            add_copy_pass_to_caller_image(frame, target, spec.size);
-        });
+    return session::EmbedAccess::submit(session, spec, [&](session::FrameGraph& frame) {
+        add_copy_pass_to_caller_image(frame, target, spec.size);
+    });
 }
 
 } // namespace catoptric::embed

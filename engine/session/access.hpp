@@ -75,7 +75,7 @@ struct CompiledPipelines {
 enum class PipelineCacheState { none, made, used };
 
 /// Output format of a frame's compiled plan.
-enum class GraphPlanFormat { text, dot, json };
+enum class PlanFormat { text, dot, json };
 
 /// Counters of a session's work so far.
 struct SessionCounters {
@@ -107,7 +107,7 @@ private:
     friend struct Access;
     struct Impl;
     explicit FrameSequence(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> sequence_impl_;
+    std::unique_ptr<Impl> impl_;
 };
 
 struct Access {
@@ -117,13 +117,13 @@ struct Access {
 
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
     static CompiledPipelines compiled_pipelines(const Engine& engine);
-    static PipelineCacheState pipeline_cache_state_of_engine(const Engine& engine);
+    static PipelineCacheState pipeline_cache_state(const Engine& engine);
     /// Returns the folder in which the engine keeps files between runs; empty if it keeps none.
     static std::filesystem::path cache_folder(const Engine& engine);
-    static EngineImpl& engine_impl_of(const Engine& engine) { return *engine.impl_; }
+    static EngineImpl& impl(const Engine& engine) { return *engine.impl_; }
 
     /// Returns whether a technique's picture depends on the previous frame.
-    static bool does_frame_part_need_previous_frame(const Frame& frame, std::size_t part = 0);
+    static bool remembers(const Frame& frame, std::size_t part = 0);
     /// Returns the model of the frame: which work was rendered, and which was left out.
     static const require::WorkModel& rendered_model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
@@ -134,7 +134,7 @@ struct Access {
     /// Returns the linear pictures and all data that the next frame can read of this one, as bytes.
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.
-    static std::vector<std::byte> read_next_frame_state(const Frame& frame);
+    static std::vector<std::byte> read_state(const Frame& frame);
 
     /// Traces what the pixels of a frame with this specification show first, in a frame of its own.
     /// Later frames continue as without this frame, but earlier ones can no longer be read. Throws
@@ -142,7 +142,7 @@ struct Access {
     static FirstSurfaces trace_first_surfaces(Session& session, const FrameSpec& spec);
     /// Returns how the frame made its reflections. Throws `internal` for a frame that was submitted
     /// without `with_lookup`, or before another one.
-    static ReflectionTiers read_reflection_tiers(const Frame& frame, std::size_t part = 0);
+    static ReflectionTiers read_tiers(const Frame& frame, std::size_t part = 0);
 
     /// Submits a frame as Session::frame does, with hooks. `finish` adds passes that belong to no
     /// technique before the frame is submitted.
@@ -150,31 +150,30 @@ struct Access {
     render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
                  const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish = {});
     /// Submits a frame and shows it in a window. The screen must belong to the session's engine,
-    /// and WindowScreen::fit_to_window must have returned true. If the window has no image for the
+    /// and WindowScreen::fit must have returned true. If the window has no image for the
     /// frame, the frame is still rendered.
-    static Frame show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
-                                const WindowPictures& showing);
+    static Frame show(Session& session, const FrameSpec& spec, WindowScreen& screen,
+                      const WindowPictures& showing);
     /// Makes a cut and returns the suspended frame sequence with its history.
-    /// `resume_frame_sequence` can continue the sequence. Waits for frames in flight.
-    static FrameSequence suspend_sequence(Session& session);
+    /// `resume` can continue the sequence. Waits for frames in flight.
+    static FrameSequence suspend(Session& session);
     /// Continues a suspended sequence: the next frame follows the last frame of the sequence.
     /// Discards the present history. If the scene's units have changed (see Session::change), the
     /// next frame begins without history.
-    static void resume_frame_sequence(Session& session, FrameSequence sequence);
+    static void resume(Session& session, FrameSequence sequence);
     /// Returns the plan, written out, of a frame that follows another frame. With
     /// RenderedWork::required, the scene is still and its captures no longer change.
-    static std::string format_frame_plan(Session& session, const FrameSpec& spec,
-                                         GraphPlanFormat format);
+    static std::string format_plan(Session& session, const FrameSpec& spec, PlanFormat format);
     /// Renders a frame that clears the cubes of every mirror, 256 texels an edge, and draws
     /// nothing. The time of this frame is the least that any capture costs. The history of the
     /// session stays.
-    static FrameTimes measure_cube_clear_time(Session& session);
+    static FrameTimes measure_clear_time(Session& session);
     static SessionCounters session_counters(const Session& session);
     /// Returns the setup times of the scene as it is resident now.
     static SetupTimes setup_times(const Session& session);
 };
 
 /// Returns "everything" or "required".
-std::string rendered_work_name(RenderedWork work);
+std::string work_name(RenderedWork work);
 
 } // namespace catoptric::session

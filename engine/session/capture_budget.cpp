@@ -4,7 +4,7 @@
 
 namespace catoptric::session {
 
-std::string describe_capture_budget(const CaptureBudget& capture_budget) {
+std::string describe_budget(const CaptureBudget& capture_budget) {
     const std::uint32_t round = capture_budget.frames_per_cycle(), oldest = round - 1;
     return fmt::format("captures: at most {} of {} mirror{} a frame; a reflection is at most {} "
                        "frame{} old, and {} more for each further mirror on the light's path",

@@ -14,14 +14,13 @@ constexpr std::size_t kCaptureCostFrames =
 
 } // namespace
 
-void CaptureCostEstimate::add(double ms, std::uint32_t mirrors) {
+void CaptureCost::add(double ms, std::uint32_t mirrors) {
     if (mirrors == 0) return;
     if (each_ms_.size() == kCaptureCostFrames) each_ms_.erase(each_ms_.begin());
     each_ms_.push_back(ms / mirrors);
 }
 
-std::uint32_t CaptureCostEstimate::count_affordable_captures(double budget_ms,
-                                                             std::uint32_t mirrors) const {
+std::uint32_t CaptureCost::count_affordable(double budget_ms, std::uint32_t mirrors) const {
     if (each_ms_.empty()) return mirrors;
     const double fit = std::floor(budget_ms / measure::percentile(each_ms_, .5));
     // If the time of a capture is too short to be measured, all captures fit into the budget.

@@ -12,7 +12,7 @@ namespace catoptric::session {
 namespace {
 
 /// Pixels from `low` up to, but without, `high`.
-struct CoveredPixelRectangle {
+struct CoveredPixels {
     ivec2 low{0}, high{0};
 
     std::uint64_t count_pixels() const {
@@ -24,8 +24,8 @@ struct CoveredPixelRectangle {
 /// Returns the pixels whose rays can meet a triangle. Their centres lie within the triangle's
 /// bounds on the screen, or less than half a pixel outside (for rounding errors). Returns all
 /// pixels if a corner lies behind the eye.
-CoveredPixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size,
-                                            const std::array<vec3, 3>& corners) {
+CoveredPixels screen_bounds(const shared::View& view, uvec2 size,
+                            const std::array<vec3, 3>& corners) {
     dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     int behind = 0;
     for (const vec3& corner : corners) {
@@ -49,9 +49,9 @@ CoveredPixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size
 
 } // namespace
 
-std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameGeometry& geometry,
-                                                            const shared::View& view, uvec2 size,
-                                                            std::uint64_t most_tests) {
+std::optional<std::vector<int>> find_first_objects(const render::FrameGeometry& geometry,
+                                                   const shared::View& view, uvec2 size,
+                                                   std::uint64_t most_tests) {
     struct PixelRay {
         f32::Ray ray;
         f32::TriangleTestRayShear shear;
@@ -73,7 +73,7 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameG
             for (std::uint32_t j = 0; j < 3; ++j)
                 corners[j] = geometry.vertices[geometry.indices[k + j]].position;
             const auto& [a, b, c] = corners;
-            const CoveredPixelRectangle box = compute_screen_bounds(view, size, corners);
+            const CoveredPixels box = screen_bounds(view, size, corners);
             tests += box.count_pixels();
             if (tests > most_tests) return std::nullopt;
             for (int y = box.low.y; y < box.high.y; ++y)

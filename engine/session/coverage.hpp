@@ -14,8 +14,8 @@ namespace catoptric::session {
 /// for the pixels of its bounds on the screen. Costs a projection per triangle, and 52 bytes per
 /// pixel. Returns nothing if more than `most_tests` tests were needed, as for many large triangles
 /// behind each other.
-std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameGeometry& geometry,
-                                                            const shared::View& view, uvec2 size,
-                                                            std::uint64_t most_tests);
+std::optional<std::vector<int>> find_first_objects(const render::FrameGeometry& geometry,
+                                                   const shared::View& view, uvec2 size,
+                                                   std::uint64_t most_tests);
 
 } // namespace catoptric::session

@@ -20,26 +20,25 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-struct RequiredWorkReport {
+struct WorkReport {
     scene::Scene now;
     require::WorkModel model;
     require::PlanSuggestion suggestion;
 };
 
 /// Returns the feature of reflectors in the picture whose reflections only ray tracing draws.
-std::optional<measure::UnsupportedFeatureFacts> find_undrawn_reflections(const Request& request) {
+std::optional<measure::UnsupportedFeatureFacts> find_undrawn(const Request& request) {
     constexpr std::string_view kSmoothDielectricGapId = "smooth-dielectric";
     const auto gap = std::ranges::find(request.scene.unsupported, kSmoothDielectricGapId,
                                        &scene::UnsupportedFeature::id);
     if (gap == request.scene.unsupported.end()) return std::nullopt;
-    const std::vector<int> seen = find_visible_objects(request,
-                                                       compute_thumbnail_size(request.size));
-    return measure::UnsupportedFeatureFacts{
-        gap->id, gap->count, gap->first, compute_pixel_share(seen, request.scene, gap->materials)};
+    const std::vector<int> seen = find_visible_objects(request, thumbnail_size(request.size));
+    return measure::UnsupportedFeatureFacts{gap->id, gap->count, gap->first,
+                                            pixel_share(seen, request.scene, gap->materials)};
 }
 
-RequiredWorkReport find_required_work(const Request& request, const require::UnitCosts& costs) {
-    RequiredWorkReport required{
+WorkReport find_required_work(const Request& request, const require::UnitCosts& costs) {
+    WorkReport required{
         .now = scene::scene_at(request.scene, request.time), .model = {}, .suggestion = {}};
     const scene::Camera camera = scene::camera_at(request.camera, request.time);
     const require::WorkModelInput question{required.now, camera, request.size};
@@ -48,8 +47,7 @@ RequiredWorkReport find_required_work(const Request& request, const require::Uni
     return required;
 }
 
-OrderedJson describe_mirror_as_json(const RequiredWorkReport& required, const std::string& name,
-                                    std::size_t i) {
+OrderedJson mirror_to_json(const WorkReport& required, const std::string& name, std::size_t i) {
     const require::MirrorRequirements& needs = required.model.mirrors[i];
     OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
     if (needs.is_captured) faces = split(require::face_names(needs.faces), " ");
@@ -64,23 +62,23 @@ OrderedJson describe_mirror_as_json(const RequiredWorkReport& required, const st
             {"suggested", required.suggestion.reasons[i]}};
 }
 
-constexpr const char* kUndrawnReflectionsText = "what smooth surfaces that are no mirrors reflect";
-constexpr const char* kUndrawnReflectionsRemedy =
+constexpr const char* kUndrawnText = "what smooth surfaces that are no mirrors reflect";
+constexpr const char* kUndrawnRemedy =
     "no technique but raytrace draws it; --dielectric-mirrors makes mirrors of them";
 
 } // namespace
 
-std::string format_culling_as_text(const Request& request, const require::DeviceUnitCosts& costs,
-                                   const std::optional<CaptureBudget>& capture_budget) {
+std::string culling_to_text(const Request& request, const require::DeviceUnitCosts& costs,
+                            const std::optional<CaptureBudget>& capture_budget) {
     const auto [now, model, suggestion] = find_required_work(request, *costs.costs);
-    const std::vector<std::string> names = list_mirror_names(now);
+    const std::vector<std::string> names = mirror_names(now);
     std::string text = require::describe_model(model, now);
-    if (const auto gap = find_undrawn_reflections(request))
-        text += std::string("not drawn\n  ") + kUndrawnReflectionsText + ": " +
+    if (const auto gap = find_undrawn(request))
+        text += std::string("not drawn\n  ") + kUndrawnText + ": " +
                 report::format_fixed(100 * *gap->pixel_share, 1) +
                 " % of the picture (first: " + escape(gap->first) +
-                ")\n    why: " + kUndrawnReflectionsRemedy + "\n";
-    if (capture_budget) text += describe_capture_budget(*capture_budget) + "\n";
+                ")\n    why: " + kUndrawnRemedy + "\n";
+    if (capture_budget) text += describe_budget(*capture_budget) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -89,10 +87,10 @@ std::string format_culling_as_text(const Request& request, const require::Device
     return text + require::format_candidates(suggestion.candidates, costs.note);
 }
 
-std::string format_culling_as_json(const Request& request, const require::DeviceUnitCosts& costs,
-                                   const std::optional<CaptureBudget>& capture_budget) {
-    const RequiredWorkReport required = session::find_required_work(request, *costs.costs);
-    const std::vector<std::string> names = list_mirror_names(required.now);
+std::string culling_to_json(const Request& request, const require::DeviceUnitCosts& costs,
+                            const std::optional<CaptureBudget>& capture_budget) {
+    const WorkReport required = session::find_required_work(request, *costs.costs);
+    const std::vector<std::string> names = mirror_names(required.now);
     OrderedJson document{
         {"schema", "catoptric/why/1"},        {"mirrors", OrderedJson::array()},
         {"lights", OrderedJson::array()},     {"left_out", OrderedJson::array()},
@@ -105,7 +103,7 @@ std::string format_culling_as_json(const Request& request, const require::Device
                                           {"flip", candidate.error},
                                           {"score", candidate.score()}});
     for (std::size_t i = 0; i < names.size(); ++i)
-        document["mirrors"].push_back(describe_mirror_as_json(required, names[i], i));
+        document["mirrors"].push_back(mirror_to_json(required, names[i], i));
     for (std::size_t i = 0; i < required.model.lights.size(); ++i)
         document["lights"].push_back({{"light", i + 1}, {"map", required.model.lights[i].has_map}});
     for (const require::CulledWork& thing : required.model.left_out)
@@ -113,9 +111,9 @@ std::string format_culling_as_json(const Request& request, const require::Device
                                         {"why", thing.why},
                                         {"saves", thing.saves},
                                         {"error", thing.error}});
-    if (const auto gap = find_undrawn_reflections(request))
-        document["not_drawn"].push_back({{"what", kUndrawnReflectionsText},
-                                         {"why", kUndrawnReflectionsRemedy},
+    if (const auto gap = find_undrawn(request))
+        document["not_drawn"].push_back({{"what", kUndrawnText},
+                                         {"why", kUndrawnRemedy},
                                          {"first", gap->first},
                                          {"pixel_share", *gap->pixel_share}});
     document["captures"] = capture_budget
@@ -124,7 +122,7 @@ std::string format_culling_as_json(const Request& request, const require::Device
                                              {"oldest_frames",
                                               capture_budget->frames_per_cycle() - 1},
                                              {"round_frames", capture_budget->frames_per_cycle()},
-                                             {"said", describe_capture_budget(*capture_budget)}}
+                                             {"said", describe_budget(*capture_budget)}}
                                : OrderedJson();
     return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
 }

@@ -12,13 +12,13 @@ namespace catoptric::session {
 
 /// Returns the report as text for the user. `costs`: of the device for which a plan is suggested.
 /// `capture_budget`: only if there is a budget.
-std::string format_culling_as_text(const Request& request, const require::DeviceUnitCosts& costs,
-                                   const std::optional<CaptureBudget>& capture_budget = {});
+std::string culling_to_text(const Request& request, const require::DeviceUnitCosts& costs,
+                            const std::optional<CaptureBudget>& capture_budget = {});
 /// Returns the report as JSON with a final newline: {"schema": "catoptric/why/1", "mirrors": [...],
 /// "lights": [...], "left_out": [...], "not_drawn": [...], "suggested": PLAN, "candidates": [...],
 /// "unit_costs": TEXT, "captures": CAPTURE_BUDGET or null}.
-std::string format_culling_as_json(const Request& request, const require::DeviceUnitCosts& costs,
-                                   const std::optional<CaptureBudget>& capture_budget = {});
+std::string culling_to_json(const Request& request, const require::DeviceUnitCosts& costs,
+                            const std::optional<CaptureBudget>& capture_budget = {});
 /// Renders a few frames and returns how many captures fit into the request's budget. Returns
 /// nothing if no captures are kept.
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request);

@@ -17,7 +17,7 @@ inline measure::DeviceFacts make_device_facts(const DeviceInfo& device) {
 /// lanes.
 inline measure::DeviceFacts make_device_facts(const Engine& engine) {
     measure::DeviceFacts facts = make_device_facts(engine.device());
-    facts.lanes = count_shader_lanes(engine);
+    facts.lanes = count_lanes(engine);
     return facts;
 }
 

@@ -10,15 +10,13 @@ namespace catoptric::session {
 
 /// Access to the device of an engine and to the graph of a frame. embed/ adds passes to frames.
 /// Tuning chooses other shaders from the next frame on; Engine::device does not report this choice.
-struct EmbeddingEngineAccess {
-    static void choose_engine_shader_variants(Engine& engine, const gpu::VariantChoices& choices) {
-        Access::engine_impl_of(engine).device.set_variant_choices(choices);
+struct EmbedAccess {
+    static void choose_variants(Engine& engine, const gpu::VariantChoices& choices) {
+        Access::impl(engine).device.set_variant_choices(choices);
     }
-    static gpu::Device& device_of_engine(const Engine& engine) {
-        return Access::engine_impl_of(engine).device;
-    }
-    static Frame submit_embedded_frame(Session& session, const FrameSpec& spec,
-                                       const std::function<void(FrameGraph&)>& finish) {
+    static gpu::Device& device(const Engine& engine) { return Access::impl(engine).device; }
+    static Frame submit(Session& session, const FrameSpec& spec,
+                        const std::function<void(FrameGraph&)>& finish) {
         return Access::render_frame(session, spec, {}, [&](FrameGraph& frame) {
             finish(frame);
             return graph::ExternalSemaphores{};

@@ -15,7 +15,7 @@ std::string commit() { return CATOPTRIC_COMMIT; }
 
 namespace {
 
-DeviceInfo to_public_device_info(const gpu::DeviceProperties& info) {
+DeviceInfo to_device_info(const gpu::DeviceProperties& info) {
     return {.name = info.name,
             .driver = info.driver,
             .api = info.api,
@@ -55,8 +55,7 @@ std::filesystem::path find_user_folder(const char* variable, const char* in_home
 
 namespace {
 
-std::filesystem::path find_shader_cache_folder(const EngineOptions& options,
-                                               const EngineHooks& hooks) {
+std::filesystem::path shader_cache_folder(const EngineOptions& options, const EngineHooks& hooks) {
     return options.cache.empty() ? hooks.shader_cache : options.cache / "shaders";
 }
 
@@ -64,10 +63,9 @@ std::filesystem::path find_shader_cache_folder(const EngineOptions& options,
 
 Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
     : device(to_device_options(options, hooks)),
-      pipelines(device, hooks.shader_variants, options.cache,
-                find_shader_cache_folder(options, hooks)),
-      info(to_public_device_info(device.info())) {
-    device.set_variant_choices(choose_shader_variants(options, info));
+      pipelines(device, hooks.shader_variants, options.cache, shader_cache_folder(options, hooks)),
+      info(to_device_info(device.info())) {
+    device.set_variant_choices(choose_variants(options, info));
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -87,7 +85,7 @@ CompiledPipelines Access::compiled_pipelines(const Engine& engine) {
     const gpu::PipelineStore& pipelines = engine.impl_->pipelines;
     return {pipelines.pipeline_count(), pipelines.compile_ms()};
 }
-PipelineCacheState Access::pipeline_cache_state_of_engine(const Engine& engine) {
+PipelineCacheState Access::pipeline_cache_state(const Engine& engine) {
     const gpu::PipelineCache& cache = engine.impl_->pipelines.pipeline_cache();
     if (!cache.is_stored()) return PipelineCacheState::none;
     return cache.loaded_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
@@ -113,8 +111,8 @@ std::filesystem::path find_profile_folder() {
 std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
     std::vector<DeviceInfo> list;
     for (const gpu::DeviceProperties& info : gpu::list_devices()) {
-        list.push_back(to_public_device_info(info));
-        choose_shader_variants({.profiles = profiles}, list.back());
+        list.push_back(to_device_info(info));
+        choose_variants({.profiles = profiles}, list.back());
     }
     return list;
 }

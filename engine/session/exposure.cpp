@@ -10,7 +10,7 @@
 
 namespace catoptric::session {
 
-double choose_exposure_for_picture(const measure::Picture& picture) {
+double choose_exposure(const measure::Picture& picture) {
     constexpr double kAutoExposurePercentile = .95, kTargetValue = .8,
                      kExposureStepsPerStop = 3; // exposures are rounded to thirds of a stop
     std::vector<double> luminances;
@@ -27,20 +27,20 @@ double choose_exposure_for_picture(const measure::Picture& picture) {
            0.0; // turns -0 into 0
 }
 
-double measure_auto_exposure(Session& session, const Request& request) {
+double measure_exposure(Session& session, const Request& request) {
     FrameSpec spec = request;
     spec.techniques = {"raytrace:depth=4"};
-    spec.size = compute_thumbnail_size(request.size);
+    spec.size = thumbnail_size(request.size);
     spec.time = request.instant(1);
     spec.exposure = 0;
     session.forget();
     const measure::Picture picture = session.frame(spec).hdr();
     session.forget();
-    return choose_exposure_for_picture(picture);
+    return choose_exposure(picture);
 }
 
-void resolve_auto_exposure(Session& session, Request& request) {
-    if (request.auto_exposure) request.exposure = measure_auto_exposure(session, request);
+void resolve_exposure(Session& session, Request& request) {
+    if (request.auto_exposure) request.exposure = measure_exposure(session, request);
     request.auto_exposure = false;
 }
 

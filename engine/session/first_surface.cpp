@@ -18,8 +18,8 @@ constexpr std::uint32_t kSearchHit = 0, kSearchMiss = 2;
 
 /// Returns the texels of an image, or the values of a buffer.
 template <typename Texel, typename Handle>
-std::vector<Texel> read_output_values(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                      Handle output) {
+std::vector<Texel> read_output(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                               Handle output) {
     const std::vector<std::byte> bytes = runner.read_back(ticket, output);
     std::vector<Texel> texels(bytes.size() / sizeof(Texel));
     std::memcpy(texels.data(), bytes.data(), bytes.size());
@@ -28,7 +28,7 @@ std::vector<Texel> read_output_values(graph::GraphRunner& runner, graph::FrameTi
 
 /// Returns how far the rays of the camera's view start before the camera, in scene units. Those of
 /// an orthographic view start where the scene begins (render::make_camera_view).
-double find_start_of_camera_rays(const render::GpuScene& resident, const scene::Camera& camera) {
+double camera_ray_start(const render::GpuScene& resident, const scene::Camera& camera) {
     const shared::View& view = resident.list_views()[render::GpuScene::kCameraViewIndex];
     if (view.parallel == 0) return 0;
     return glm::dot(dvec3(view.forward), dvec3(view.eye) + dvec3(view.eye_low) -
@@ -48,8 +48,8 @@ ReflectionTier classify_pixel(float tracer_mark, const vec4& lookup) {
 
 } // namespace
 
-const std::vector<ReflectionTierInfo>& list_reflection_tiers() {
-    static const std::vector<ReflectionTierInfo> kTiers{
+const std::vector<TierInfo>& reflection_tiers() {
+    static const std::vector<TierInfo> kTiers{
         {"none", "no mirror, or a mirror without a reflection"},
         {"capture", "found in a capture"},
         {"environment", "looked up in a capture, where the ray leaves the scene"},
@@ -72,7 +72,7 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
     const render::FrameFacts facts{.seed = spec.seed,
                                    .now = {spec.time, camera, spec.size, spec.ambient}};
-    self.update_device_scene(facts.now);
+    self.update_scene(facts.now);
     const render::GpuScene& resident = *self.resident;
     graph::Graph graph;
     render::FrameRequests requests(self.resident->next_view());
@@ -81,26 +81,22 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     graph.output(images.normals_and_distances);
     graph.output(images.objects_and_roughness);
     graph.output(images.counters);
-    self.resident->fulfil(requests, [&] { self.wait_until_scene_copy_is_free(self.copy); });
+    self.resident->fulfil(requests, [&] { self.wait_for_copy(self.copy); });
     const graph::FrameTicket ticket = self.runner.submit_frame(graph, graph::PassTiming::isolated,
                                                                true);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     ++self.counts.frames;
 
-    const auto counters = read_output_values<shared::Counters>(self.runner, ticket,
-                                                               images.counters);
+    const auto counters = read_output<shared::Counters>(self.runner, ticket, images.counters);
     check(counters.front().exhausted == 0, Failure::exhausted,
           "first surfaces: ", counters.front().exhausted,
           " pixels met more triangles and boxes than one invocation may (",
           counters.front().longest_walk, " steps)");
-    const auto normals = read_output_values<vec4>(self.runner, ticket,
-                                                  images.normals_and_distances),
-               objects = read_output_values<vec4>(self.runner, ticket,
-                                                  images.objects_and_roughness);
-    const scene::Scene& scene = self.scene_at_current_instant();
-    const double start = find_start_of_camera_rays(resident, camera),
-                 scale = resident.scene_units().scale;
+    const auto normals = read_output<vec4>(self.runner, ticket, images.normals_and_distances),
+               objects = read_output<vec4>(self.runner, ticket, images.objects_and_roughness);
+    const scene::Scene& scene = self.shown_scene();
+    const double start = camera_ray_start(resident, camera), scale = resident.scene_units().scale;
     FirstSurfaces surfaces;
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const std::uint32_t object = bvh::unpack_number(objects[i].x);
@@ -120,10 +116,10 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     return surfaces;
 }
 
-ReflectionTiers Access::read_reflection_tiers(const Frame& frame, std::size_t part) {
+ReflectionTiers Access::read_tiers(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
-    self.check_is_last_frame();
-    const TechniqueGraphPart& declared = self.technique_part_at_index(part);
+    self.check_is_last();
+    const FramePart& declared = self.part(part);
     const reflect::TechniqueOutputs& outputs = declared.outputs;
     const reflect::Assignment& assignment = declared.assignment;
     ReflectionTiers tiers;
@@ -136,11 +132,10 @@ ReflectionTiers Access::read_reflection_tiers(const Frame& frame, std::size_t pa
     if (outputs.traces_all_mirrors) return tiers;
     check(outputs.lookup.has_value(), Failure::internal, "'", declared.plan.label,
           "': wanted a frame with look-ups, found one without");
-    const auto lookups = read_output_values<vec4>(self.graph_runner(), self.ticket,
-                                                  *outputs.lookup);
+    const auto lookups = read_output<vec4>(self.graph_runner(), self.ticket, *outputs.lookup);
     std::vector<float> marks(lookups.size(), 0.0f);
     if (outputs.tracer_marks)
-        marks = read_output_values<float>(self.graph_runner(), self.ticket, *outputs.tracer_marks);
+        marks = read_output<float>(self.graph_runner(), self.ticket, *outputs.tracer_marks);
     for (std::size_t i = 0; i < lookups.size(); ++i)
         tiers.of_pixel.push_back(classify_pixel(marks[i], lookups[i]));
     return tiers;

@@ -36,11 +36,11 @@ enum class ReflectionTier : std::uint8_t {
 };
 
 /// Name and explanation of a tier.
-struct ReflectionTierInfo {
+struct TierInfo {
     std::string_view name, help;
 };
 /// Returns the tiers in the order of their numbers.
-const std::vector<ReflectionTierInfo>& list_reflection_tiers();
+const std::vector<TierInfo>& reflection_tiers();
 
 /// The tiers of a frame's pixels.
 struct ReflectionTiers {

@@ -6,7 +6,7 @@
 
 namespace catoptric::session {
 
-FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
+FrameTimes to_frame_times(const graph::GraphFrameTimes& times) {
     FrameTimes frame{.gpu_ms = times.span_ms,
                      .record_ms = times.record_ms,
                      .wall_ms = times.wall_ms,
@@ -21,7 +21,7 @@ FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
 
 const FrameTimes& Frame::times() const {
     if (!impl_->times) {
-        impl_->times = to_public_frame_times(impl_->graph_runner().wait_for(impl_->ticket));
+        impl_->times = to_frame_times(impl_->graph_runner().wait_for(impl_->ticket));
         impl_->times->host.update = impl_->update_ms;
         impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
@@ -32,19 +32,18 @@ const FrameTimes& Frame::times() const {
 
 std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
-bool Access::does_frame_part_need_previous_frame(const Frame& frame, std::size_t part) {
+bool Access::remembers(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
-    return session::depends_on_previous_frame(self.frame, self.current_graph_plan(),
-                                              self.technique_part_at_index(part));
+    return session::remembers(self.frame, self.graph_plan(), self.part(part));
 }
 
 const std::optional<CaptureBudget>& Frame::capture_budget(std::size_t part) const {
-    return impl_->technique_part_at_index(part).capture_budget;
+    return impl_->part(part).capture_budget;
 }
 
 std::uint32_t Frame::waiting() const {
     std::uint32_t waiting = 0;
-    for (const TechniqueGraphPart& part : impl_->frame.parts)
+    for (const FramePart& part : impl_->frame.parts)
         waiting += part.capture_budget ? part.capture_budget->waiting : 0;
     return waiting;
 }
@@ -52,18 +51,16 @@ std::uint32_t Frame::waiting() const {
 const require::WorkModel& Access::rendered_model(const Frame& frame) { return *frame.impl_->model; }
 
 measure::Picture Frame::hdr(std::size_t part) const {
-    return read_hdr_picture(impl_->graph_runner(), impl_->ticket,
-                            impl_->technique_part_at_index(part), impl_->spec.size);
+    return read_hdr(impl_->graph_runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
 }
 
 TechniqueResult Frame::read(std::size_t part) const {
-    if (impl_->spec.with_lookup) impl_->check_is_last_frame();
-    TechniqueResult read = read_technique_result(impl_->graph_runner(), impl_->ticket, impl_->frame,
-                                                 part, impl_->session->mirrors,
-                                                 *impl_->session->resident, impl_->spec);
+    if (impl_->spec.with_lookup) impl_->check_is_last();
+    TechniqueResult read = read_result(impl_->graph_runner(), impl_->ticket, impl_->frame, part,
+                                       impl_->session->mirrors, *impl_->session->resident,
+                                       impl_->spec);
     read.model = impl_->spec.model;
-    if (!impl_->technique_part_at_index(part).outputs.draws_everything)
-        read.left_out = impl_->model->left_out;
+    if (!impl_->part(part).outputs.draws_everything) read.left_out = impl_->model->left_out;
     read.capture_budget = capture_budget(part);
     return read;
 }
@@ -77,13 +74,13 @@ std::vector<TechniqueResult> Frame::read_all() const {
 render::CapturedCubes Access::read_captures(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
     const std::shared_ptr<const render::MirrorCaptures>& captures =
-        self.technique_part_at_index(part).outputs.captures;
+        self.part(part).outputs.captures;
     check(
         self.hooks.with_captures && captures && captures->arrays.size() == 1 &&
             captures->arrays.front().distance,
-        Failure::internal, "'", self.technique_part_at_index(part).plan.label,
+        Failure::internal, "'", self.part(part).plan.label,
         "': wanted captures with distances in one array that the frame was asked for, found none");
-    self.check_is_last_frame();
+    self.check_is_last();
     graph::GraphRunner& runner = self.graph_runner();
     const render::CubeCaptureArray& cubes = captures->arrays.front();
     return {cubes.face, runner.read_back(self.ticket, cubes.colour),
@@ -94,16 +91,16 @@ std::vector<PassWork> Access::pass_work(const Frame& frame) {
     return frame.impl_->graph_runner().work_counts(frame.impl_->ticket);
 }
 
-std::vector<std::byte> Access::read_next_frame_state(const Frame& frame) {
+std::vector<std::byte> Access::read_state(const Frame& frame) {
     const Frame::Impl& self = *frame.impl_;
-    self.check_is_last_frame();
+    self.check_is_last();
     graph::GraphRunner& runner = self.graph_runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
         const std::vector<std::byte> texels = runner.read_back(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
-    for (const TechniqueGraphPart& part : self.frame.parts) {
+    for (const FramePart& part : self.frame.parts) {
         if (!part.outputs.kept) continue;
         for (const render::CubeCaptureArray& cubes : part.outputs.captures->arrays) {
             add(cubes.colour);
@@ -111,7 +108,7 @@ std::vector<std::byte> Access::read_next_frame_state(const Frame& frame) {
         }
     }
     if (bytes.empty()) return bytes;
-    for (const TechniqueGraphPart& part : self.frame.parts) add(part.outputs.hdr);
+    for (const FramePart& part : self.frame.parts) add(part.outputs.hdr);
     return bytes;
 }
 

@@ -19,8 +19,8 @@ namespace catoptric::session {
 namespace {
 
 /// Counts the scene passes and draws of the technique whose passes' names begin with `prefix`.
-void count_scene_passes_of_part(const graph::Graph& graph, const graph::GraphPlan& plan,
-                                TechniqueResult& part) {
+void count_scene_passes(const graph::Graph& graph, const graph::GraphPlan& plan,
+                        TechniqueResult& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
         const graph::Pass& pass = graph.passes()[planned.pass];
         if (pass.tag != graph::PassPurpose::scene || !pass.name.starts_with(part.prefix)) continue;
@@ -29,8 +29,7 @@ void count_scene_passes_of_part(const graph::Graph& graph, const graph::GraphPla
     }
 }
 
-measure::Picture texels_to_picture(const std::vector<std::byte>& texels, uvec2 size,
-                                   TexelFormat format) {
+measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, TexelFormat format) {
     measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         if (format == TexelFormat::rgba32f) {
@@ -46,7 +45,7 @@ measure::Picture texels_to_picture(const std::vector<std::byte>& texels, uvec2 s
 }
 
 template <typename Value>
-std::vector<Value> read_typed_values(const std::vector<std::byte>& bytes) {
+std::vector<Value> read_values(const std::vector<std::byte>& bytes) {
     std::vector<Value> values(bytes.size() / sizeof(Value));
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
@@ -54,10 +53,10 @@ std::vector<Value> read_typed_values(const std::vector<std::byte>& bytes) {
 
 /// Returns the mirrors that rays hit (TechniqueResult::hits), from the alpha channel of a traced
 /// picture.
-std::vector<std::uint32_t> decode_mirror_hits(const std::vector<std::byte>& texels) {
+std::vector<std::uint32_t> decode_hits(const std::vector<std::byte>& texels) {
     std::vector<std::uint32_t> hits;
     hits.reserve(texels.size() / sizeof(vec4));
-    for (const vec4& texel : read_typed_values<vec4>(texels)) {
+    for (const vec4& texel : read_values<vec4>(texels)) {
         const std::uint32_t met = bvh::float_to_bits(texel.w) & ~f32::kBvhNormalFloatBit;
         hits.push_back((met & shared::kMaxMirrors) | met >> shared::kBitsPerMirrorHit << 16);
     }
@@ -98,8 +97,7 @@ std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs
 }
 
 /// Returns the bytes of persistent images that the frame does not use.
-std::uint64_t count_unused_image_bytes(const graph::GraphRunner& runner,
-                                       const graph::Graph& graph) {
+std::uint64_t unused_image_bytes(const graph::GraphRunner& runner, const graph::Graph& graph) {
     std::uint64_t bytes = 0;
     for (const auto& [name, kept] : runner.make_history().persistent) {
         const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
@@ -110,8 +108,8 @@ std::uint64_t count_unused_image_bytes(const graph::GraphRunner& runner,
 }
 
 /// Counts texels of four halves with a colour at or above the largest half.
-std::size_t count_saturated_texels(const std::vector<std::byte>& bytes) {
-    const std::vector<std::uint16_t> halves = read_typed_values<std::uint16_t>(bytes);
+std::size_t count_saturated(const std::vector<std::byte>& bytes) {
+    const std::vector<std::uint16_t> halves = read_values<std::uint16_t>(bytes);
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < halves.size(); i += 4)
         count += std::any_of(&halves[i], &halves[i] + 3,
@@ -121,12 +119,11 @@ std::size_t count_saturated_texels(const std::vector<std::byte>& bytes) {
 
 } // namespace
 
-std::vector<reflect::TechniquePlan>
-parse_technique_plans(const std::vector<std::string>& techniques) {
+std::vector<reflect::TechniquePlan> parse_plans(const std::vector<std::string>& techniques) {
     check(!techniques.empty(), Failure::usage, "no technique was asked for");
     std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
-        plans.push_back(read_technique_plan(text));
+        plans.push_back(read_plan(text));
         for (std::size_t i = 0; i + 1 < plans.size(); ++i)
             check(!plans[i].is_same(plans.back()), Failure::usage, "technique '", text,
                   "' is asked for twice");
@@ -134,12 +131,12 @@ parse_technique_plans(const std::vector<std::string>& techniques) {
     return plans;
 }
 
-FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
-                               const render::FrameFacts& facts,
-                               const std::vector<reflect::TechniquePlan>& plans,
-                               const std::vector<std::string>& mirrors,
-                               const render::GpuScene& scene, graph::GraphHistory history,
-                               const std::vector<reflect::CaptureHistory>& keeping) {
+FrameGraph declare_frame(const FrameSpec& spec, const FrameHooks& hooks,
+                         const render::FrameFacts& facts,
+                         const std::vector<reflect::TechniquePlan>& plans,
+                         const std::vector<std::string>& mirrors, const render::GpuScene& scene,
+                         graph::GraphHistory history,
+                         const std::vector<reflect::CaptureHistory>& keeping) {
     FrameGraph frame{
         graph::Graph(std::move(history)), render::FrameRequests(scene.next_view()), {}};
     for (const reflect::TechniquePlan& plan : plans) {
@@ -174,8 +171,7 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
     return frame;
 }
 
-bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
-                               const TechniqueGraphPart& part) {
+bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const FramePart& part) {
     return part.outputs.kept ||
            std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
                const graph::Pass& pass = frame.graph.passes()[planned.pass];
@@ -187,16 +183,15 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
            });
 }
 
-measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                  const TechniqueGraphPart& declared, uvec2 size) {
-    return texels_to_picture(runner.read_back(ticket, declared.outputs.hdr), size,
-                             TexelFormat::rgba32f);
+measure::Picture read_hdr(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                          const FramePart& declared, uvec2 size) {
+    return to_picture(runner.read_back(ticket, declared.outputs.hdr), size, TexelFormat::rgba32f);
 }
 
 /// Returns for each mirror the technique that drew it, and the rule of the plan that chose the
 /// technique.
-std::vector<PlanEntry> list_plan_entries(const TechniqueGraphPart& declared,
-                                         const std::vector<std::string>& mirrors) {
+std::vector<PlanEntry> plan_entries(const FramePart& declared,
+                                    const std::vector<std::string>& mirrors) {
     const auto& [choices, of_mirror, patterns, reasons, lacks] = declared.assignment;
     std::vector<PlanEntry> entries;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -207,7 +202,7 @@ std::vector<PlanEntry> list_plan_entries(const TechniqueGraphPart& declared,
         const bool is_left_out = choices.size() > 1 && choice.shared.others.is_black;
         if (is_left_out) why += "; black in the captures of others, capture=none";
         entries.push_back({static_cast<std::uint32_t>(i + 1), mirrors[i],
-                           std::string(choice.technique->name), list_knob_settings(choice),
+                           std::string(choice.technique->name), knob_settings(choice),
                            std::move(why)});
     }
     return entries;
@@ -215,7 +210,7 @@ std::vector<PlanEntry> list_plan_entries(const TechniqueGraphPart& declared,
 
 /// Returns sentences about mirrors that their technique cannot draw as asked. Mirrors that lack the
 /// same share a sentence, which names the first of them.
-std::vector<std::string> describe_unmet_requests(const TechniqueGraphPart& declared,
+std::vector<std::string> describe_unmet_requests(const FramePart& declared,
                                                  const std::vector<std::string>& mirrors) {
     constexpr std::size_t kMaxNamedMirrors = 3;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
@@ -239,20 +234,20 @@ std::vector<std::string> describe_unmet_requests(const TechniqueGraphPart& decla
     return said;
 }
 
-TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                      const FrameGraph& frame, std::size_t index,
-                                      const std::vector<std::string>& mirrors,
-                                      const render::GpuScene& scene, const FrameSpec& spec) {
-    const TechniqueGraphPart& declared = frame.parts[index];
+TechniqueResult read_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                            const FrameGraph& frame, std::size_t index,
+                            const std::vector<std::string>& mirrors, const render::GpuScene& scene,
+                            const FrameSpec& spec) {
+    const FramePart& declared = frame.parts[index];
     const reflect::TechniqueOutputs& outputs = declared.outputs;
     const graph::GraphPlan& plan = runner.plan(frame.graph);
     TechniqueResult part;
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
-    part.plan = list_plan_entries(declared, mirrors);
-    part.memory_bytes = plan.bytes + count_unused_image_bytes(runner, frame.graph);
-    part.remembers = session::depends_on_previous_frame(frame, plan, declared);
-    count_scene_passes_of_part(frame.graph, plan, part);
+    part.plan = plan_entries(declared, mirrors);
+    part.memory_bytes = plan.bytes + unused_image_bytes(runner, frame.graph);
+    part.remembers = session::remembers(frame, plan, declared);
+    count_scene_passes(frame.graph, plan, part);
     part.notes = outputs.notes;
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
@@ -261,17 +256,16 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTi
     for (const graph::BufferHandle counters : outputs.counters)
         add_ray_counters(runner.read_back(ticket, counters), part);
     const std::vector<std::byte> texels = runner.read_back(ticket, outputs.hdr);
-    part.hdr = texels_to_picture(texels, spec.size, TexelFormat::rgba32f);
-    if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
-    part.display = texels_to_picture(runner.read_back(ticket, outputs.display), spec.size,
-                                     TexelFormat::rgba8_unorm);
+    part.hdr = to_picture(texels, spec.size, TexelFormat::rgba32f);
+    if (outputs.has_hits) part.hits = decode_hits(texels);
+    part.display = to_picture(runner.read_back(ticket, outputs.display), spec.size,
+                              TexelFormat::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
         for (const render::CubeCaptureArray& cubes : outputs.captures->arrays)
             if (frame.graph.images()[cubes.colour.id].format == TexelFormat::rgba16f)
                 part.saturated = part.saturated.value_or(0) +
-                                 count_saturated_texels(runner.read_back(ticket, cubes.colour));
-    if (outputs.lookup)
-        part.lookup = read_typed_values<vec4>(runner.read_back(ticket, *outputs.lookup));
+                                 count_saturated(runner.read_back(ticket, cubes.colour));
+    if (outputs.lookup) part.lookup = read_values<vec4>(runner.read_back(ticket, *outputs.lookup));
     return part;
 }
 

@@ -13,7 +13,7 @@
 namespace catoptric::session {
 
 /// The part of a frame's graph that belongs to one technique.
-struct TechniqueGraphPart {
+struct FramePart {
     reflect::TechniquePlan plan;
     reflect::Assignment assignment;
     std::string prefix;
@@ -24,37 +24,35 @@ struct TechniqueGraphPart {
 struct FrameGraph {
     graph::Graph graph;
     render::FrameRequests requests;
-    std::vector<TechniqueGraphPart> parts;
+    std::vector<FramePart> parts;
     std::shared_ptr<graph::PhysicalImage> target; ///< image of an embedding program; may be null
 };
 
 /// Parses the plans of all techniques. Throws `usage` for an empty list, an unknown technique, and
 /// a technique that is listed twice.
-std::vector<reflect::TechniquePlan>
-parse_technique_plans(const std::vector<std::string>& techniques);
+std::vector<reflect::TechniquePlan> parse_plans(const std::vector<std::string>& techniques);
 
 /// Declares the passes of every technique, the pass that composes its picture, and its outputs.
 /// `mirrors`: names of the mirrors. `keeping`: capture history of each plan. Throws `usage` for a
 /// plan that does not fit the mirrors.
-FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
-                               const render::FrameFacts& facts,
-                               const std::vector<reflect::TechniquePlan>& plans,
-                               const std::vector<std::string>& mirrors,
-                               const render::GpuScene& scene, graph::GraphHistory history,
-                               const std::vector<reflect::CaptureHistory>& keeping);
+FrameGraph declare_frame(const FrameSpec& spec, const FrameHooks& hooks,
+                         const render::FrameFacts& facts,
+                         const std::vector<reflect::TechniquePlan>& plans,
+                         const std::vector<std::string>& mirrors, const render::GpuScene& scene,
+                         graph::GraphHistory history,
+                         const std::vector<reflect::CaptureHistory>& keeping);
 
 /// Returns whether a technique keeps captures, or one of its passes reads data of the previous
 /// frame.
-bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
-                               const TechniqueGraphPart& part);
+bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const FramePart& part);
 
-measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                  const TechniqueGraphPart& declared, uvec2 size);
+measure::Picture read_hdr(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                          const FramePart& declared, uvec2 size);
 /// Reads the results of a part. `part`: index into the frame's parts. `mirrors`: names of the
 /// mirrors. Throws `exhausted` if rays took more steps than allowed.
-TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                      const FrameGraph& frame, std::size_t part,
-                                      const std::vector<std::string>& mirrors,
-                                      const render::GpuScene& scene, const FrameSpec& spec);
+TechniqueResult read_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                            const FrameGraph& frame, std::size_t part,
+                            const std::vector<std::string>& mirrors, const render::GpuScene& scene,
+                            const FrameSpec& spec);
 
 } // namespace catoptric::session

@@ -14,7 +14,7 @@ namespace catoptric::session {
 constexpr std::size_t kMaxDetailedFrames = 1000;
 
 /// Which history the first frame of a FrameLoop has.
-enum class FrameHistoryState {
+enum class StartHistory {
     none, ///< nothing: the loop begins with a cut
     /// The captures of the session's last frame, which must have had the same techniques, instant
     /// and size. For settled pictures of one instant by several cameras.
@@ -28,7 +28,7 @@ public:
     /// Throws `usage` for less than one frame or a negative warm-up. The session shows the
     /// request's scene; session and request must outlive this object.
     FrameLoop(Session& session, const Request& request, const FrameHooks& hooks = {},
-              FrameHistoryState history = FrameHistoryState::none);
+              StartHistory history = StartHistory::none);
 
     /// Renders the next frame. Returns false after the last.
     bool render_next() { return render_next(request_.camera); }
@@ -42,18 +42,18 @@ public:
     /// Frees the session for other frames until the next call of `render_next`. That call continues
     /// the sequence as if no other frames had been rendered. Results of the last frame that were
     /// not read by then are lost.
-    void suspend_frame_loop() { aside_.emplace(Access::suspend_sequence(loop_session_)); }
-    int rendered_frame_count() const { return number_; } ///< number of the last frame, from 1
+    void suspend() { aside_.emplace(Access::suspend(session_)); }
+    int frame_number() const { return number_; } ///< number of the last frame, from 1
     /// Returns the number of frames in all, if the picture does not settle earlier.
-    int max_frame_count() const;
-    const Frame& current_frame() const { return *frame_; }
+    int max_frames() const;
+    const Frame& frame() const { return *frame_; }
     /// Returns the times of the measured frames so far.
-    const std::vector<FrameTimes>& list_frame_times() const { return times_; }
+    const std::vector<FrameTimes>& times() const { return times_; }
     /// Returns the results up to the frame rendered last.
     RunResult result() const;
 
 private:
-    Session& loop_session_;
+    Session& session_;
     const Request& request_;
     FrameHooks hooks_;
     int number_ = 0;
@@ -61,12 +61,11 @@ private:
     std::optional<Frame> frame_;
     std::optional<FrameSequence> aside_;
     std::vector<FrameTimes> times_;
-    std::vector<std::byte>
-        state_; ///< Access::read_next_frame_state of the frame before, with `until_settled`
+    std::vector<std::byte> state_; ///< Access::read_state of the frame before, with `until_settled`
 };
 
 /// Renders all frames of a request, as session::run does, with this history.
 RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
-                           FrameHistoryState history);
+                           StartHistory history);
 
 } // namespace catoptric::session

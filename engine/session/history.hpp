@@ -19,7 +19,7 @@
 namespace catoptric::session {
 
 /// A submitted frame under a budget whose times were not read yet.
-struct PendingTimedFrame {
+struct TimedFrame {
     std::uint64_t frame = 0; ///< number of the frame
     /// For each technique, the prefix of its passes' names and the number of mirrors it drew.
     std::vector<std::pair<std::string, std::uint32_t>> drawn;
@@ -27,7 +27,7 @@ struct PendingTimedFrame {
 
 /// The edges that the captures of a sequence need. They stay, because cubes that change size lose
 /// the contents of the frame before.
-struct SequenceFaceEdges {
+struct FaceEdges {
     uvec2 size{0, 0};          ///< size of the picture for which they were found
     std::vector<double> needs; ///< texels, by mirror; 0: not in the picture
 };
@@ -42,9 +42,9 @@ struct History {
     std::vector<std::string> texts;
     /// Captures that the last frame kept, by technique; null: it kept none.
     std::vector<std::shared_ptr<render::CaptureCache>> captures;
-    std::vector<CaptureCostEstimate> costs; ///< of captures, by technique
-    std::optional<PendingTimedFrame> timed;
-    std::optional<SequenceFaceEdges> face_edges;
+    std::vector<CaptureCost> costs; ///< of captures, by technique
+    std::optional<TimedFrame> timed;
+    std::optional<FaceEdges> face_edges;
     std::optional<render::FrameFacts> last; ///< facts of the last frame; none: there is none
     std::uint64_t units = 0;                ///< Session::Impl::units in which captures were drawn
     std::uint64_t edits = 0;                ///< Session::Impl::edits of the last frame

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVectorBitsPerLane = 32;
 
-int measure_shader_lanes(gpu::Device& device) {
+int measure_lanes(gpu::Device& device) {
     gpu::PipelineStore pipelines(device); // separate, so that the engine's counts do not change
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
@@ -35,14 +35,12 @@ int measure_shader_lanes(gpu::Device& device) {
 
 } // namespace
 
-int count_shader_lanes(const Engine& engine) {
-    return measure_shader_lanes(EmbeddingEngineAccess::device_of_engine(engine));
-}
+int count_lanes(const Engine& engine) { return measure_lanes(EmbedAccess::device(engine)); }
 
-std::string make_vector_width_warning(const Engine& engine) {
+std::string vector_width_warning(const Engine& engine) {
     const std::optional<long> asked = gpu::llvmpipe_vector_width();
     if (!asked || engine.device().type != "cpu") return "";
-    const int bits = kVectorBitsPerLane * count_shader_lanes(engine);
+    const int bits = kVectorBitsPerLane * count_lanes(engine);
     if (*asked == bits) return "";
     return "LP_NATIVE_VECTOR_WIDTH asks for vectors of " + std::to_string(*asked) +
            " bits, the driver runs code of " + std::to_string(bits) +

@@ -12,7 +12,7 @@ namespace {
 using PlanJson = nlohmann::json;
 
 constexpr std::string_view kPlanFilePrefix = "plan:";
-constexpr std::uintmax_t kMaxPlanFileBytes = 16U << 20U;
+constexpr std::uintmax_t kMaxPlanBytes = 16U << 20U;
 
 std::string format_json_value(const PlanJson& value) {
     constexpr std::size_t kMaxQuotedBytes = 60;
@@ -21,7 +21,7 @@ std::string format_json_value(const PlanJson& value) {
     return text.size() <= kMaxQuotedBytes ? text : text.substr(0, kMaxQuotedBytes) + "...";
 }
 
-const PlanJson& find_plan_rules(const PlanJson& document, const std::string& file) {
+const PlanJson& find_rules(const PlanJson& document, const std::string& file) {
     if (document.is_object() && document.contains("schema"))
         check(document["schema"].is_string() &&
                   document["schema"].get_ref<const std::string&>().starts_with("catoptric/"),
@@ -49,13 +49,13 @@ std::string read_text(const PlanJson& rule, const char* member, const std::strin
 
 /// Returns whether the plan consists of one rule that gives `auto` to all mirrors. `auto` cannot be
 /// the technique of a single mirror.
-bool is_auto_for_all_mirrors(const PlanJson& rules) {
+bool is_auto_plan(const PlanJson& rules) {
     return rules.size() == 1 && rules[0].is_object() && rules[0].size() == 2 &&
            rules[0].value("mirror", PlanJson()) == "*" &&
            rules[0].value("technique", PlanJson()) == reflect::kAutoPlanName;
 }
 
-reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
+reflect::PlanRule read_rule(const PlanJson& rule, const std::string& place) {
     check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
           format_json_value(rule));
     for (const auto& [key, value] : rule.items())
@@ -81,24 +81,24 @@ reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place)
 
 } // namespace
 
-reflect::TechniquePlan read_technique_plan(const std::string& text) {
+reflect::TechniquePlan read_plan(const std::string& text) {
     if (!text.starts_with(kPlanFilePrefix)) return reflect::parse_plan(text);
     const std::string file = text.substr(kPlanFilePrefix.size());
-    const PlanJson document = parse_json<PlanJson>(
-        file, read_json_text(file, "a plan", kMaxPlanFileBytes));
+    const PlanJson document = parse_json<PlanJson>(file,
+                                                   read_json_text(file, "a plan", kMaxPlanBytes));
     reflect::TechniquePlan plan{text, {}};
-    const PlanJson& rules = find_plan_rules(document, file);
-    if (is_auto_for_all_mirrors(rules)) {
+    const PlanJson& rules = find_rules(document, file);
+    if (is_auto_plan(rules)) {
         plan = reflect::parse_plan(reflect::kAutoPlanName);
         plan.label = text;
         return plan;
     }
     for (std::size_t i = 0; i < rules.size(); ++i)
-        plan.rules.push_back(read_plan_rule(rules[i], file + ": plan[" + std::to_string(i) + "]"));
+        plan.rules.push_back(read_rule(rules[i], file + ": plan[" + std::to_string(i) + "]"));
     return plan;
 }
 
-std::vector<std::string> list_mirror_names(const scene::Scene& scene) {
+std::vector<std::string> mirror_names(const scene::Scene& scene) {
     std::vector<std::string> names;
     for (const std::size_t object : scene::mirrors(scene))
         names.push_back(scene.objects[object].name);

@@ -14,9 +14,9 @@ namespace catoptric::session {
 /// The single rule {"mirror": "*", "technique": "auto"} is the plan `auto`.
 /// Throws `missing_input`, `io` and `bad_data` with the place, the wanted and the found value, and
 /// `usage` as parse_plan does.
-reflect::TechniquePlan read_technique_plan(const std::string& text);
+reflect::TechniquePlan read_plan(const std::string& text);
 
 /// Returns the names of the scene's mirrors, in their order.
-std::vector<std::string> list_mirror_names(const scene::Scene& scene);
+std::vector<std::string> mirror_names(const scene::Scene& scene);
 
 } // namespace catoptric::session

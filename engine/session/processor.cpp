@@ -33,7 +33,7 @@ double read_busy_seconds() {
 }
 
 /// Returns the numbers of this process's threads whose name begins with `prefix`, sorted by name.
-std::vector<int> find_threads_by_prefix(const std::string& prefix) {
+std::vector<int> find_threads(const std::string& prefix) {
     std::map<std::string, int> found;
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
@@ -80,13 +80,13 @@ double read_machine_load() {
     return ::getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<ProcessorUsageSoFar> read_processor_use() {
-    ProcessorUsageSoFar use{{}, read_busy_seconds()};
+std::optional<ProcessorTimes> read_processor_times() {
+    ProcessorTimes use{{}, read_busy_seconds()};
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
         // The file begins with the nanoseconds that the thread ran, and those that it waited.
         std::ifstream file(task.path() / "schedstat");
-        ThreadRunAndWaitTime time;
+        ThreadTimes time;
         if (!(file >> time.ran >> time.waited)) continue; // the thread has ended meanwhile
         time.ran *= kSecondsPerNanosecond, time.waited *= kSecondsPerNanosecond;
         use.threads.emplace(std::stoi(task.path().filename().string()), time);
@@ -95,17 +95,15 @@ std::optional<ProcessorUsageSoFar> read_processor_use() {
     return use;
 }
 
-void ProcessorWaitingTimes::operator+=(const ProcessorWaitingTimes& more) {
+void WaitingTimes::operator+=(const WaitingTimes& more) {
     ran += more.ran, waited += more.waited, others += more.others;
 }
 
-ProcessorWaitingTimes compute_waiting_times(const ProcessorUsageSoFar& before,
-                                            const ProcessorUsageSoFar& after) {
-    ProcessorWaitingTimes sum;
+WaitingTimes waiting_times(const ProcessorTimes& before, const ProcessorTimes& after) {
+    WaitingTimes sum;
     for (const auto& [thread, time] : after.threads) {
         const auto found = before.threads.find(thread);
-        const ThreadRunAndWaitTime start = found == before.threads.end() ? ThreadRunAndWaitTime{}
-                                                                         : found->second;
+        const ThreadTimes start = found == before.threads.end() ? ThreadTimes{} : found->second;
         sum.ran += time.ran - start.ran;
         sum.waited += time.waited - start.waited;
     }
@@ -113,7 +111,7 @@ ProcessorWaitingTimes compute_waiting_times(const ProcessorUsageSoFar& before,
     return sum;
 }
 
-double compute_waited_share(const ProcessorWaitingTimes& waiting) {
+double waiting_share(const WaitingTimes& waiting) {
     if (!(waiting.waited > 0)) return 0;
     const double share = waiting.waited / (waiting.ran + waiting.waited);
     if (std::isnan(waiting.others)) return share;
@@ -132,7 +130,7 @@ bool is_timing_noisy(double load, double used_seconds, double elapsed_seconds) {
     return load - own > kMaxBusyOtherProcessors;
 }
 
-PinnedThreads::PinnedThreads() : threads_(find_threads_by_prefix("llvmpipe-")) {
+PinnedThreads::PinnedThreads() : threads_(find_threads("llvmpipe-")) {
     const cpu_set_t allowed = read_allowed_processors();
     if (threads_.size() > static_cast<std::size_t>(CPU_COUNT(&allowed))) threads_.clear();
     int processor = -1;

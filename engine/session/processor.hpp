@@ -21,36 +21,35 @@ double read_machine_load();
 
 /// Seconds that a thread ran, and seconds that it was ready but waited for a processor, since it
 /// began.
-struct ThreadRunAndWaitTime {
+struct ThreadTimes {
     double ran = 0, waited = 0;
 };
 
 /// Use of the machine's processors so far.
-struct ProcessorUsageSoFar {
-    std::map<int, ThreadRunAndWaitTime> threads; ///< threads of this process, by thread number
+struct ProcessorTimes {
+    std::map<int, ThreadTimes> threads; ///< threads of this process, by thread number
     /// Seconds that all processors worked, for any process. NaN if the system does not report it.
     double busy = 0;
 };
 
 /// Reads /proc/self/task/*/schedstat and /proc/stat. Returns nothing if the system does not report
 /// waiting.
-std::optional<ProcessorUsageSoFar> read_processor_use();
+std::optional<ProcessorTimes> read_processor_times();
 
 /// Times between two readings, or sums over several pairs of readings, in seconds.
-struct ProcessorWaitingTimes {
+struct WaitingTimes {
     double ran = 0, waited = 0; ///< all threads of this process together
     double others = 0;          ///< processor time of other processes; NaN: unknown
-    void operator+=(const ProcessorWaitingTimes& more);
+    void operator+=(const WaitingTimes& more);
 };
 /// Returns the times between two readings. Threads that ended in between are not counted.
-ProcessorWaitingTimes compute_waiting_times(const ProcessorUsageSoFar& before,
-                                            const ProcessorUsageSoFar& after);
+WaitingTimes waiting_times(const ProcessorTimes& before, const ProcessorTimes& after);
 
 /// Returns the share of the time that threads ran or were ready in which they waited for a
 /// processor that others had. Threads of a driver also wait for each other if they outnumber the
 /// processors. Therefore the share of waiting that counts is the share of processor time that
 /// others had. If their time is unknown, all waiting counts.
-double compute_waited_share(const ProcessorWaitingTimes& waiting);
+double waiting_share(const WaitingTimes& waiting);
 
 /// Returns whether threads waited for more than 5 % of the time, so that measured times say little.
 bool is_timing_noisy(double waited_share);
@@ -72,7 +71,7 @@ public:
     PinnedThreads(const PinnedThreads&) = delete;
     PinnedThreads& operator=(const PinnedThreads&) = delete;
 
-    std::size_t pinned_thread_count() const { return threads_.size(); }
+    std::size_t count() const { return threads_.size(); }
 
 private:
     std::vector<int> threads_; ///< thread numbers

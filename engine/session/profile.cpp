@@ -47,30 +47,30 @@ Json device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
-gpu::VariantChoices read_device_profile(const fs::path& file, const DeviceInfo& device) {
-    return parse_device_profile(read_json_text(file, "a device profile", kMaxProfileBytes),
-                                file.string(), device);
+gpu::VariantChoices read_profile(const fs::path& file, const DeviceInfo& device) {
+    return parse_profile(read_json_text(file, "a device profile", kMaxProfileBytes), file.string(),
+                         device);
 }
 
 /// Returns the choices of the folder's profile, or the defaults if there is no usable profile.
 gpu::VariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& device) {
-    const fs::path file = folder / make_profile_file_name(device);
+    const fs::path file = folder / profile_file_name(device);
     std::error_code error;
-    if (!fs::exists(fs::symlink_status(file, error))) return choose_default_variants(device);
+    if (!fs::exists(fs::symlink_status(file, error))) return default_variants(device);
     try {
-        const gpu::VariantChoices choices = read_device_profile(file, device);
+        const gpu::VariantChoices choices = read_profile(file, device);
         device.profile = file.filename().string();
         return choices;
     } catch (const Error& refused) {
         device.warning = std::string(refused.what()) +
                          "; shaders are as by default ('bench --tune' writes a new profile)";
-        return choose_default_variants(device);
+        return default_variants(device);
     }
 }
 
 } // namespace
 
-gpu::VariantChoices choose_default_variants(const DeviceInfo& device) {
+gpu::VariantChoices default_variants(const DeviceInfo& device) {
     gpu::VariantChoices choices{};
     // Only a software driver gives each of its threads a contiguous run of work groups.
     const std::size_t groups = find_variant_index("groups", Failure::internal, "variants");
@@ -78,7 +78,7 @@ gpu::VariantChoices choose_default_variants(const DeviceInfo& device) {
     return choices;
 }
 
-std::string make_profile_file_name(const DeviceInfo& device) {
+std::string profile_file_name(const DeviceInfo& device) {
     std::string name = device.id + "-" + device.driver;
     const auto is_safe = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
@@ -88,8 +88,8 @@ std::string make_profile_file_name(const DeviceInfo& device) {
     return name + ".json";
 }
 
-std::string make_profile_text(const DeviceInfo& device,
-                              const std::vector<measure::VariantTrial>& tried) {
+std::string profile_text(const DeviceInfo& device,
+                         const std::vector<measure::VariantTrial>& tried) {
     Json document{{"schema", kProfileSchema}, {"version", version()}, {"commit", commit()}};
     document["device"] = device_json(device);
     document["variants"] = Json::object();
@@ -108,8 +108,8 @@ std::string make_profile_text(const DeviceInfo& device,
     return report::serialise(document);
 }
 
-gpu::VariantChoices parse_device_profile(const std::string& text, const std::string& file,
-                                         const DeviceInfo& device) {
+gpu::VariantChoices parse_profile(const std::string& text, const std::string& file,
+                                  const DeviceInfo& device) {
     const Json document = parse_json<Json>(file, text);
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();
@@ -126,7 +126,7 @@ gpu::VariantChoices parse_device_profile(const std::string& text, const std::str
     const Json list = member(document, "variants");
     check(list.is_object(), Failure::bad_data, file, ": variants: wanted an object, found ",
           format_for_message(list));
-    gpu::VariantChoices choices = choose_default_variants(device);
+    gpu::VariantChoices choices = default_variants(device);
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
         const std::size_t i = find_variant_index(name, Failure::bad_data, place);
@@ -135,7 +135,7 @@ gpu::VariantChoices parse_device_profile(const std::string& text, const std::str
     return choices;
 }
 
-VariantNames name_variant_choices(const gpu::VariantChoices& choices) {
+VariantNames variant_names(const gpu::VariantChoices& choices) {
     VariantNames variants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
         const gpu::ShaderVariant& variant = gpu::shader_variants()[i];
@@ -144,8 +144,8 @@ VariantNames name_variant_choices(const gpu::VariantChoices& choices) {
     return variants;
 }
 
-gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const DeviceInfo& device) {
-    gpu::VariantChoices choices = choose_default_variants(device);
+gpu::VariantChoices parse_variants(const VariantNames& variants, const DeviceInfo& device) {
+    gpu::VariantChoices choices = default_variants(device);
     for (const auto& [name, choice] : variants) {
         const std::size_t i = find_variant_index(name, Failure::usage, "variants");
         choices[i] = find_or_add(gpu::shader_variants()[i], choice, Failure::usage, "variants");
@@ -153,17 +153,17 @@ gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const De
     return choices;
 }
 
-gpu::VariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device) {
-    gpu::VariantChoices choices = choose_default_variants(device);
+gpu::VariantChoices choose_variants(const EngineOptions& options, DeviceInfo& device) {
+    gpu::VariantChoices choices = default_variants(device);
     if (!options.variants.empty()) {
-        choices = parse_variant_choices(options.variants, device);
+        choices = parse_variants(options.variants, device);
     } else if (!options.profile.empty()) {
-        choices = read_device_profile(options.profile, device);
+        choices = read_profile(options.profile, device);
         device.profile = options.profile.filename().string();
     } else if (!options.profiles.empty()) {
         choices = find_profile_choices(options.profiles, device);
     }
-    device.variants = name_variant_choices(choices);
+    device.variants = variant_names(choices);
     return choices;
 }
 

@@ -4,7 +4,7 @@
 
 namespace catoptric::session {
 
-bvh::Bvh build_bvh_without_object(const render::FrameGeometry& geometry, std::size_t left_out) {
+bvh::Bvh build_bvh_without(const render::FrameGeometry& geometry, std::size_t left_out) {
     std::vector<bvh::Triangle> triangles;
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
         const render::DrawRange& range = geometry.ranges[object];

@@ -9,7 +9,7 @@
 namespace catoptric::session {
 
 /// Builds a BVH over all objects but `left_out`. `left_out` = number of objects: over all.
-bvh::Bvh build_bvh_without_object(const render::FrameGeometry& geometry, std::size_t left_out);
+bvh::Bvh build_bvh_without(const render::FrameGeometry& geometry, std::size_t left_out);
 
 /// Returns the camera's ray through the centre of a pixel. Pixels count row by row.
 f32::Ray make_camera_ray(const shared::View& view, uvec2 size, std::size_t pixel);

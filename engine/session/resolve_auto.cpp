@@ -7,7 +7,7 @@
 
 namespace catoptric::session {
 
-require::DeviceUnitCosts find_unit_costs_of_device(const DeviceInfo& device) {
+require::DeviceUnitCosts find_device_costs(const DeviceInfo& device) {
     return require::find_unit_costs(device.name, device.driver, device.type == "cpu");
 }
 
@@ -18,8 +18,7 @@ reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scen
     const scene::Scene& now = *at_time;
     const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
     const require::PlanSuggestion suggestion = require::suggest_plan(
-        {.now = now, .camera = camera, .size = spec.size},
-        *find_unit_costs_of_device(device).costs);
+        {.now = now, .camera = camera, .size = spec.size}, *find_device_costs(device).costs);
     reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);
     plan.reasons = suggestion.reasons;

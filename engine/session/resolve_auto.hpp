@@ -9,7 +9,7 @@
 namespace catoptric::session {
 
 /// Returns the unit costs by which `auto` compares plans for a device.
-require::DeviceUnitCosts find_unit_costs_of_device(const DeviceInfo& device);
+require::DeviceUnitCosts find_device_costs(const DeviceInfo& device);
 
 /// Replaces a plan with `is_auto` by the plan that require::suggest_plan chooses for this
 /// picture and device, with a reason for each mirror. Returns any other plan unchanged. `scene`: at

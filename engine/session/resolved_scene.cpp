@@ -30,13 +30,13 @@ constexpr std::size_t kMaxSceneLights = 16;
 constexpr std::size_t kMaxEnvironmentTexels = std::size_t{1} << 25; // 8192 x 4096
 constexpr std::size_t kManyMirrorsLimit = 64; // scenes with more mirrors get a message
 
-bool is_built_in_scene(const std::string& name) {
+bool is_built_in(const std::string& name) {
     return std::ranges::any_of(scene::built_in_scenes(), [&](const scene::BuiltInScene& scene) {
         return scene.name == name;
     });
 }
 
-std::shared_ptr<scene::Environment> read_environment_picture(const std::string& path) {
+std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
     const measure::Picture picture = measure::read_picture(path, [&](int width, int height) {
         check(std::size_t(width) * std::size_t(height) <= kMaxEnvironmentTexels, Failure::bad_data,
               path, ": wanted an environment of at most ", kMaxEnvironmentTexels, " texels, found ",
@@ -67,20 +67,20 @@ std::shared_ptr<scene::Environment> read_environment_picture(const std::string& 
 }
 
 /// Returns the environment that `word` names; null for "none".
-std::shared_ptr<scene::Environment> load_environment_by_name(const std::string& word) {
+std::shared_ptr<scene::Environment> load_environment(const std::string& word) {
     if (word == "none") return nullptr;
     std::error_code ignored;
     if (word != "studio" && !std::filesystem::exists(measure::locate_picture(word).file, ignored))
         fail(Failure::missing_input, "--environment: ", quote(word),
              ": there is no such file; wanted a picture (.exr, .hdr or .png), studio or none",
              suggest_name(word, std::vector<std::string>{"studio", "none"}));
-    if (word != "studio") return read_environment_picture(word);
+    if (word != "studio") return read_environment(word);
     auto studio = std::make_shared<scene::Environment>();
     studio->name = "studio", studio->studio = true;
     return studio;
 }
 
-void record_scene_file_path(scene::Scene& scene, const std::filesystem::path& real) {
+void record_file(scene::Scene& scene, const std::filesystem::path& real) {
     if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
 }
 
@@ -96,13 +96,13 @@ void check_environment_exists(const scene::SceneOverrides& overrides,
 }
 
 /// Applies the overrides of the environment. `said`: those of the command line.
-void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverrides& said) {
+void apply_environment(ResolvedScene& wanted, const scene::SceneOverrides& said) {
     scene::Scene& scene = wanted.scene;
     const scene::SceneOverrides& overrides = wanted.overrides;
     std::shared_ptr<scene::Environment> environment;
     if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
     if (overrides.environment) {
-        environment = load_environment_by_name(*overrides.environment);
+        environment = load_environment(*overrides.environment);
         if (environment && !environment->studio && environment->size.x != 2 * environment->size.y)
             wanted.said.push_back("environment " + quote(environment->name) +
                                   ": wanted a picture "
@@ -112,10 +112,9 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
                                   "; it is stretched over the whole sphere, "
                                   "but a square picture may be a mirror ball or an angular map");
         if (environment && !environment->studio)
-            record_scene_file_path(scene,
-                                   real_path(measure::locate_picture(*overrides.environment).file));
+            record_file(scene, real_path(measure::locate_picture(*overrides.environment).file));
     } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
-        environment = load_environment_by_name("studio");
+        environment = load_environment("studio");
         scene::add_unsupported(scene.unsupported, "added-studio", "scene " + quote(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
@@ -155,7 +154,7 @@ void apply_light_samples(ResolvedScene& wanted) {
 }
 
 /// Adds a message about the cost of many mirrors.
-void warn_of_scene_with_many_mirrors(scene::Scene& scene) {
+void warn_of_many_mirrors(scene::Scene& scene) {
     // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
     // it come distance and, for one frame, the number of the surface seen.
     constexpr std::size_t kTypicalCaptureTexels = 6 * 256 * 256, kBytesPerMebibyte = 1 << 20,
@@ -190,15 +189,15 @@ std::optional<scene::Camera> find_named_camera(const scene::SceneOverrides& over
 
 /// Copies exposure and camera of the scene file into the scene, and therefore into its hash. The
 /// camera comes first.
-void copy_camera_and_exposure(ResolvedScene& wanted, const scene::SceneFile& filed,
-                              const std::optional<scene::Camera>& camera) {
+void copy_file_settings(ResolvedScene& wanted, const scene::SceneFile& filed,
+                        const std::optional<scene::Camera>& camera) {
     scene::Scene& scene = wanted.scene;
     if (filed.overrides.exposure) scene.exposure = filed.overrides.exposure->stops;
     if (camera) {
         std::erase(scene.cameras, *camera);
         scene.cameras.insert(scene.cameras.begin(), *camera);
     }
-    for (const std::filesystem::path& file : filed.files) record_scene_file_path(scene, file);
+    for (const std::filesystem::path& file : filed.files) record_file(scene, file);
 }
 
 /// Applies all overrides to the scene. `said`: those of the command line.
@@ -208,7 +207,7 @@ void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& s
     const std::string file = filed ? filed->path.string() : "";
     if (filed) scene::check_patterns(scene, filed->overrides, file);
     scene::apply_overrides(scene, wanted.overrides);
-    // Finds the camera before `copy_camera_and_exposure` changes the order of cameras, because an
+    // Finds the camera before `copy_file_settings` changes the order of cameras, because an
     // index counts in the scene's own order.
     std::optional<scene::Camera> camera;
     if (filed)
@@ -216,13 +215,13 @@ void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& s
     wanted.camera = said.camera ? find_named_camera(said, scene, {"--camera"}) : camera;
     wanted.is_camera_seeded = wanted.overrides.camera &&
                               is_seeded_camera(*wanted.overrides.camera, scene);
-    if (filed) copy_camera_and_exposure(wanted, *filed, camera);
+    if (filed) copy_file_settings(wanted, *filed, camera);
 }
 
 } // namespace
 
-ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOptions& options) {
-    ResolvedScene wanted{.overrides = options.overrides, .is_file = !is_built_in_scene(name)};
+ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& options) {
+    ResolvedScene wanted{.overrides = options.overrides, .is_file = !is_built_in(name)};
     std::optional<scene::SceneFile> filed;
     if (wanted.is_file && options.use_scene_file)
         filed = scene::read_scene_file(name, options.load);
@@ -247,17 +246,17 @@ ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOpt
     if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxSceneLights);
     apply_light_samples(wanted);
     wanted.scene.environment_shadows = wanted.overrides.environment_shadows.value_or(0);
-    apply_environment_overrides(wanted, options.overrides);
+    apply_environment(wanted, options.overrides);
     if (wanted.scene.environment_shadows > 0 && !wanted.scene.environment)
         wanted.said.emplace_back(
             "--environment-shadows has no effect: the scene has no environment "
             "(--environment adds one)");
     scene::add_unsupported_lighting(wanted.scene);
-    warn_of_scene_with_many_mirrors(wanted.scene);
+    warn_of_many_mirrors(wanted.scene);
     return wanted;
 }
 
-double choose_ambient_light(const ResolvedScene& wanted) {
+double choose_ambient(const ResolvedScene& wanted) {
     return wanted.overrides.ambient.value_or(wanted.scene.environment ? 0 : .05);
 }
 
@@ -267,7 +266,7 @@ std::optional<double> find_exposure(const ResolvedScene& wanted) {
     return wanted.is_file ? std::nullopt : std::optional(0.0);
 }
 
-scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
+scene::Camera choose_camera(ResolvedScene& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
     if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();

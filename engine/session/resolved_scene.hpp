@@ -25,7 +25,7 @@ struct ResolvedScene {
     bool is_file = false;                            ///< false: the scene is built in
 };
 
-struct SceneResolveOptions {
+struct ResolveOptions {
     scene::FileOptions load;
     /// Overrides of the command line; they win over those of SCENE.catoptric.json.
     scene::SceneOverrides overrides;
@@ -37,16 +37,16 @@ struct SceneResolveOptions {
 /// `studio` (gap "added-studio"), unless the user says something about it. Throws as scene::load,
 /// scene::read_scene_file, scene::apply_overrides and scene::find_camera do, and `bad_data`
 /// for a picture that cannot be an environment.
-ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOptions& options);
+ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& options);
 
 /// Returns the ambient light: the user's value, else 0 with an environment and .05 without.
-double choose_ambient_light(const ResolvedScene& wanted);
+double choose_ambient(const ResolvedScene& wanted);
 /// Returns the exposure in stops that the user or else the scene sets. If neither does, returns 0
 /// for scenes built in code, and nothing for scene files: session/exposure.hpp finds it then.
 std::optional<double> find_exposure(const ResolvedScene& wanted);
 /// Returns the user's camera, or else the scene's first. If there is none, adds a camera (gap
 /// "added-camera") and reports it in `said`: scene::find_inside_camera for a closed room, else
 /// scene::default_camera.
-scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect);
+scene::Camera choose_camera(ResolvedScene& wanted, double aspect);
 
 } // namespace catoptric::session

@@ -33,26 +33,26 @@ void check_device_clock(const FrameTimes& times) {
 } // namespace
 
 FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks,
-                     FrameHistoryState history)
-    : loop_session_(session), request_(request), hooks_(hooks) {
+                     StartHistory history)
+    : session_(session), request_(request), hooks_(hooks) {
     check(request.frames > 0 && request.warmup >= 0, Failure::usage,
           "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
           request.warmup);
-    if (history == FrameHistoryState::none) session.forget();
+    if (history == StartHistory::none) session.forget();
 }
 
 bool FrameLoop::render_next(const scene::Camera& camera, double time) {
-    if (settled_ || number_ >= max_frame_count()) return false;
+    if (settled_ || number_ >= max_frames()) return false;
     check(!request_.until_settled || camera == request_.camera, Failure::usage,
           "a run until the picture settles: wanted one camera, found two");
-    if (aside_) Access::resume_frame_sequence(loop_session_, std::move(*aside_));
+    if (aside_) Access::resume(session_, std::move(*aside_));
     aside_.reset();
     ++number_;
     FrameSpec spec = request_;
     spec.camera = camera;
     spec.time = time;
     const double used_before = read_process_seconds();
-    frame_ = Access::render_frame(loop_session_, spec, hooks_);
+    frame_ = Access::render_frame(session_, spec, hooks_);
     // The first measured frame must not wait for the frames before it.
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
@@ -63,7 +63,7 @@ bool FrameLoop::render_next(const scene::Camera& camera, double time) {
             times_[times_.size() - kMaxDetailedFrames - 1].passes = std::vector<PassTime>();
     }
     if (request_.until_settled) {
-        std::vector<std::byte> state = Access::read_next_frame_state(*frame_);
+        std::vector<std::byte> state = Access::read_state(*frame_);
         settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
         state_ = std::move(state);
     }
@@ -72,7 +72,7 @@ bool FrameLoop::render_next(const scene::Camera& camera, double time) {
 
 /// With a limit on captures, a still picture needs as many rounds as it needs frames without a
 /// limit. The number of frames is therefore multiplied by the frames of a round.
-int FrameLoop::max_frame_count() const {
+int FrameLoop::max_frames() const {
     std::uint32_t round = 1;
     for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
         round = std::max(
@@ -84,17 +84,16 @@ int FrameLoop::max_frame_count() const {
 RunResult FrameLoop::result() const { return {frame_->read_all(), times_, settled_}; }
 
 RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
-                           FrameHistoryState history) {
+                           StartHistory history) {
     const WatchedWork watched(watcher);
     FrameLoop frames(session, request, {}, history);
     throw_if_stopped(watcher);
-    while (frames.render_next())
-        report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
+    while (frames.render_next()) report_frame(watcher, frames.frame_number(), frames.max_frames());
     return frames.result();
 }
 
 RunResult run(Session& session, const Request& request, const Watcher& watcher) {
-    return run_with_history(session, request, watcher, FrameHistoryState::none);
+    return run_with_history(session, request, watcher, StartHistory::none);
 }
 
 RunResult run(Engine& engine, const Request& request) {

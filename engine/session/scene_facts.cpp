@@ -28,7 +28,7 @@ measure::CameraFacts make_camera_facts(const scene::Camera& moving, double secon
             camera.orthographic_height};
 }
 
-uvec2 compute_thumbnail_size(uvec2 size) {
+uvec2 thumbnail_size(uvec2 size) {
     constexpr double kMaxThumbnailSide = 128;
     const double longest = std::max(size.x, size.y);
     const auto side = [&](std::uint32_t pixels) {
@@ -48,9 +48,8 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     // With more tests than this, building a BVH would be faster.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
                                                              16 * (geometry.indices.size() / 3));
-    if (auto covering = find_first_object_per_pixel(geometry, view, size, most_tests))
-        return *covering;
-    const bvh::Bvh hierarchy = build_bvh_without_object(geometry, geometry.ranges.size());
+    if (auto covering = find_first_objects(geometry, view, size, most_tests)) return *covering;
+    const bvh::Bvh hierarchy = build_bvh_without(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
         const auto hit = bvh::find_closest_hit<float>(
@@ -61,8 +60,8 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     return seen;
 }
 
-double compute_pixel_share(const std::vector<int>& seen, const scene::Scene& scene,
-                           const std::vector<std::size_t>& materials) {
+double pixel_share(const std::vector<int>& seen, const scene::Scene& scene,
+                   const std::vector<std::size_t>& materials) {
     std::vector<bool> counts(scene.materials.size());
     for (const std::size_t material : materials) counts[material] = true;
     const auto shows = [&](int object) {
@@ -72,13 +71,13 @@ double compute_pixel_share(const std::vector<int>& seen, const scene::Scene& sce
            static_cast<double>(std::max<std::size_t>(1, seen.size()));
 }
 
-std::vector<measure::UnsupportedFeatureFacts>
-list_unsupported_features(const scene::Scene& scene, const std::vector<int>& seen) {
+std::vector<measure::UnsupportedFeatureFacts> unsupported_features(const scene::Scene& scene,
+                                                                   const std::vector<int>& seen) {
     std::vector<measure::UnsupportedFeatureFacts> facts;
     for (const scene::UnsupportedFeature& gap : scene.unsupported) {
         facts.push_back({gap.id, gap.count, gap.first, {}});
         if (!gap.materials.empty())
-            facts.back().pixel_share = compute_pixel_share(seen, scene, gap.materials);
+            facts.back().pixel_share = pixel_share(seen, scene, gap.materials);
     }
     // Features without a share (-1) come last. Equal shares keep their order.
     std::ranges::stable_sort(
@@ -87,7 +86,7 @@ list_unsupported_features(const scene::Scene& scene, const std::vector<int>& see
     return facts;
 }
 
-std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene) {
+std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
     const std::vector<scene::PointLight> lights = scene::list_lights(scene);
     const std::size_t first_without = lights.size() - scene.punctual.size();
     std::vector<measure::LightFacts> facts;
@@ -124,9 +123,8 @@ measure::SceneFacts make_scene_facts(const Request& request, const std::vector<i
                               scene::hash_scene(scene),
                               scene::hash_scene(scene) == scene::hash_scene(scene::make_cornell()),
                               make_camera_facts(request.camera, request.time)};
-    facts.contents = std::make_shared<measure::SceneContents>(
-        measure::SceneContents{list_light_facts(scene), make_environment_facts(scene),
-                               list_unsupported_features(scene, seen)});
+    facts.contents = std::make_shared<measure::SceneContents>(measure::SceneContents{
+        light_facts(scene), make_environment_facts(scene), unsupported_features(scene, seen)});
     return facts;
 }
 
@@ -134,9 +132,9 @@ measure::SceneFacts make_scene_facts(const Request& request) {
     const bool has_shares = std::ranges::any_of(
         request.scene.unsupported,
         [](const scene::UnsupportedFeature& gap) { return !gap.materials.empty(); });
-    return make_scene_facts(
-        request, has_shares ? find_visible_objects(request, compute_thumbnail_size(request.size))
-                            : std::vector<int>());
+    return make_scene_facts(request,
+                            has_shares ? find_visible_objects(request, thumbnail_size(request.size))
+                                       : std::vector<int>());
 }
 
 } // namespace catoptric::session

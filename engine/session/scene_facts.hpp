@@ -14,23 +14,23 @@ namespace catoptric::session {
 std::vector<int> find_visible_objects(const Request& request, uvec2 size);
 
 /// Returns the share of the pixels that show one of these materials.
-double compute_pixel_share(const std::vector<int>& seen, const scene::Scene& scene,
-                           const std::vector<std::size_t>& materials);
+double pixel_share(const std::vector<int>& seen, const scene::Scene& scene,
+                   const std::vector<std::size_t>& materials);
 
 /// Returns every unsupported feature of the scene with its share of the picture `seen`
 /// (find_visible_objects). The largest share comes first, and features without a share come last.
-std::vector<measure::UnsupportedFeatureFacts>
-list_unsupported_features(const scene::Scene& scene, const std::vector<int>& seen);
+std::vector<measure::UnsupportedFeatureFacts> unsupported_features(const scene::Scene& scene,
+                                                                   const std::vector<int>& seen);
 
 /// Returns every light as the shading formula sees it.
-std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene);
+std::vector<measure::LightFacts> light_facts(const scene::Scene& scene);
 std::optional<measure::EnvironmentFacts> make_environment_facts(const scene::Scene& scene);
 
 /// Returns the camera, which may follow a moving node, at an instant in seconds.
 measure::CameraFacts make_camera_facts(const scene::Camera& moving, double seconds);
 
 /// Returns a size of the same aspect ratio whose longest side is 128.
-uvec2 compute_thumbnail_size(uvec2 size);
+uvec2 thumbnail_size(uvec2 size);
 
 /// Returns the facts that a report lists about the request's scene. `seen`: find_visible_objects of
 /// the picture that shares refer to.

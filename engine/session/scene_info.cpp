@@ -18,7 +18,7 @@ namespace catoptric::session {
 namespace {
 
 template <typename Item>
-std::uint64_t count_list_bytes(const std::vector<Item>& list) {
+std::uint64_t bytes_of(const std::vector<Item>& list) {
     return list.size() * sizeof(Item);
 }
 
@@ -42,7 +42,7 @@ void texture_info(MaterialInfo& info, const char* what,
                             std::to_string(size.y));
 }
 
-std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
+std::vector<MaterialInfo> material_infos(const scene::Scene& scene) {
     std::vector<MaterialInfo> infos;
     std::map<std::size_t, std::pair<std::size_t, const scene::Object*>> users; // count and first
     for (const scene::Object& object : scene.objects) {
@@ -77,7 +77,7 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
     return infos;
 }
 
-std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vector<int>& seen) {
+std::vector<MirrorInfo> mirror_infos(const scene::Scene& now, const std::vector<int>& seen) {
     std::vector<MirrorInfo> infos;
     const std::vector<dvec3> centres = scene::capture_centres(now);
     for (const std::size_t index : scene::mirrors(now)) {
@@ -103,7 +103,7 @@ std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vec
     return infos;
 }
 
-void fill_scene_sizes(SceneInfo& info, const scene::Scene& scene) {
+void fill_sizes(SceneInfo& info, const scene::Scene& scene) {
     std::set<std::size_t> shown;
     for (const scene::Object& object : scene.objects) {
         info.instances += !shown.insert(object.mesh).second;
@@ -113,16 +113,16 @@ void fill_scene_sizes(SceneInfo& info, const scene::Scene& scene) {
     for (const std::size_t i : shown) {
         const scene::Mesh& mesh = scene.meshes[i];
         info.stored_triangles += mesh.triangles.size();
-        info.geometry_bytes += count_list_bytes(mesh.positions) + count_list_bytes(mesh.normals) +
-                               count_list_bytes(mesh.triangles) + count_list_bytes(mesh.uv[0]) +
-                               count_list_bytes(mesh.uv[1]) + count_list_bytes(mesh.colours);
+        info.geometry_bytes += bytes_of(mesh.positions) + bytes_of(mesh.normals) +
+                               bytes_of(mesh.triangles) + bytes_of(mesh.uv[0]) +
+                               bytes_of(mesh.uv[1]) + bytes_of(mesh.colours);
     }
     std::set<const scene::Image*> images;
     for (const scene::Material& material : scene.materials)
         for (const auto& texture : {material.albedo_texture, material.emission_texture,
                                     material.roughness_texture, material.normal_texture})
             if (texture && images.insert(texture->image.get()).second)
-                info.image_bytes += count_list_bytes(texture->image->texels);
+                info.image_bytes += bytes_of(texture->image->texels);
     for (const std::filesystem::path& file : scene.files) {
         std::error_code gone;
         const std::uintmax_t size = std::filesystem::file_size(file, gone);
@@ -134,12 +134,11 @@ void fill_scene_sizes(SceneInfo& info, const scene::Scene& scene) {
 
 SceneInfo make_scene_info(const Request& request) {
     const scene::Scene& scene = request.scene;
-    const std::vector<int> seen = find_visible_objects(request,
-                                                       compute_thumbnail_size(request.size));
+    const std::vector<int> seen = find_visible_objects(request, thumbnail_size(request.size));
     SceneInfo info{.facts = make_scene_facts(request, seen)};
-    fill_scene_sizes(info, scene);
-    info.materials = list_material_info(scene);
-    info.mirrors = list_mirror_info(*scene::SceneAtTime(scene, request.time), seen);
+    fill_sizes(info, scene);
+    info.materials = material_infos(scene);
+    info.mirrors = mirror_infos(*scene::SceneAtTime(scene, request.time), seen);
     if (info.mirrors.empty()) info.mirror_options = suggest_mirror_options(scene);
     for (const scene::Camera& camera : scene.cameras)
         info.cameras.push_back(make_camera_facts(camera, request.time));

@@ -31,8 +31,8 @@ std::vector<std::uint32_t> pack_rgba8(const measure::Picture& display) {
 /// Writes data into a buffer. The buffer grows to a power of two, so that changing sizes seldom
 /// need a new buffer.
 template <typename T>
-void write_to_growing_buffer(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
-                             const std::vector<T>& data, gpu::BufferUsage use) {
+void write_growing(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
+                   const std::vector<T>& data, gpu::BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.bytes() < bytes || !buffer.handle())
         buffer = gpu::Buffer(device, name, std::bit_ceil(bytes), use);
@@ -54,17 +54,16 @@ WindowScreen::Impl::~Impl() {
     }
 }
 
-WindowScreen::WindowScreen(Engine& engine)
-    : screen_impl_(std::make_unique<Impl>(Access::engine_impl_of(engine))) {}
+WindowScreen::WindowScreen(Engine& engine) : impl_(std::make_unique<Impl>(Access::impl(engine))) {}
 WindowScreen::~WindowScreen() = default;
 
-bool WindowScreen::lost() const { return screen_impl_->swapchain.is_surface_lost(); }
-uvec2 WindowScreen::size() const { return screen_impl_->swapchain.size(); }
-double WindowScreen::acquire_ms() const { return screen_impl_->acquire_ms; }
-double WindowScreen::present_ms() const { return screen_impl_->present_ms; }
+bool WindowScreen::lost() const { return impl_->swapchain.is_surface_lost(); }
+uvec2 WindowScreen::size() const { return impl_->swapchain.size(); }
+double WindowScreen::acquire_ms() const { return impl_->acquire_ms; }
+double WindowScreen::present_ms() const { return impl_->present_ms; }
 
-bool WindowScreen::fit_to_window(uvec2 window) {
-    Impl& self = *screen_impl_;
+bool WindowScreen::fit(uvec2 window) {
+    Impl& self = *impl_;
     if (self.fits && window == self.window) return true;
     self.fits = false;
     if (window.x == 0 || window.y == 0) return false;
@@ -81,7 +80,7 @@ bool WindowScreen::fit_to_window(uvec2 window) {
 }
 
 void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
-    Impl& self = *screen_impl_;
+    Impl& self = *impl_;
     check(coverage.size() == std::size_t{size.x} * size.y && !coverage.empty(), Failure::usage,
           "a font's picture of ", size.x, "x", size.y, " texels has ", coverage.size(), " bytes");
     self.swapchain.wait_idle();
@@ -91,15 +90,15 @@ void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverag
     gpu::upload(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
 }
 
-Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
-                             const WindowPictures& showing) {
-    WindowScreen::Impl& onto = *screen.screen_impl_;
+Frame Access::show(Session& session, const FrameSpec& spec, WindowScreen& screen,
+                   const WindowPictures& showing) {
+    WindowScreen::Impl& onto = *screen.impl_;
     check(onto.fits, Failure::internal,
           "a frame is shown on a screen that does not fit its window");
     graph::GraphRunner& runner = session.impl_->runner;
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
-    WindowScreen::Impl::OverlayFrameBuffers& slot = onto.slots[index];
+    WindowScreen::Impl::FrameBuffers& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait_for(slot.ticket);
     std::optional<std::uint32_t> image;
     onto.fits = false; // after a refused frame, the image is returned when all images are made
@@ -134,18 +133,17 @@ bool WindowScreen::Impl::present() {
 void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
                              const WindowPictures& showing, std::size_t index) {
     using graph::ImageHandle;
-    OverlayFrameBuffers& slot = slots[index];
+    FrameBuffers& slot = slots[index];
     const WindowOverlay& overlay = showing.overlay;
     // The first three indices belong to the triangle that covers the whole window.
     std::vector<std::uint32_t> indices{0, 1, 2};
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
-    write_to_growing_buffer(device, slot.vertices, "overlay.vertices", overlay.vertices,
-                            gpu::BufferUsage::vertex);
-    write_to_growing_buffer(device, slot.indices, "overlay.indices", indices,
-                            gpu::BufferUsage::index);
+    write_growing(device, slot.vertices, "overlay.vertices", overlay.vertices,
+                  gpu::BufferUsage::vertex);
+    write_growing(device, slot.indices, "overlay.indices", indices, gpu::BufferUsage::index);
     std::vector<std::uint32_t> canvas{0};
     if (showing.canvas) canvas = pack_rgba8(*showing.canvas);
-    write_to_growing_buffer(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
+    write_growing(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
 
     const uvec2 size = swapchain.size();
     const auto picture = [&](std::size_t part) {
@@ -180,7 +178,7 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
             commands.bind("Corners", slot.vertices);
             commands.bind("Font", font);
             commands.push_constants(shared::OverlayParameters{size, font_size});
-            for (const WindowOverlay::OverlayDrawRange& draw : draws) {
+            for (const WindowOverlay::DrawRange& draw : draws) {
                 const auto [x, y, width, height] = draw.area;
                 if (x >= size.x || y >= size.y) continue;
                 commands.set_scissor(

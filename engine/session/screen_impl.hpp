@@ -23,7 +23,7 @@ struct WindowScreen::Impl {
              std::size_t slot);
 
     /// Buffers that one frame in flight reads.
-    struct OverlayFrameBuffers {
+    struct FrameBuffers {
         gpu::Buffer vertices, indices, canvas;
         const graph::GraphRunner* runner = nullptr; ///< runner of the frame that reads them
         graph::FrameTicket ticket;
@@ -34,7 +34,7 @@ struct WindowScreen::Impl {
     std::vector<graph::PhysicalImage> images; ///< images of the swapchain
     gpu::Buffer font;
     uvec2 font_size{1, 1};
-    std::array<OverlayFrameBuffers, 3> slots;
+    std::array<FrameBuffers, 3> slots;
     std::size_t next_slot = 0;
     std::uint32_t image = 0; ///< index of the image acquired last
     uvec2 window{0, 0};

@@ -19,7 +19,7 @@ namespace catoptric::session {
 
 namespace {
 
-double compute_milliseconds_since(SteadyClock::time_point start) {
+double milliseconds_since(SteadyClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
@@ -32,7 +32,7 @@ bool have_equal_plans(const std::vector<reflect::TechniquePlan>& a,
     return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.is_same(y); });
 }
 
-std::shared_ptr<const std::vector<dmat4>> list_transforms(const scene::Scene& scene) {
+std::shared_ptr<const std::vector<dmat4>> object_transforms(const scene::Scene& scene) {
     std::vector<dmat4> transforms;
     transforms.reserve(scene.objects.size());
     for (const scene::Object& object : scene.objects)
@@ -40,7 +40,7 @@ std::shared_ptr<const std::vector<dmat4>> list_transforms(const scene::Scene& sc
     return std::make_shared<const std::vector<dmat4>>(std::move(transforms));
 }
 
-void check_frame_spec(const FrameSpec& spec) {
+void check_spec(const FrameSpec& spec) {
     check_capture_limit(spec);
     check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
           spec.size.x, "x", spec.size.y);
@@ -56,14 +56,14 @@ void check_frame_spec(const FrameSpec& spec) {
 
 /// Adds the ambient light to the content hashes. It is no part of a scene, but captures depend on
 /// it.
-void hash_ambient_light(require::WorkModel& model, double ambient) {
+void hash_ambient(require::WorkModel& model, double ambient) {
     for (require::MirrorRequirements& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
             for (std::uint64_t& content_hash : *content_hashes)
                 content_hash = ContentHash().add(content_hash).add(ambient).sum();
 }
 
-std::string rendered_work_name(RenderedWork work) {
+std::string work_name(RenderedWork work) {
     return work == RenderedWork::everything ? "everything" : "required";
 }
 
@@ -71,32 +71,32 @@ struct FrameSequence::Impl {
     History history;
 };
 
-FrameSequence::FrameSequence(std::unique_ptr<Impl> impl) : sequence_impl_(std::move(impl)) {}
+FrameSequence::FrameSequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
 FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
 FrameSequence::~FrameSequence() = default;
 
-void Session::Impl::wait_until_scene_copy_is_free(std::size_t of) {
+void Session::Impl::wait_for_copy(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
         runner.wait_for(graph::FrameTicket{read_by[of]});
 }
 
-double Session::Impl::update_device_scene(const render::ShownInstant& wanted) {
+double Session::Impl::update_scene(const render::ShownInstant& wanted) {
     double update_ms = 0;
-    if (shown != wanted) update_ms = write_device_scene(wanted);
+    if (shown != wanted) update_ms = write_scene(wanted);
     if (history.face_edges && (history.face_edges->size != wanted.size ||
                                history.face_edges->needs.size() != resident->mirror_count()))
         history.face_edges.reset(); // an edit may have made or unmade a mirror
     if (!history.face_edges)
-        history.face_edges = SequenceFaceEdges{wanted.size, resident->needed_face_edges()};
+        history.face_edges = FaceEdges{wanted.size, resident->needed_face_edges()};
     resident->use_face_edges(history.face_edges->needs);
     return update_ms;
 }
 
-double Session::Impl::write_device_scene(const render::ShownInstant& wanted) {
+double Session::Impl::write_scene(const render::ShownInstant& wanted) {
     // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
-    wait_until_scene_copy_is_free(next);
+    wait_for_copy(next);
     copy = next;
     const SteadyClock::time_point start = SteadyClock::now();
     shown.reset(); // stays unset if the update throws half-way
@@ -108,17 +108,17 @@ double Session::Impl::write_device_scene(const render::ShownInstant& wanted) {
     } else {
         scene::check_time(wanted.time);
     }
-    if (!transforms) transforms = list_transforms(scene_at_current_instant());
-    resident->update(scene_at_current_instant(), wanted.camera, wanted.size, wanted.ambient,
+    if (!transforms) transforms = object_transforms(shown_scene());
+    resident->update(shown_scene(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     shown = wanted;
     ++counts.updates;
-    return compute_milliseconds_since(start);
+    return milliseconds_since(start);
 }
 
 std::vector<reflect::TechniquePlan> Session::Impl::find_plans(const FrameSpec& spec) const {
     if (!history.plans.empty() && history.texts == spec.techniques) return history.plans;
-    std::vector<reflect::TechniquePlan> plans = parse_technique_plans(spec.techniques);
+    std::vector<reflect::TechniquePlan> plans = parse_plans(spec.techniques);
     for (reflect::TechniquePlan& plan : plans)
         plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.info);
     return plans;
@@ -140,12 +140,12 @@ graph::FrameTicket Session::Impl::run_graph(const graph::Graph& graph, const Fra
 }
 
 const std::shared_ptr<const require::WorkModel>&
-Session::Impl::find_required_work_model(const std::vector<reflect::TechniquePlan>& plans,
-                                        RenderedWork work, bool is_ablated) {
+Session::Impl::find_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
+                          bool is_ablated) {
     if (!have_equal_plans(modelled_plans, plans)) models.clear(), modelled_plans = plans;
     std::shared_ptr<const require::WorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
-    require::WorkModelInput question{scene_at_current_instant(), shown->camera, shown->size};
+    require::WorkModelInput question{shown_scene(), shown->camera, shown->size};
     reflect::add_capture_needs(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // look-ups with removed causes read faces that a search
@@ -154,13 +154,13 @@ Session::Impl::find_required_work_model(const std::vector<reflect::TechniquePlan
     require::WorkModel made = work == RenderedWork::everything
                                   ? require::make_everything_model(question)
                                   : requirements->model(question);
-    hash_ambient_light(made, shown->ambient);
+    hash_ambient(made, shown->ambient);
     model = std::make_shared<const require::WorkModel>(std::move(made));
     return model;
 }
 
 Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
-    : impl_(std::make_shared<Impl>(Access::engine_impl_of(engine), std::move(scene), in_flight)) {}
+    : impl_(std::make_shared<Impl>(Access::impl(engine), std::move(scene), in_flight)) {}
 Session::~Session() = default;
 
 const scene::Scene& Session::scene() const { return impl_->scene; }
@@ -188,9 +188,9 @@ Frame Access::render_frame(Session& session, const FrameSpec& spec, const FrameH
     return Frame(session.impl_->submit(session.impl_, spec, hooks, finish));
 }
 
-render::FrameFacts Session::Impl::prepare_frame_facts(const FrameSpec& spec, double& update_ms) {
+render::FrameFacts Session::Impl::prepare_facts(const FrameSpec& spec, double& update_ms) {
     render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
-    update_ms += update_device_scene(facts.now);
+    update_ms += update_scene(facts.now);
     facts.transforms = transforms;
     if (!history.last) return facts;
     facts.number = history.last->number + 1;
@@ -202,7 +202,7 @@ std::shared_ptr<Access::FrameImpl>
 Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
                       const FrameHooks& hooks,
                       const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
-    check_frame_spec(spec);
+    check_spec(spec);
     const std::vector<reflect::TechniquePlan> plans = find_plans(spec);
     const bool follows = have_equal_plans(history.plans, plans) && history.work == spec.model;
     if (!spec.keeps_history && !follows) exchange_history({.plans = plans, .work = spec.model});
@@ -211,24 +211,24 @@ Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
     frame->session = self, frame->spec = spec, frame->hooks = hooks;
     {
         const Stopwatch watch(frame->waited_ms);
-        wait_for_needed_results(spec);
+        wait_for_results(spec);
     }
-    const render::FrameFacts facts = prepare_frame_facts(spec, frame->update_ms);
+    const render::FrameFacts facts = prepare_facts(spec, frame->update_ms);
     const SteadyClock::time_point start = SteadyClock::now();
-    frame->model = find_required_work_model(plans, spec.model, hooks.ablated != 0);
-    frame->frame = declare_frame_graph(
+    frame->model = find_model(plans, spec.model, hooks.ablated != 0);
+    frame->frame = declare_frame(
         spec, hooks, facts, plans, mirrors, *resident, runner.make_history(),
         find_capture_histories(spec, plans.size(), *frame->model, follows));
-    frame->declare_ms = compute_milliseconds_since(start);
+    frame->declare_ms = milliseconds_since(start);
     const SteadyClock::time_point trees = SteadyClock::now();
-    resident->fulfil(frame->frame.requests, [&] { wait_until_scene_copy_is_free(copy); });
-    frame->hierarchy_ms = compute_milliseconds_since(trees);
+    resident->fulfil(frame->frame.requests, [&] { wait_for_copy(copy); });
+    frame->hierarchy_ms = milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish ? finish(frame->frame)
                                                      : graph::ExternalSemaphores{};
     frame->ticket = run_graph(frame->frame.graph, spec, outside, hooks.counts_work);
     last = frame->ticket;
     read_by[copy] = frame->ticket.frame;
-    if (!spec.keeps_history) store_history_of_frame(spec, facts, frame->frame, frame->ticket);
+    if (!spec.keeps_history) store_history(spec, facts, frame->frame, frame->ticket);
     ++counts.frames;
     return frame;
 }
@@ -261,7 +261,7 @@ void Session::change(const scene::Edit& edit) {
     if (removes) self.requirements.reset();
     self.scene = std::move(edited);
     self.moved.reset(), self.transforms.reset();
-    self.mirrors = list_mirror_names(self.scene);
+    self.mirrors = mirror_names(self.scene);
     self.shown.reset();
     ++self.edits;
     self.history.texts.clear(); // another plan may be suggested
@@ -272,37 +272,36 @@ void Session::forget() {
     impl_->shown.reset();
 }
 
-FrameSequence Access::suspend_sequence(Session& session) {
+FrameSequence Access::suspend(Session& session) {
     Session::Impl& self = *session.impl_;
     self.read_capture_times();
     self.history.units = self.units, self.history.edits = self.edits;
     return FrameSequence(std::make_unique<FrameSequence::Impl>(self.exchange_history({})));
 }
 
-void Access::resume_frame_sequence(Session& session, FrameSequence sequence) {
+void Access::resume(Session& session, FrameSequence sequence) {
     Session::Impl& self = *session.impl_;
-    History& next = sequence.sequence_impl_->history;
+    History& next = sequence.impl_->history;
     if (next.units != self.units) return session.forget();
     if (next.edits != self.edits) next.texts.clear(); // another plan may be suggested
     const std::optional<render::FrameFacts> last = next.last;
     self.exchange_history(std::move(next));
-    if (last) self.update_device_scene(last->now);
+    if (last) self.update_scene(last->now);
 }
 
-std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
-                                      GraphPlanFormat format) {
+std::string Access::format_plan(Session& session, const FrameSpec& spec, PlanFormat format) {
     Session::Impl& self = *session.impl_;
-    check_frame_spec(spec);
+    check_spec(spec);
     const std::vector<reflect::TechniquePlan> plans = self.find_plans(spec);
     render::FrameFacts facts{.seed = spec.seed, .now = make_shown_instant(spec)};
-    self.update_device_scene(facts.now);
+    self.update_scene(facts.now);
     facts.transforms = self.transforms;
-    const std::shared_ptr<const require::WorkModel> model = self.find_required_work_model(
-        plans, spec.model, false);
+    const std::shared_ptr<const require::WorkModel> model = self.find_model(plans, spec.model,
+                                                                            false);
     std::vector<reflect::CaptureHistory> keeping(plans.size(),
                                                  {*model, nullptr, &self.comparisons});
-    FrameGraph frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident, {},
-                                           keeping);
+    FrameGraph frame = declare_frame(spec, {}, facts, plans, self.mirrors, *self.resident, {},
+                                     keeping);
     // If captures are kept, the second frame compares them with those of the first. The returned
     // plan is that of the next frame, in which nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
@@ -310,19 +309,19 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
             keeping[i].before = frame.parts[i].outputs.kept;
             if (k > 0 && keeping[i].before) render::mark_unchanged(*keeping[i].before);
         }
-        frame = declare_frame_graph(spec, {}, facts, plans, self.mirrors, *self.resident,
-                                    frame.graph.next_history(), keeping);
+        frame = declare_frame(spec, {}, facts, plans, self.mirrors, *self.resident,
+                              frame.graph.next_history(), keeping);
     }
     const graph::GraphPlan& plan = self.runner.plan(frame.graph);
     switch (format) {
-    case GraphPlanFormat::dot: return graph::plan_to_dot(frame.graph, plan);
-    case GraphPlanFormat::json: return graph::plan_to_json(frame.graph, plan);
-    case GraphPlanFormat::text: break;
+    case PlanFormat::dot: return graph::plan_to_dot(frame.graph, plan);
+    case PlanFormat::json: return graph::plan_to_json(frame.graph, plan);
+    case PlanFormat::text: break;
     }
     return graph::plan_to_text(frame.graph, plan);
 }
 
-FrameTimes Access::measure_cube_clear_time(Session& session) {
+FrameTimes Access::measure_clear_time(Session& session) {
     Session::Impl& self = *session.impl_;
     constexpr std::uint32_t kClearCostCubeEdge = 256;
     const std::uint32_t mirrors = self.resident->mirror_count(), most = self.resident->max_cubes();
@@ -348,7 +347,7 @@ FrameTimes Access::measure_cube_clear_time(Session& session) {
     }
     ++self.counts.frames;
     self.last = self.runner.submit_frame(graph, graph::PassTiming::isolated);
-    return to_public_frame_times(self.runner.wait_for(*self.last));
+    return to_frame_times(self.runner.wait_for(*self.last));
 }
 
 } // namespace catoptric::session

@@ -15,7 +15,7 @@ bool has_capture_limit(const FrameSpec& spec) {
 }
 
 /// Returns the milliseconds of passes that draw, keep and compare captures.
-double sum_capture_milliseconds(const graph::GraphFrameTimes& times, const std::string& prefix) {
+double sum_capture_ms(const graph::GraphFrameTimes& times, const std::string& prefix) {
     double ms = 0;
     for (const graph::GraphPassTime& pass : times.passes)
         if (pass.name.starts_with(prefix + "capture")) ms += pass.end_ms - pass.begin_ms;
@@ -52,11 +52,11 @@ Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_co
     return keeping;
 }
 
-void Session::Impl::store_history_of_frame(const FrameSpec& spec, const render::FrameFacts& facts,
-                                           const FrameGraph& frame, graph::FrameTicket ticket) {
+void Session::Impl::store_history(const FrameSpec& spec, const render::FrameFacts& facts,
+                                  const FrameGraph& frame, graph::FrameTicket ticket) {
     history.last = facts;
     history.captures.clear();
-    for (const TechniqueGraphPart& part : frame.parts) {
+    for (const FramePart& part : frame.parts) {
         history.captures.push_back(part.outputs.kept);
         if (!part.outputs.kept) continue;
         part.outputs.kept->frame = ticket.frame;
@@ -64,12 +64,12 @@ void Session::Impl::store_history_of_frame(const FrameSpec& spec, const render::
     }
     if (spec.budget_ms == 0) return;
     history.timed = {ticket.frame, {}};
-    for (const TechniqueGraphPart& part : frame.parts)
+    for (const FramePart& part : frame.parts)
         history.timed->drawn.emplace_back(part.prefix,
                                           part.capture_budget ? part.capture_budget->drawn : 0);
 }
 
-void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
+void Session::Impl::wait_for_results(const FrameSpec& spec) {
     const auto must_learn = [&](const std::shared_ptr<render::CaptureCache>& one) {
         return one && render::must_read_comparisons(*one, has_capture_limit(spec));
     };
@@ -81,14 +81,13 @@ void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
 
 void Session::Impl::read_capture_times() {
     if (!history.timed) return;
-    const PendingTimedFrame timed = *std::exchange(history.timed, std::nullopt);
+    const TimedFrame timed = *std::exchange(history.timed, std::nullopt);
     // The times of the frame may have been overwritten by frames that keep the history unchanged.
     if (last->frame >= timed.frame + read_by.size()) return;
     const graph::GraphFrameTimes& times = runner.wait_for({timed.frame});
     history.costs.resize(timed.drawn.size());
     for (std::size_t i = 0; i < timed.drawn.size(); ++i)
-        history.costs[i].add(sum_capture_milliseconds(times, timed.drawn[i].first),
-                             timed.drawn[i].second);
+        history.costs[i].add(sum_capture_ms(times, timed.drawn[i].first), timed.drawn[i].second);
 }
 
 std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t part,
@@ -98,7 +97,7 @@ std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t pa
     const auto captured = static_cast<std::uint32_t>(
         std::ranges::count_if(model.mirrors, &require::MirrorRequirements::is_captured));
     return part < history.costs.size()
-               ? history.costs[part].count_affordable_captures(spec.budget_ms, captured)
+               ? history.costs[part].count_affordable(spec.budget_ms, captured)
                : captured;
 }
 

@@ -28,7 +28,7 @@ struct Session::Impl {
                       [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
           runner(shared.device, shared.pipelines, in_flight, &history.retained),
           read_by(in_flight, 0) {
-        mirrors = list_mirror_names(scene);
+        mirrors = mirror_names(scene);
     }
 
     /// Submits a frame. `finish` adds passes that belong to no technique; empty: none.
@@ -41,33 +41,33 @@ struct Session::Impl {
     /// Makes a cut: the next frame follows no other. What is known of costs stays.
     void cut();
     /// Returns the scene at the instant of `shown`. A scene that is not animated is not copied.
-    const scene::Scene& scene_at_current_instant() const { return moved ? *moved : scene; }
+    const scene::Scene& shown_scene() const { return moved ? *moved : scene; }
     /// Writes the scene data that `wanted` needs and the device lacks. Returns the milliseconds of
     /// work.
-    double update_device_scene(const render::ShownInstant& wanted);
-    double write_device_scene(const render::ShownInstant& wanted);
+    double update_scene(const render::ShownInstant& wanted);
+    double write_scene(const render::ShownInstant& wanted);
     /// Waits until no frame in flight reads copy `of` of the scene data.
-    void wait_until_scene_copy_is_free(std::size_t copy_index);
+    void wait_for_copy(std::size_t copy_index);
     /// Returns the plans of the frame's techniques: those of the last frame if the texts are equal.
     /// Otherwise reads the texts, and `auto` chooses.
     std::vector<reflect::TechniquePlan> find_plans(const FrameSpec& spec) const;
     /// Returns the facts of the next frame, and writes what it shows of the scene to the device.
     /// Adds the milliseconds of that to `update_ms`.
-    render::FrameFacts prepare_frame_facts(const FrameSpec& spec, double& update_ms);
+    render::FrameFacts prepare_facts(const FrameSpec& spec, double& update_ms);
     /// Submits the graph of a frame. A frame that is stopped leaves the session without history.
     graph::FrameTicket run_graph(const graph::Graph& graph, const FrameSpec& spec,
                                  const graph::ExternalSemaphores& outside, bool counts_work);
     /// Returns the model of the scene at its present instant, for these techniques.
     const std::shared_ptr<const require::WorkModel>&
-    find_required_work_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
-                             bool is_ablated);
+    find_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
+               bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
     std::vector<reflect::CaptureHistory> find_capture_histories(const FrameSpec& spec,
                                                                 std::size_t plan_count,
                                                                 const require::WorkModel& model,
                                                                 bool follows);
     /// Waits for results of earlier frames that this frame needs.
-    void wait_for_needed_results(const FrameSpec& spec);
+    void wait_for_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.
     std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
                                 const require::WorkModel& model) const;
@@ -75,8 +75,8 @@ struct Session::Impl {
     /// frame.
     void read_capture_times();
     /// Stores what a submitted frame leaves for the next one.
-    void store_history_of_frame(const FrameSpec& spec, const render::FrameFacts& facts,
-                                const FrameGraph& frame, graph::FrameTicket ticket);
+    void store_history(const FrameSpec& spec, const render::FrameFacts& facts,
+                       const FrameGraph& frame, graph::FrameTicket ticket);
 
     Access::EngineImpl& engine_impl;
     scene::Scene scene;
@@ -115,12 +115,10 @@ struct Frame::Impl {
     mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
 
     graph::GraphRunner& graph_runner() const { return session->runner; }
-    const TechniqueGraphPart& technique_part_at_index(std::size_t index) const {
-        return frame.parts.at(index);
-    }
-    const graph::GraphPlan& current_graph_plan() const { return graph_runner().plan(frame.graph); }
+    const FramePart& part(std::size_t index) const { return frame.parts.at(index); }
+    const graph::GraphPlan& graph_plan() const { return graph_runner().plan(frame.graph); }
     /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
-    void check_is_last_frame() const {
+    void check_is_last() const {
         check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
               ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
               " was rendered over it");
@@ -131,6 +129,6 @@ struct Frame::Impl {
 void check_capture_limit(const FrameSpec& spec);
 
 /// Returns the runner's times under the names that callers know.
-FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times);
+FrameTimes to_frame_times(const graph::GraphFrameTimes& times);
 
 } // namespace catoptric::session

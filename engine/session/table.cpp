@@ -28,7 +28,7 @@ std::vector<TechniqueInfo> techniques() {
     return infos;
 }
 
-std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice) {
+std::vector<Setting> knob_settings(const reflect::TechniqueChoice& choice) {
     std::vector<Setting> settings;
     const KnobSettings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs) {
@@ -47,12 +47,12 @@ const TechniqueTraits& ParsedTechnique::traits() const {
 }
 
 ParsedTechnique parse_technique(const std::string& text) {
-    const reflect::TechniquePlan plan = read_technique_plan(text);
+    const reflect::TechniquePlan plan = read_plan(text);
     if (plan.is_auto) return {plan.label, plan.label, plan.file_name(), {}};
     if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
     const reflect::TechniqueChoice& choice = plan.rules.front().choice;
     return {std::string(choice.technique->name), choice.label, choice.file_name(),
-            list_knob_settings(choice), &choice.technique->traits};
+            knob_settings(choice), &choice.technique->traits};
 }
 
 } // namespace catoptric::session

@@ -9,6 +9,6 @@
 namespace catoptric::session {
 
 /// Returns all knobs of a technique, with their values.
-std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice);
+std::vector<Setting> knob_settings(const reflect::TechniqueChoice& choice);
 
 } // namespace catoptric::session

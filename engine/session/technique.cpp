@@ -16,22 +16,22 @@ namespace catoptric::session {
 namespace {
 
 /// Storage that a row of the technique table points into.
-struct TechniqueRowStorage {
+struct StoredRow {
     Search search;
     std::vector<Knob> knobs;
     std::vector<std::string_view> compared;
     reflect::Technique row;
 };
 
-bool is_technique_word(const std::string& name) {
+bool is_word(const std::string& name) {
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     };
     return !name.empty() && std::ranges::all_of(name, fits);
 }
 
-void check_search_definition(const Search& search) {
-    check(is_technique_word(search.name), Failure::usage, "technique '", search.name,
+void check_search(const Search& search) {
+    check(is_word(search.name), Failure::usage, "technique '", search.name,
           "': wanted a name of small letters, digits and '_'");
     for (const reflect::Technique* row : reflect::techniques())
         check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
@@ -43,7 +43,7 @@ void check_search_definition(const Search& search) {
               "technique '", search.name, "': wanted rows of its own to compare, found '", row,
               "'");
     for (const SearchKnob& knob : search.knobs) {
-        check(is_technique_word(knob.name), Failure::usage, "technique '", search.name, "': knob '",
+        check(is_word(knob.name), Failure::usage, "technique '", search.name, "': knob '",
               knob.name, "': wanted a name of small letters, digits and '_'");
         const double most = std::numeric_limits<std::uint32_t>::max();
         check(knob.is_real ||
@@ -94,10 +94,10 @@ RegisteredShaders::RegisteredShaders(std::span<const Shader> builds) {
 }
 
 void add_search(Search search) {
-    static std::deque<TechniqueRowStorage> all; // a deque, because rows must not move in memory
-    check_search_definition(search);
+    static std::deque<StoredRow> all; // a deque, because rows must not move in memory
+    check_search(search);
     static_cast<void>(search_knobs(search)); // throws before anything is stored
-    TechniqueRowStorage& row = all.emplace_back();
+    StoredRow& row = all.emplace_back();
     row.search = std::move(search);
     row.knobs = search_knobs(row.search);
     if (row.search.compared.empty()) row.search.compared.push_back(row.search.name);

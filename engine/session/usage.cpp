@@ -50,34 +50,33 @@ double read_thread_seconds() {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-std::optional<double> subtract_counts_if_known(const std::optional<double>& after,
-                                               const std::optional<double>& before) {
+std::optional<double> difference(const std::optional<double>& after,
+                                 const std::optional<double>& before) {
     return after && before ? std::optional(*after - *before) : std::nullopt;
 }
 
 } // namespace
 
 ProcessorUsage ProcessorUsage::operator-(const ProcessorUsage& before) const {
-    return {cpu_ms - before.cpu_ms, subtract_counts_if_known(cycles, before.cycles),
-            subtract_counts_if_known(instructions, before.instructions)};
+    return {cpu_ms - before.cpu_ms, difference(cycles, before.cycles),
+            difference(instructions, before.instructions)};
 }
 
-ProcessorUsageMeter::ProcessorUsageMeter(CountedThreadChoice of) : of_(of) {
+UsageMeter::UsageMeter(Threads of) : of_(of) {
     for (std::size_t i = 0; i < kPerfEventCodes.size(); ++i) {
-        counters_[i] = open_perf_counter(kPerfEventCodes[i], of == CountedThreadChoice::process);
+        counters_[i] = open_perf_counter(kPerfEventCodes[i], of == Threads::process);
         if (counters_[i] < 0 && uncounted_.empty())
             uncounted_ = "perf_event_open: " + std::generic_category().message(errno);
     }
 }
 
-ProcessorUsageMeter::~ProcessorUsageMeter() {
+UsageMeter::~UsageMeter() {
     for (const int counter : counters_)
         if (counter >= 0) ::close(counter);
 }
 
-ProcessorUsage ProcessorUsageMeter::read() const {
-    const double seconds = of_ == CountedThreadChoice::process ? read_process_seconds()
-                                                               : read_thread_seconds();
+ProcessorUsage UsageMeter::read() const {
+    const double seconds = of_ == Threads::process ? read_process_seconds() : read_thread_seconds();
     return {1e3 * seconds, read_perf_counter(counters_[0]), read_perf_counter(counters_[1])};
 }
 

@@ -18,9 +18,9 @@ struct ProcessorUsage {
 };
 
 /// Meter of the processor time that threads have used.
-class ProcessorUsageMeter {
+class UsageMeter {
 public:
-    enum class CountedThreadChoice : std::uint8_t {
+    enum class Threads : std::uint8_t {
         /// Only the thread that made the meter is measured, and only that thread may read the
         /// meter.
         caller,
@@ -29,18 +29,18 @@ public:
         /// Therefore make the meter before other threads begin.
         process
     };
-    explicit ProcessorUsageMeter(CountedThreadChoice of);
-    ~ProcessorUsageMeter();
-    ProcessorUsageMeter(const ProcessorUsageMeter&) = delete;
-    ProcessorUsageMeter& operator=(const ProcessorUsageMeter&) = delete;
+    explicit UsageMeter(Threads of);
+    ~UsageMeter();
+    UsageMeter(const UsageMeter&) = delete;
+    UsageMeter& operator=(const UsageMeter&) = delete;
 
     /// Returns the usage so far. Costs a few microseconds.
     ProcessorUsage read() const;
     /// Returns why cycles are not counted, in words; empty: they are.
-    const std::string& reason_cycles_are_uncounted() const { return uncounted_; }
+    const std::string& why_uncounted() const { return uncounted_; }
 
 private:
-    CountedThreadChoice of_;
+    Threads of_;
     std::array<int, 2> counters_{-1, -1}; ///< file descriptors: cycles, instructions
     std::string uncounted_;
 };

@@ -8,8 +8,8 @@
 // Calls of a Watcher's members.
 namespace catoptric::session {
 
-inline void report_row_to_watcher(const Watcher& watcher, const std::string& label,
-                                  std::size_t index, std::size_t count) {
+inline void report_row(const Watcher& watcher, const std::string& label, std::size_t index,
+                       std::size_t count) {
     if (watcher.on_row) watcher.on_row(label, index, count);
 }
 /// Throws if a stop is asked for: `hangup` (1), `terminated` (15), else `interrupted`.
@@ -17,7 +17,7 @@ inline void throw_if_stopped(const Watcher& watcher) {
     if (watcher.stop) throw_if_signalled(watcher.stop->load());
 }
 /// Reports a frame, then checks for a stop.
-inline void report_frame_to_watcher(const Watcher& watcher, int number, int count) {
+inline void report_frame(const Watcher& watcher, int number, int count) {
     if (watcher.on_frame) watcher.on_frame(number, count);
     throw_if_stopped(watcher);
 }

@@ -17,7 +17,7 @@ std::vector<PassWork> count_frame_work(Session& session, const Request& request,
         const Frame frame = Access::render_frame(session, spec, {.counts_work = k == last});
         frame.times(); // waits, so that a stop signal takes effect soon
         if (k == last) work = Access::pass_work(frame);
-        report_frame_to_watcher(watcher, k, last);
+        report_frame(watcher, k, last);
     }
     return work;
 }

@@ -293,10 +293,10 @@ void check_light_is_ambient(const CompareRequest& request) {
           request.base.scene.environment_shadows,
           "; the rays that replace removed causes are lit by the whole environment");
     for (const std::string& text : request.base.techniques) {
-        check(!read_technique_plan(text).has_probe_light(), Failure::usage,
+        check(!read_plan(text).has_probe_light(), Failure::usage,
               "--causes: wanted rows without light probes, found '", text,
               "'; causes of error in their light are not known");
-        check(!read_technique_plan(text).occludes_environment(), Failure::usage,
+        check(!read_plan(text).occludes_environment(), Failure::usage,
               "--causes: wanted rows without ambient occlusion, found '", text,
               "'; the reference is lit by the whole environment");
     }
@@ -330,11 +330,11 @@ void measure_error_causes(const StudyInput& input) {
     for (std::size_t i = 0; i < request.base.techniques.size(); ++i) {
         const std::string& text = request.base.techniques[i];
         // Plans are left out, because their error belongs to several searches.
-        const bool is_plan = !read_technique_plan(text).is_technique;
+        const bool is_plan = !read_plan(text).is_technique;
         const bool is_twin = request.both_models &&
-                             rows[i].model == rendered_work_name(RenderedWork::required);
+                             rows[i].model == work_name(RenderedWork::required);
         if (!rows[i].lookup || is_plan || is_twin) continue;
-        report_row_to_watcher(request.watcher, "causes of " + text, i, rows.size());
+        report_row(request.watcher, "causes of " + text, i, rows.size());
         if (!finder)
             finder.emplace(input.session, request.base, truth.part.hdr,
                            input.truth.find_mirror_hits(), request.watcher,

@@ -26,7 +26,7 @@ Json make_plan_rules_json(const std::string& text) {
         return document.is_object() ? document.value("plan", Json()) : document;
     }
     Json rules = Json::array();
-    if (text == reflect::kAutoPlanName || read_technique_plan(text).is_technique) {
+    if (text == reflect::kAutoPlanName || read_plan(text).is_technique) {
         rules.push_back({{"mirror", "*"}, {"technique", text}});
         return rules;
     }

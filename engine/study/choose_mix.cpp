@@ -38,7 +38,7 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
     std::vector<std::string> texts;
     std::vector<std::vector<double>> pixels;
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        if (!read_technique_plan(plans[i].text).is_technique) continue;
+        if (!read_plan(plans[i].text).is_technique) continue;
         measure::MixCandidate candidate{plans[i].ms, {}};
         pixels.clear();
         for (const measure::Errors& view : training.rows[i].views) {

@@ -88,7 +88,7 @@ public:
     }
 
     report::Comparison run_whole_comparison() {
-        resolve_auto_exposure(shared_session_, compare_request_.base);
+        resolve_exposure(shared_session_, compare_request_.base);
         list_rows_to_measure();
         prepare_comparison();
         // Certificates are read now, because a plan's file may change or vanish while rows are
@@ -179,7 +179,7 @@ private:
             compare_request_.base.load_ms, setup.upload_ms, setup.hierarchy_ms,
             compiled.ms - compiled_before_.ms, compiled.pipelines - compiled_before_.pipelines,
             kCacheStateNames[static_cast<std::size_t>(
-                Access::pipeline_cache_state_of_engine(comparison_engine_))]});
+                Access::pipeline_cache_state(comparison_engine_))]});
         comparison_.load_end = read_machine_load();
         comparison_.warnings = compare_request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)
@@ -197,7 +197,7 @@ private:
                                                        comparison_.rounds, round);
         std::vector<double> samples;
         for (int k = 0; k < warmup + frames; ++k) {
-            const FrameTimes times = Access::measure_cube_clear_time(shared_session_);
+            const FrameTimes times = Access::measure_clear_time(shared_session_);
             if (k >= warmup) samples.push_back(times.passes_ms);
             throw_if_stopped(compare_request_.watcher);
         }
@@ -333,7 +333,7 @@ private:
 
     void measure_all_rounds() {
         const PinnedThreads held;
-        comparison_.device.held_threads = static_cast<int>(held.pinned_thread_count());
+        comparison_.device.held_threads = static_cast<int>(held.count());
         for (int round = 0; round < comparison_.rounds; ++round) measure_round_of_rows(round);
         if (repeats_first_round()) measure_first_round_again();
         runs_.clear(); // frees also the device memory of their histories
@@ -348,12 +348,11 @@ private:
         // follows another, whose remaining work could disturb it.
         for (std::size_t place = 0; place < all.size(); ++place) {
             const std::size_t group = round % 2 == 0 ? place : all.size() - 1 - place;
-            report_row_to_watcher(compare_request_.watcher,
-                                  describe_rows_measured_together(group) + ", round " +
-                                      std::to_string(round + 1) + " of " +
-                                      std::to_string(comparison_.rounds),
-                                  static_cast<std::size_t>(round) * all.size() + place,
-                                  count_row_measurements(all.size()));
+            report_row(compare_request_.watcher,
+                       describe_rows_measured_together(group) + ", round " +
+                           std::to_string(round + 1) + " of " + std::to_string(comparison_.rounds),
+                       static_cast<std::size_t>(round) * all.size() + place,
+                       count_row_measurements(all.size()));
             measure_round_of_row(group, all[group], round);
         }
         // If the first round will be measured again, files are not written now, because that would
@@ -367,7 +366,7 @@ private:
         std::string text = compare_request_.together
                                ? "all rows in one frame"
                                : group_rows_rendered_together()[group].front();
-        if (compare_request_.both_models) text += ", model " + rendered_work_name(models_[group]);
+        if (compare_request_.both_models) text += ", model " + work_name(models_[group]);
         return text;
     }
 
@@ -386,11 +385,10 @@ private:
     void measure_first_round_again() {
         std::vector<double> clear_ms = measure_cube_clear_times(0, 0);
         for (std::size_t group = 0; group < runs_.size(); ++group) {
-            report_row_to_watcher(compare_request_.watcher,
-                                  describe_rows_measured_together(group) + ", first round again",
-                                  static_cast<std::size_t>(comparison_.rounds) * runs_.size() +
-                                      group,
-                                  count_row_measurements(runs_.size()));
+            report_row(compare_request_.watcher,
+                       describe_rows_measured_together(group) + ", first round again",
+                       static_cast<std::size_t>(comparison_.rounds) * runs_.size() + group,
+                       count_row_measurements(runs_.size()));
             runs_[group]->measure_first_round_again();
             runs_[group]->suspend_frames();
         }
@@ -451,9 +449,9 @@ private:
                                  (compare_request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));
             if (changed && repeats_first_round())
-                unjudged_.push_back({index, {parts[i], run.rendered_frame_count()}});
+                unjudged_.push_back({index, {parts[i], run.frame_number()}});
             else if (first || changed)
-                judge_row(index, {parts[i], run.rendered_frame_count()});
+                judge_row(index, {parts[i], run.frame_number()});
             if (first) report_progress();
         }
     }

@@ -56,7 +56,7 @@ void check_round_limit(int rounds) {
 void check_row_techniques(const std::vector<std::string>& techniques) {
     std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
-        reflect::TechniquePlan plan = read_technique_plan(text);
+        reflect::TechniquePlan plan = read_plan(text);
         for (const reflect::TechniquePlan& other : plans)
             check(!plan.is_same(other), Failure::usage, "technique '", text,
                   "' is asked for twice");
@@ -68,8 +68,8 @@ void check_compare_request(const CompareRequest& request) {
     scene::check_scene(request.base.scene);
     check_row_techniques(request.base.techniques);
     for (const std::string& text : request.base.techniques)
-        if (const reflect::TechniquePlan plan = read_technique_plan(text); !plan.is_auto)
-            reflect::assign_techniques(plan, list_mirror_names(request.base.scene));
+        if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto)
+            reflect::assign_techniques(plan, mirror_names(request.base.scene));
     check_picture_rows(request);
     check_has_mirror(request.base.scene);
     check_round_limit(request.rounds);

@@ -152,7 +152,7 @@ report::Row make_row_description(const std::string& text, const TechniqueResult&
     row.settings = choice.settings;
     row.image = choice.file_name;
     row.plan = part.plan;
-    row.model = rendered_work_name(part.model);
+    row.model = work_name(part.model);
     for (const auto& [what, why, saves, error] : part.left_out)
         row.left_out.push_back({what, why, saves, error});
     row.scene_passes = part.scene_passes;

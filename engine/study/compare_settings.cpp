@@ -31,7 +31,7 @@ void fill_comparison_settings(const CompareRequest& request, report::Comparison&
     comparison.ambient = base.ambient;
     comparison.exposure = base.auto_exposure ? NAN : base.exposure;
     comparison.timing = base.timing == PassTimingMode::isolated ? "isolated" : "pipelined";
-    comparison.model = request.both_models ? "both" : rendered_work_name(base.model);
+    comparison.model = request.both_models ? "both" : work_name(base.model);
     comparison.together = request.together;
     const ParsedTechnique reference = parse_technique(request.reference);
     comparison.reference_technique = reference.technique;

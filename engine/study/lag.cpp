@@ -154,8 +154,7 @@ private:
     };
 
     void begin_row_progress(const std::string& label, std::size_t index, int frames) {
-        report_row_to_watcher(lag_request_.watcher, label, index,
-                              lag_request_.base.techniques.size() + 1);
+        report_row(lag_request_.watcher, label, index, lag_request_.base.techniques.size() + 1);
         frames_done_ = 0;
         frames_expected_ = frames;
     }
@@ -168,7 +167,7 @@ private:
         spec.model =
             RenderedWork::required; // gives the same pictures, and their times are not used
         const Frame made = lag_session_.frame(spec);
-        report_frame_to_watcher(lag_request_.watcher, ++frames_done_, frames_expected_);
+        report_frame(lag_request_.watcher, ++frames_done_, frames_expected_);
         return made;
     }
     /// Begins a run of frames without history. `frames_before`: frames of the progress that count

@@ -27,7 +27,7 @@ std::vector<std::string> list_warnings_of_light_models(const CompareRequest& req
             return setting.name == "indirect" && setting.text == "paths";
         }))
         return {}; // paths show all light
-    const reflect::TechniquePlan plan = read_technique_plan(technique);
+    const reflect::TechniquePlan plan = read_plan(technique);
     const scene::Scene& scene = request.base.scene;
     const bool hides_environment = scene.environment && scene.environment_shadows > 0;
     std::vector<std::string> warnings;

@@ -49,11 +49,11 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
     mirror_objects_ = scene::mirrors(now);
     for (const scene::Object& object : now.objects)
         emits_.push_back(scene::is_visibly_emissive(now.materials[object.material]));
-    everything_ = build_bvh_without_object(geometry_, geometry_.ranges.size());
+    everything_ = build_bvh_without(geometry_, geometry_.ranges.size());
     for (const dvec3& centre : scene::capture_centres(now))
         centres_.push_back(space.to_scene_point(centre));
     for (const std::size_t object : mirror_objects_) {
-        without_.push_back(build_bvh_without_object(geometry_, object));
+        without_.push_back(build_bvh_without(geometry_, object));
     }
     trace_true_hits_of_request(request);
 }

@@ -198,11 +198,10 @@ void trace_path_distance(const Engine& engine, PathPictures& pictures, const Wat
     const auto used = [&] { return read_used_seconds(engine) - start; };
     double last = 0; // seconds of the last two frames
     do {
-        report_row_to_watcher(
-            watcher,
-            fmt::format("distance to path tracing, {} paths a pixel", pictures.path_count()),
-            static_cast<std::size_t>(used()),
-            static_cast<std::size_t>(std::ceil(distance.most_seconds)));
+        report_row(watcher,
+                   fmt::format("distance to path tracing, {} paths a pixel", pictures.path_count()),
+                   static_cast<std::size_t>(used()),
+                   static_cast<std::size_t>(std::ceil(distance.most_seconds)));
         const double before = used();
         pictures.add_frame(0);
         distance.seconds = used();

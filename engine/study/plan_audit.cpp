@@ -251,18 +251,18 @@ measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session
     traced.camera = view.camera, traced.size = view.size;
     traced.most_captures = 0, traced.budget_ms = 0;
     const measure::Picture samples = sample_picture(running, view);
-    FrameSequence sequence = Access::suspend_sequence(session); // keeps choices of the first frame,
-                                                                // such as those of `auto`
+    FrameSequence sequence = Access::suspend(session); // keeps choices of the first frame,
+                                                       // such as those of `auto`
     measure::Difference difference;
     try {
         difference = does_reference_have_noise(request_.reference, session.scene())
                          ? compare_with_halves(session, samples, traced)
                          : compare_with_one_picture(session, samples, traced);
     } catch (...) {
-        Access::resume_frame_sequence(session, std::move(sequence));
+        Access::resume(session, std::move(sequence));
         throw;
     }
-    Access::resume_frame_sequence(session, std::move(sequence));
+    Access::resume(session, std::move(sequence));
     return difference;
 }
 
@@ -285,8 +285,7 @@ bool RunningPlanAudit::shows_audited_plan(const FrameSpec& spec) {
     const std::string& shown = spec.techniques.front();
     if (shown == plan()) return true;
     if (shown != compared_plans_.shown || plan() != compared_plans_.audited)
-        compared_plans_ = {shown, plan(),
-                           read_technique_plan(shown).is_same(read_technique_plan(plan()))};
+        compared_plans_ = {shown, plan(), read_plan(shown).is_same(read_plan(plan()))};
     return compared_plans_.are_same;
 }
 

@@ -19,7 +19,7 @@ struct PlanCertificate {
 };
 
 /// Returns the certificate of each row that is a plan from a file. Other rows, and files without a
-/// proved plan, get none. `texts`: the texts of the rows. Throws as read_technique_plan does.
+/// proved plan, get none. `texts`: the texts of the rows. Throws as read_plan does.
 std::vector<std::optional<PlanCertificate>>
 read_plan_certificates(const std::vector<std::string>& texts);
 

@@ -155,7 +155,7 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
         reference.part = std::move(results.front().parts.front());
     update_picture(reference);
     noisy.seconds += 1e-3 * ms_since(start);
-    report_frame_to_watcher(watcher_, 1, 1);
+    report_frame(watcher_, 1, 1);
     return true;
 }
 
@@ -284,10 +284,10 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
     };
     const auto report = [&](bool has_grown) {
         const NoisyReference& noisy = *reference.noisy;
-        report_row_to_watcher(watcher_,
-                              "reference " + noisy.technique + ", " +
-                                  std::to_string(noisy.a.count()) + " frames a half",
-                              has_grown ? static_cast<std::size_t>(noisy.seconds) : 0, whole);
+        report_row(watcher_,
+                   "reference " + noisy.technique + ", " + std::to_string(noisy.a.count()) +
+                       " frames a half",
+                   has_grown ? static_cast<std::size_t>(noisy.seconds) : 0, whole);
     };
     bool has_grown = false;
     for (; !is_done(); has_grown = true) {

@@ -37,7 +37,7 @@ std::string set_knob_number(const ParsedTechnique& choice, std::string_view knob
 std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     std::set<int> seeds{0};
     for (const std::string& row : rows)
-        for (const reflect::PlanRule& rule : read_technique_plan(row).rules)
+        for (const reflect::PlanRule& rule : read_plan(row).rules)
             for (const Knob& knob : rule.choice.settings.knobs())
                 if (knob.name == rule.choice.technique->traits.seed)
                     seeds.insert(rule.choice.settings.integer(knob));

@@ -48,24 +48,24 @@ void RowMeasurement::replace_first_round() { rounds_.front() = std::move(first_r
 void RowMeasurement::measure_one_round_of_frames(int frames) {
     const auto render = [&](int count) {
         for (int k = 0; k < count && frames_.render_next(); ++k)
-            report_frame_to_watcher(watcher_, frames_.rendered_frame_count(), row_request_.total());
+            report_frame(watcher_, frames_.frame_number(), row_request_.total());
     };
     if (rounds_.empty()) {
-        noisy_ = !read_processor_use() &&
+        noisy_ = !read_processor_times() &&
                  session::is_timing_noisy(read_machine_load(), read_process_seconds(),
                                           measure_elapsed_seconds());
         render(row_request_.warmup);
     }
-    const std::size_t before = frames_.list_frame_times().size();
-    const std::optional<ProcessorUsageSoFar> start = read_processor_use();
+    const std::size_t before = frames_.times().size();
+    const std::optional<ProcessorTimes> start = read_processor_times();
     render(frames);
-    if (const std::optional<ProcessorUsageSoFar> end = read_processor_use(); start && end) {
-        waiting_ += compute_waiting_times(*start, *end);
-        waited_ = compute_waited_share(waiting_);
+    if (const std::optional<ProcessorTimes> end = read_processor_times(); start && end) {
+        waiting_ += waiting_times(*start, *end);
+        waited_ = waiting_share(waiting_);
         noisy_ = session::is_timing_noisy(waited_);
     }
-    rounds_.emplace_back(frames_.list_frame_times().begin() + static_cast<std::ptrdiff_t>(before),
-                         frames_.list_frame_times().end());
+    rounds_.emplace_back(frames_.times().begin() + static_cast<std::ptrdiff_t>(before),
+                         frames_.times().end());
 }
 
 } // namespace catoptric::study

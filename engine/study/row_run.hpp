@@ -46,11 +46,11 @@ public:
     /// Returns the results of the last frame. Call before `suspend_frames`.
     std::vector<TechniqueResult> list_technique_results() const { return frames_.result().parts; }
     /// Frees the session for other frames until the next `measure_one_round_of_frames`.
-    void suspend_frames() { frames_.suspend_frame_loop(); }
+    void suspend_frames() { frames_.suspend(); }
 
     std::size_t technique_count() const { return row_request_.techniques.size(); }
     /// Returns the number of the last frame, from 1.
-    int rendered_frame_count() const { return frames_.rendered_frame_count(); }
+    int frame_number() const { return frames_.frame_number(); }
     const std::vector<std::vector<FrameTimes>>& list_rounds() const { return rounds_; }
     /// Returns the mean of the waited share over all rounds: the part of the time in which the
     /// row's threads waited for a processor. NaN if the system does not report waiting.
@@ -66,7 +66,7 @@ private:
     FrameLoop frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
     std::vector<FrameTimes> first_round_again_;
-    ProcessorWaitingTimes waiting_; ///< sum over all rounds
+    WaitingTimes waiting_; ///< sum over all rounds
     double waited_ = std::numeric_limits<double>::quiet_NaN();
     bool noisy_ = false;
 };

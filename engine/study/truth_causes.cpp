@@ -262,10 +262,10 @@ void split_distance_to_path_tracing(const StudyInput& input) {
         std::max(std::ceil(input.request.reference_seconds), 1.0));
     double seconds = 0, round = 0;
     do {
-        report_row_to_watcher(input.request.watcher,
-                              "references of the truth causes, " +
-                                  std::to_string(chain.back()->frame_count()) + " frames a half",
-                              std::min(static_cast<std::size_t>(seconds), most), most);
+        report_row(input.request.watcher,
+                   "references of the truth causes, " +
+                       std::to_string(chain.back()->frame_count()) + " frames a half",
+                   std::min(static_cast<std::size_t>(seconds), most), most);
         for (const std::unique_ptr<ChainPictures>& pictures : chain) pictures->add_frames(seeds);
         const double before = seconds;
         seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

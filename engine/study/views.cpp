@@ -245,10 +245,10 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     int warned = 0;
     std::size_t finished = 0; // number of finished pictures
     const auto report_picture = [&](std::size_t view, const std::string& what) {
-        report_row_to_watcher(request.watcher,
-                              "view " + std::to_string(view + 1) + " of " + std::to_string(count) +
-                                  ": " + what,
-                              finished++, count * pictures);
+        report_row(request.watcher,
+                   "view " + std::to_string(view + 1) + " of " + std::to_string(count) + ": " +
+                       what,
+                   finished++, count * pictures);
     };
     double seconds_left = request.reference_seconds;
     std::vector<const report::Row*> rows;
@@ -281,8 +281,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                 const bool continues = i > first || (first == 0 && request.continues_instant);
                 const RunResult result = run_with_history(
                     request.row_sessions.empty() ? session : *request.row_sessions[k], one,
-                    request.watcher,
-                    continues ? FrameHistoryState::of_last_frame : FrameHistoryState::none);
+                    request.watcher, continues ? StartHistory::of_last_frame : StartHistory::none);
                 add_view_errors(
                     comparison.rows[k], result.parts.front(),
                     truth.cache.get_reference(find_sample_count(parse_technique(texts[k]))),

@@ -55,10 +55,10 @@ void count_row_work(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
     for (std::size_t i = 0; i < input.request.base.techniques.size(); ++i) {
         if (measure::has_counted_work(rows[i])) continue;
-        report_row_to_watcher(input.request.watcher, rows[i].label + ": work", i, rows.size());
+        report_row(input.request.watcher, rows[i].label + ": work", i, rows.size());
         Request request = input.request.base;
         request.techniques = {input.request.base.techniques[i]};
-        request.model = rows[i].model == rendered_work_name(RenderedWork::required)
+        request.model = rows[i].model == work_name(RenderedWork::required)
                             ? RenderedWork::required
                             : RenderedWork::everything;
         measure::set_work(rows[i], count_frame_work(input.session, request, input.request.watcher));

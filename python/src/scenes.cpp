@@ -71,7 +71,7 @@ void bind_camera(nb::module_& module) {
         });
 }
 
-std::vector<std::string> list_mirror_names(const scene::Scene& scene) {
+std::vector<std::string> mirror_names(const scene::Scene& scene) {
     std::vector<std::string> names;
     for (const std::size_t index : scene::mirrors(scene))
         names.push_back(scene.objects[index].name);
@@ -79,7 +79,7 @@ std::vector<std::string> list_mirror_names(const scene::Scene& scene) {
 }
 
 std::vector<std::tuple<std::string, std::uint64_t, std::string>>
-list_unsupported_features(const scene::Scene& scene) {
+unsupported_features(const scene::Scene& scene) {
     std::vector<std::tuple<std::string, std::uint64_t, std::string>> features;
     for (const scene::UnsupportedFeature& feature : scene.unsupported)
         features.emplace_back(feature.id, feature.count, feature.first);
@@ -115,11 +115,11 @@ void bind_scenes(nb::module_& module) {
         .def_prop_ro(
             "cameras", [](const scene::Scene& scene) { return scene.cameras; },
             "The scene's cameras. The first one is the default of frames and comparisons.")
-        .def_prop_ro("mirrors", &list_mirror_names,
+        .def_prop_ro("mirrors", &mirror_names,
                      "The names of the mirrors. Mirror n, counted from 1, is entry n-1.")
         .def_prop_ro("triangles", &scene::triangle_count, "The number of triangles.")
         .def_ro("exposure", &scene::Scene::exposure, "Stops, if the file gives them, else None.")
-        .def_prop_ro("unsupported", &list_unsupported_features,
+        .def_prop_ro("unsupported", &unsupported_features,
                      "What the file has and Catoptric does not draw: identifier, count, and place "
                      "of the first.")
         .def_prop_ro(

@@ -46,7 +46,7 @@ BenchmarkRound divide_by_iterations(int iterations, double real_ms, const Proces
 
 class BenchmarkRunner {
 public:
-    BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const ProcessorUsageMeter& meter,
+    BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
                     const BenchOptions& options)
         : benchmark_subjects_(subjects), meter_(meter), options_(options),
           rounds_(study::choose_round_count(options.iterations, options.rounds)) {
@@ -78,8 +78,7 @@ private:
     void report_progress(std::size_t index, const std::string& doing) const {
         const std::size_t steps = benchmark_subjects_.size() *
                                   (static_cast<std::size_t>(rounds_) + 1);
-        report_row_to_watcher(options_.watcher, benchmark_subjects_[index].name + doing, done_,
-                              steps);
+        report_row(options_.watcher, benchmark_subjects_[index].name + doing, done_, steps);
     }
 
     void report_finished_subject(const BenchmarkSubject& subject) {
@@ -92,7 +91,7 @@ private:
         report_progress(index, ", warm-up");
         for (int k = 1; k <= subject.warmup; ++k) {
             subject.work();
-            report_frame_to_watcher(options_.watcher, k, subject.warmup);
+            report_frame(options_.watcher, k, subject.warmup);
         }
         report_finished_subject(subject);
     }
@@ -112,7 +111,7 @@ private:
         sums.caller = caller_meter_.read() - caller, sums.process = meter_.read() - process;
         store_round_of_subject(index, iterations, sums);
         report_finished_subject(subject);
-        report_frame_to_watcher(options_.watcher, iterations, iterations);
+        report_frame(options_.watcher, iterations, iterations);
     }
 
     void store_round_of_subject(std::size_t index, int iterations, const BenchmarkRoundSums& sums) {
@@ -124,8 +123,8 @@ private:
     }
 
     const std::vector<BenchmarkSubject>& benchmark_subjects_;
-    const ProcessorUsageMeter& meter_;
-    const ProcessorUsageMeter caller_meter_{ProcessorUsageMeter::CountedThreadChoice::caller};
+    const UsageMeter& meter_;
+    const UsageMeter caller_meter_{UsageMeter::Threads::caller};
     const BenchOptions& options_;
     int rounds_;
     std::size_t done_ = 0;
@@ -155,13 +154,13 @@ BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> 
 }
 
 std::vector<measure::BenchmarkResult>
-measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects,
-                             const ProcessorUsageMeter& meter, const BenchOptions& options) {
+measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
+                             const BenchOptions& options) {
     return BenchmarkRunner(subjects, meter, options).run_all_rounds();
 }
 
 measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
-                                     const ProcessorUsageMeter& meter, const BenchOptions& options,
+                                     const UsageMeter& meter, const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command) {
     const WatchedWork watched(options.watcher);
@@ -170,12 +169,12 @@ measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjec
     run.command = std::move(command);
     run.device = device;
     run.processors = static_cast<int>(std::thread::hardware_concurrency());
-    run.uncounted = meter.reason_cycles_are_uncounted();
+    run.uncounted = meter.why_uncounted();
     run.load = read_machine_load();
-    const std::optional<ProcessorUsageSoFar> before = read_processor_use();
+    const std::optional<ProcessorTimes> before = read_processor_times();
     run.benchmarks = measure_benchmarks_in_rounds(subjects, meter, options);
-    if (const std::optional<ProcessorUsageSoFar> after = read_processor_use(); before && after)
-        run.noisy = is_timing_noisy(compute_waited_share(compute_waiting_times(*before, *after)));
+    if (const std::optional<ProcessorTimes> after = read_processor_times(); before && after)
+        run.noisy = is_timing_noisy(waiting_share(waiting_times(*before, *after)));
     return run;
 }
 

@@ -47,13 +47,13 @@ struct BenchOptions {
 /// the subjects in reverse order. Takes as long as all iterations of the work. `meter`: counts the
 /// whole process.
 std::vector<measure::BenchmarkResult>
-measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects,
-                             const ProcessorUsageMeter& meter, const BenchOptions& options);
+measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
+                             const BenchOptions& options);
 
 /// Measures as measure_benchmarks_in_rounds does and adds the program's version, the device and the
 /// circumstances. `command`: the program's command line.
 measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
-                                     const ProcessorUsageMeter& meter, const BenchOptions& options,
+                                     const UsageMeter& meter, const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command);
 

@@ -27,7 +27,7 @@ public:
         if (!frames_) frames_.emplace(*benchmark_session_, request_);
         check(frames_->render_next(), Failure::internal,
               "a benchmark went on after its last frame");
-        const FrameTimes& times = frames_->current_frame().times();
+        const FrameTimes& times = frames_->frame().times();
         IterationMeasurements iteration{times.host.sum(),
                                         {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
         if (rays_) iteration.counters["rays"] = *rays_;
@@ -38,9 +38,9 @@ public:
     void suspend_frames() {
         if (!frames_) return;
         if (!is_read_)
-            if (const auto rays = frames_->current_frame().read().rays)
+            if (const auto rays = frames_->frame().read().rays)
                 rays_ = static_cast<double>(rays->primary + rays->mirror + rays->shadow);
-        frames_->suspend_frame_loop();
+        frames_->suspend();
         if (!is_read_) count_work_of_frames();
         is_read_ = true;
     }
@@ -76,7 +76,7 @@ BenchmarkSubject make_bvh_benchmark_subject(const scene::Scene& scene) {
     return {.name = "hierarchy/" + scene.name,
             .work =
                 [geometry, triangles] {
-                    build_bvh_without_object(*geometry, geometry->ranges.size());
+                    build_bvh_without(*geometry, geometry->ranges.size());
                     return IterationMeasurements{0, {{"triangles", triangles}}};
                 },
             .warmup = 1,

@@ -14,7 +14,7 @@ namespace {
 
 std::string make_cost_sample_name(const Request& request) {
     return request.scene.name + "/" + std::to_string(request.size.x) + "x" +
-           std::to_string(request.size.y) + "/" + rendered_work_name(request.model) + "/" +
+           std::to_string(request.size.y) + "/" + work_name(request.model) + "/" +
            parse_technique(request.techniques.front()).label;
 }
 
@@ -59,9 +59,9 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
             if (round == 0)
                 runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher,
                                                                 repeated_frames));
-            report_row_to_watcher(options.watcher, make_cost_sample_name(rows[i]),
-                                  static_cast<std::size_t>(round) * rows.size() + place,
-                                  static_cast<std::size_t>(rounds) * rows.size());
+            report_row(options.watcher, make_cost_sample_name(rows[i]),
+                       static_cast<std::size_t>(round) * rows.size() + place,
+                       static_cast<std::size_t>(rounds) * rows.size());
             runs[i]->measure_one_round_of_frames(
                 study::choose_frame_count_of_round(options.iterations, rounds, round));
             runs[i]->suspend_frames();

@@ -26,21 +26,21 @@ std::string make_tuning_benchmark_name(const Request& request) {
 
 TuningResult tune_shader_variants(Engine& engine, const Request& request,
                                   const BenchOptions& options) {
-    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    const UsageMeter meter(UsageMeter::Threads::process);
     const auto session = std::make_shared<Session>(engine, request.scene);
     std::vector<BenchmarkSubject> subjects;
     const auto add = [&](const std::string& name, const gpu::VariantChoices& choices) {
         BenchmarkSubject subject = make_frame_benchmark_subject(session, request,
                                                                 options.iterations);
         subject.work = [&engine, choices, work = std::move(subject.work)] {
-            EmbeddingEngineAccess::choose_engine_shader_variants(engine, choices);
+            EmbedAccess::choose_variants(engine, choices);
             return work();
         };
         subject.name = name;
         subject.caller.clear();
         subjects.push_back(std::move(subject));
     };
-    const gpu::VariantChoices defaults = choose_default_variants(engine.device());
+    const gpu::VariantChoices defaults = default_variants(engine.device());
     add("default", defaults);
     for (std::size_t i = 0; i < gpu::kVariantCount; ++i) {
         gpu::VariantChoices choices = defaults;
@@ -48,7 +48,7 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
         add(std::string(gpu::shader_variants()[i].name), choices);
     }
     const measure::BenchmarkRun run = run_benchmarks(subjects, meter, options, {}, {});
-    EmbeddingEngineAccess::choose_engine_shader_variants(engine, defaults);
+    EmbedAccess::choose_variants(engine, defaults);
     TuningResult tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
     for (std::size_t i = 0; i < gpu::kVariantCount; ++i) {
         const gpu::ShaderVariant& variant = gpu::shader_variants()[i];

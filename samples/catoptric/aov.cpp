@@ -88,7 +88,7 @@ std::string describe_aovs() {
     std::string text;
     for (const AovRow& row : list_aov_rows())
         text += fmt::format("  {:<13} {}\n", row.name, row.help);
-    const std::vector<session::ReflectionTierInfo>& tiers = session::list_reflection_tiers();
+    const std::vector<session::TierInfo>& tiers = session::reflection_tiers();
     for (std::size_t i = 0; i < tiers.size(); ++i)
         text += fmt::format("  {} {:<11} {}\n", i, tiers[i].name, tiers[i].help);
     return text;

@@ -99,9 +99,9 @@ int choose_frame_count(const BenchArguments& options) {
 }
 
 void load_benchmark_scene(const CommonOptions& common) {
-    session::load_resolved_scene(common.scene, {.load = make_scene_file_options(common),
-                                                .overrides = common.overrides,
-                                                .use_scene_file = common.use_scene_file});
+    session::resolve_scene(common.scene, {.load = make_scene_file_options(common),
+                                          .overrides = common.overrides,
+                                          .use_scene_file = common.use_scene_file});
 }
 
 /// Adds the subjects to measure for one scene.
@@ -139,8 +139,7 @@ void write_bench_result(const BenchArguments& options, const std::string& json,
 
 int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
-    const session::ProcessorUsageMeter meter(
-        session::ProcessorUsageMeter::CountedThreadChoice::process);
+    const session::UsageMeter meter(session::UsageMeter::Threads::process);
     check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
     check_technique_list(options.techniques);
     const std::vector<BenchSceneSelection> list = list_requested_scenes(options);

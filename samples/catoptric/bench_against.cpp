@@ -65,7 +65,7 @@ bench_programs_in_turn(const std::array<std::string, 2>& programs,
         for (int place = 0; place < 2; ++place) {
             const auto which = static_cast<std::size_t>(round % 2 == 0 ? place : 1 - place);
             const std::string& program = programs[which];
-            report_row_to_watcher(
+            report_row(
                 watcher,
                 program + ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
                 static_cast<std::size_t>(2 * round + place), static_cast<std::size_t>(2 * rounds));
@@ -75,7 +75,7 @@ bench_programs_in_turn(const std::array<std::string, 2>& programs,
                 run_and_read_output(command, watcher.stop ? *watcher.stop : kNeverStop),
                 program + ": its stdout");
             runs[which] = round == 0 ? found : join_runs(runs[which], found);
-            report_frame_to_watcher(watcher, 1, 1);
+            report_frame(watcher, 1, 1);
         }
     return runs;
 }

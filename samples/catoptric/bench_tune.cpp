@@ -34,7 +34,7 @@ fs::path choose_profile_path(const std::string& output, const session::DeviceInf
               "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
               "absolute path; -o FILE writes it elsewhere");
         report::create_folder(folder); // fail before the measurement
-        place = folder / session::make_profile_file_name(device);
+        place = folder / session::profile_file_name(device);
     } else {
         check_file_can_be_made(place);
     }
@@ -81,7 +81,7 @@ int run_device_tuning(const CommonOptions& common, int rounds, const std::string
     if (tuned.noisy)
         print_warning(
             "others were at work beside what was measured; what is taken may be their doing");
-    const std::string text = session::make_profile_text(device, tuned.tried);
+    const std::string text = session::profile_text(device, tuned.tried);
     print_result(common.output_options.json ? text : make_tuning_table(device, tuned.tried));
     write_file(place, text);
     print_note_unless_quiet(common.output_options, "written: " + place.string());

@@ -196,7 +196,7 @@ measure_distance_of_reference(const ChooseOptions& options, const study::ChooseR
                               session::Engine& engine, ProgressPrinter& progress) {
     session::Request base = request.base;
     session::Session session(engine, base.scene);
-    session::resolve_auto_exposure(session, base);
+    session::resolve_exposure(session, base);
     auto distance = study::measure_path_distance(
         engine, session, base, request.reference,
         options.path_distance_seconds.value_or(study::choose_path_distance_seconds(base.size)),

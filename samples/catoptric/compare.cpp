@@ -287,7 +287,7 @@ report::Comparison compare_scene(session::Engine& engine, study::CompareRequest&
     const std::size_t row_count = list_requested_rows(request).size();
     ask_for_path_distance(request);
     request.watcher = make_progress_watcher(progress);
-    report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
+    report_row(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
         if (so_far.rows.size() == 1)
             gate.check_baseline_scene(so_far); // its exposure may be known only now

@@ -34,18 +34,18 @@ struct GraphOptions {
     CommonOptions common;
     TechniqueOption drawn;
     std::string technique; ///< technique or plan, checked
-    std::optional<session::GraphPlanFormat> format;
+    std::optional<session::PlanFormat> format;
     bool why = false;
 };
 
-session::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
-    const session::GraphPlanFormat asked = options.common.output_options.json
-                                               ? session::GraphPlanFormat::json
-                                               : session::GraphPlanFormat::text;
-    const session::GraphPlanFormat format = options.format.value_or(asked);
-    check(!options.common.output_options.json || format == session::GraphPlanFormat::json,
+session::PlanFormat find_graph_output_format(const GraphOptions& options) {
+    const session::PlanFormat asked = options.common.output_options.json
+                                          ? session::PlanFormat::json
+                                          : session::PlanFormat::text;
+    const session::PlanFormat format = options.format.value_or(asked);
+    check(!options.common.output_options.json || format == session::PlanFormat::json,
           Failure::usage, "--json and --format: stdout has room for one of them");
-    check(!options.why || format != session::GraphPlanFormat::dot, Failure::usage,
+    check(!options.why || format != session::PlanFormat::dot, Failure::usage,
           "--why: wanted --format text or json, found dot");
     return format;
 }
@@ -53,11 +53,10 @@ session::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
 /// Returns the unit costs of the device that draws, or the default ones if the machine has none.
 require::DeviceUnitCosts find_unit_costs_for_why(const DeviceOptions& options) {
     if (!options.name.empty())
-        return session::find_unit_costs_of_device(
-            session::Engine(make_engine_options(options)).device());
+        return session::find_device_costs(session::Engine(make_engine_options(options)).device());
     try {
         if (const std::vector<session::DeviceInfo> list = session::devices(); !list.empty())
-            return session::find_unit_costs_of_device(list.front());
+            return session::find_device_costs(list.front());
     } catch (const NoDevice&) {
     }
     require::DeviceUnitCosts costs;
@@ -65,16 +64,16 @@ require::DeviceUnitCosts find_unit_costs_for_why(const DeviceOptions& options) {
     return costs;
 }
 
-void print_culling_report(const session::Request& request, session::GraphPlanFormat format,
+void print_culling_report(const session::Request& request, session::PlanFormat format,
                           const require::DeviceUnitCosts& costs,
                           const std::optional<session::CaptureBudget>& capture_budget) {
-    print_result(format == session::GraphPlanFormat::json
-                     ? session::format_culling_as_json(request, costs, capture_budget)
-                     : session::format_culling_as_text(request, costs, capture_budget));
+    print_result(format == session::PlanFormat::json
+                     ? session::culling_to_json(request, costs, capture_budget)
+                     : session::culling_to_text(request, costs, capture_budget));
 }
 
 int run_graph(const GraphOptions& options) {
-    const session::GraphPlanFormat format = find_graph_output_format(options);
+    const session::PlanFormat format = find_graph_output_format(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     const bool is_limited = options.common.budget_ms > 0;
@@ -93,12 +92,12 @@ int run_graph(const GraphOptions& options) {
     print_device_and_warnings(engine, options.common.output_options);
     if (options.why) {
         request.model = session::RenderedWork::required;
-        print_culling_report(request, format, session::find_unit_costs_of_device(engine.device()),
+        print_culling_report(request, format, session::find_device_costs(engine.device()),
                              session::measure_capture_budget(engine, request));
         return 0;
     }
     session::Session session(engine, request.scene);
-    std::string plan = session::Access::format_frame_plan(session, request, format);
+    std::string plan = session::Access::format_plan(session, request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     print_result(plan);
     if (options.common.device.validate) engine.check_validation();
@@ -116,9 +115,8 @@ void add_graph_verb(CommandLine& program) {
     verb.option(
         "--format", "F", "output format: text, dot or json (text)",
         [options](const std::string& text) {
-            constexpr session::GraphPlanFormat kGraphPlanFormats[] = {
-                session::GraphPlanFormat::text, session::GraphPlanFormat::dot,
-                session::GraphPlanFormat::json};
+            constexpr session::PlanFormat kGraphPlanFormats[] = {
+                session::PlanFormat::text, session::PlanFormat::dot, session::PlanFormat::json};
             options->format =
                 kGraphPlanFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
         });

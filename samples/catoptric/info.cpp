@@ -36,8 +36,8 @@ ProgramInfo gather_info_facts(const DeviceOptions& device) {
         options.cache.clear(); // `info` compiles no shaders
         const session::Engine engine(options);
         facts.device = engine.device();
-        facts.lanes = session::count_shader_lanes(engine);
-        if (const std::string text = session::make_vector_width_warning(engine); !text.empty())
+        facts.lanes = session::count_lanes(engine);
+        if (const std::string text = session::vector_width_warning(engine); !text.empty())
             print_warning(text);
         if (!facts.device->warning.empty()) print_warning(facts.device->warning);
     } catch (const Error& error) {
@@ -101,7 +101,7 @@ std::optional<double> find_shown_exposure(session::Request& request, const InfoO
         session::Engine engine(make_engine_options(options.common.device));
         print_device_and_warnings(engine, options.common.output_options);
         session::Session session(engine, std::move(request.scene));
-        return session::measure_auto_exposure(session, request);
+        return session::measure_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
         print_note_unless_quiet(options.common.output_options,

@@ -66,7 +66,7 @@ Json make_capture_budget_json(const std::optional<session::CaptureBudget>& captu
             {"waiting", capture_budget->waiting},
             {"oldest_frames", capture_budget->frames_per_cycle() - 1},
             {"round_frames", capture_budget->frames_per_cycle()},
-            {"said", session::describe_capture_budget(*capture_budget)}};
+            {"said", session::describe_budget(*capture_budget)}};
 }
 
 Json make_settings_json(const std::vector<Setting>& list) {
@@ -133,7 +133,7 @@ std::string make_render_json(const session::Request& request, int first_frame,
     document["settings"] = make_settings_json(choice.settings);
     document["plan"] = report::plan_json(part.plan);
     document["notes"] = part.notes;
-    document["model"] = rendered_work_name(part.model);
+    document["model"] = work_name(part.model);
     document["left_out"] = make_culled_work_json(part);
     document["captures"] = make_capture_budget_json(part.capture_budget, request.budget_ms);
     document["scene_passes"] = part.scene_passes;

@@ -104,7 +104,7 @@ scene::Camera choose_camera(const CommonOptions& common, session::ResolvedScene&
                                                            camera.name);
         return camera;
     }
-    return session::choose_or_add_camera(wanted, double(common.size.x) / double(common.size.y));
+    return session::choose_camera(wanted, double(common.size.x) / double(common.size.y));
 }
 
 /// Warns of a scene without a mirror, with options that add one.
@@ -240,10 +240,10 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     double load_ms = 0;
     {
         const Stopwatch watch(load_ms);
-        asked.wanted = session::load_resolved_scene(common.scene,
-                                                    {.load = make_scene_file_options(common),
-                                                     .overrides = common.overrides,
-                                                     .use_scene_file = common.use_scene_file});
+        asked.wanted = session::resolve_scene(common.scene,
+                                              {.load = make_scene_file_options(common),
+                                               .overrides = common.overrides,
+                                               .use_scene_file = common.use_scene_file});
     }
     request.load_ms = load_ms;
     if (check) check(asked.wanted.scene);
@@ -257,7 +257,7 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     request.warmup = common.warmup.value_or(request.warmup);
     request.time = common.time.value_or(0);
     request.animate = common.animate;
-    request.ambient = session::choose_ambient_light(asked.wanted);
+    request.ambient = session::choose_ambient(asked.wanted);
     const std::optional<double> exposure = session::find_exposure(asked.wanted);
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
@@ -287,7 +287,7 @@ void print_device_and_warnings(const session::Engine& engine, const OutputOption
     print_detail_if_verbose(output_options,
                             "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) print_warning(engine.warning());
-    if (const std::string text = session::make_vector_width_warning(engine); !text.empty())
+    if (const std::string text = session::vector_width_warning(engine); !text.empty())
         print_warning(text);
     if (!engine.device().warning.empty()) print_warning(engine.device().warning);
 }

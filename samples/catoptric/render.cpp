@@ -182,7 +182,7 @@ std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
                          .scene = request.scene.name,
                          .scene_hash = scene::hash_scene(request.scene),
                          .technique = session::parse_technique(options.technique).label,
-                         .model = rendered_work_name(request.model),
+                         .model = work_name(request.model),
                          .seed = request.seed,
                          .exposure = request.exposure};
 }
@@ -250,8 +250,7 @@ private:
         }
         if (options_.aovs.empty()) return measure::encode_exr(part.hdr, text);
         std::optional<session::ReflectionTiers> tiers;
-        if (writes_aov(options_, PictureAov::tier))
-            tiers = session::Access::read_reflection_tiers(frame);
+        if (writes_aov(options_, PictureAov::tier)) tiers = session::Access::read_tiers(frame);
         const session::FirstSurfaces surfaces = session::Access::trace_first_surfaces(session_,
                                                                                       spec);
         return measure::encode_exr(part.hdr, make_aov_channels(options_.aovs, surfaces, tiers),
@@ -284,15 +283,15 @@ session::RunResult render_and_write_frames(session::Session& session,
         next.time = find_instant();
         if (!frames.render_next(next.camera, next.time)) break;
         shown = std::move(next);
-        const int measured = frames.rendered_frame_count() - request.warmup;
+        const int measured = frames.frame_number() - request.warmup;
         // The last frame is written after its result was read.
         if (output.writes_each_frame() && measured > 0 && measured < request.frames)
-            output.write_frame(static_cast<std::size_t>(measured - 1), frames.current_frame(),
-                               shown, frames.current_frame().read());
-        report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
+            output.write_frame(static_cast<std::size_t>(measured - 1), frames.frame(), shown,
+                               frames.frame().read());
+        report_frame(watcher, frames.frame_number(), frames.max_frames());
     }
     session::RunResult result = frames.result();
-    output.write_frame(static_cast<std::size_t>(request.frames - 1), frames.current_frame(), shown,
+    output.write_frame(static_cast<std::size_t>(request.frames - 1), frames.frame(), shown,
                        result.parts.front());
     output.finish();
     return result;
@@ -323,8 +322,7 @@ void print_render_summary(const RenderOptions& options, const session::Request& 
                             fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}",
                                         part.label, part.scene_passes, frames, mean.all, output));
     if (part.capture_budget)
-        print_detail_if_verbose(output_options,
-                                session::describe_capture_budget(*part.capture_budget));
+        print_detail_if_verbose(output_options, session::describe_budget(*part.capture_budget));
     if (request.until_settled) return;
     for (const session::PassTime& pass : result.frames.back().passes)
         print_detail_if_verbose(output_options,
@@ -354,12 +352,12 @@ int run_render(const RenderOptions& options) {
 
     const session::Watcher watcher = make_progress_watcher(progress);
     const session::WatchedWork watched(watcher);
-    report_row_to_watcher(watcher, choice.label, 0, 1);
+    report_row(watcher, choice.label, 0, 1);
     std::optional<PictureOrigin> origin = make_picture_origin(options, request, engine.device());
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     session::Session session(engine, std::move(scene));
-    session::resolve_auto_exposure(session, request);
+    session::resolve_exposure(session, request);
     if (origin) origin->exposure = request.exposure;
     RunOutput output(options, files, session, watcher, std::move(origin));
     const session::RunResult result = render_and_write_frames(

@@ -131,7 +131,7 @@ bool is_path_option(const std::string& name, const std::string& value) {
            std::ranges::find(kPathOptionWords, value) == kPathOptionWords.end();
 }
 
-bool is_built_in_scene(const std::string& name) {
+bool is_built_in(const std::string& name) {
     return std::ranges::find(scene::built_in_scenes(), name, &scene::BuiltInScene::name) !=
            scene::built_in_scenes().end();
 }
@@ -194,8 +194,8 @@ std::vector<std::string> read_scenes(const SweepJson& document, const fs::path& 
          read_texts(read_list(document, "scenes", place), place.member("scenes"))) {
         place.member("scenes").check(!scene.starts_with('-'), "wanted a scene, found ",
                                      quote(scene));
-        scenes.push_back(
-            is_built_in_scene(scene) ? scene : make_path_from_plan_folder(scene, file, folder));
+        scenes.push_back(is_built_in(scene) ? scene
+                                            : make_path_from_plan_folder(scene, file, folder));
     }
     return scenes;
 }
@@ -451,7 +451,7 @@ std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                                                      const fs::path& folder) {
     const auto scene = content.at("scene").get<std::string>();
     std::vector<std::string> words{
-        is_built_in_scene(scene) ? scene : make_path_from_working_folder(scene, folder), "--quiet"};
+        is_built_in(scene) ? scene : make_path_from_working_folder(scene, folder), "--quiet"};
     for (const auto& [name, value] : content.at("options").items()) {
         const SweepJson list = value.is_array() ? value : SweepJson::array({value});
         for (const SweepJson& entry : list) {

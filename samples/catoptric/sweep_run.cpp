@@ -258,7 +258,7 @@ private:
         scene_ = {}; // frees the last scene's memory; stays empty on failure
         SweepScene scene{key, std::move(words.request), nullptr};
         scene.session = std::make_unique<session::Session>(engine, scene.request.base.scene);
-        session::resolve_auto_exposure(*scene.session, scene.request.base);
+        session::resolve_exposure(*scene.session, scene.request.base);
         if (shares_instant_with_other_piece(piece))
             for (std::size_t i = 0; i < scene.request.base.techniques.size(); ++i)
                 scene.row_sessions.push_back(

@@ -59,7 +59,7 @@ session::TechniqueResult StressTestBench::render_technique(const session::Reques
     session::Session session(bench_engine_, request.scene);
     session::FrameLoop frames(session, request);
     while (frames.render_next()) throw_if_stopped(watcher_);
-    return frames.current_frame().read();
+    return frames.frame().read();
 }
 
 std::string StressTestBench::fit_captures(const std::string& technique) const {
@@ -80,7 +80,7 @@ std::string StressTestBench::fit_captures(const std::string& technique) const {
 
 void StressTestBench::plan_stress_technique(const session::Request& request) {
     session::Session session(bench_engine_, request.scene);
-    session::Access::format_frame_plan(session, request, session::GraphPlanFormat::text);
+    session::Access::format_plan(session, request, session::PlanFormat::text);
 }
 
 void StressTestBench::add_mean_flip_case(const std::string& what,

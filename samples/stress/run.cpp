@@ -79,7 +79,7 @@ report::StressResults run_stress_properties(session::Engine& engine, const Stres
                                  {}};
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            report_row_to_watcher(request.watcher, std::string(chosen[i]->id), i, chosen.size());
+            report_row(request.watcher, std::string(chosen[i]->id), i, chosen.size());
             stress.rows.push_back(judge_stress_property(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }

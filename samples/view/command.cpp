@@ -59,7 +59,7 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
     made.insert(made.end(), {"--camera", camera, "--time", fmt::format("{}", state.motion.time),
                              "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
                              fmt::format("{}", state.exposure), "--model",
-                             session::rendered_work_name(state.model), "-o", "view.png"});
+                             session::work_name(state.model), "-o", "view.png"});
     made.insert(made.end(), end, words.end());
     return made;
 }

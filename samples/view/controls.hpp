@@ -5,7 +5,7 @@
 
 namespace catoptric::view {
 
-/// Dear ImGui in a window, at most one per process. Access::show_in_window draws its triangles.
+/// Dear ImGui in a window, at most one per process. Access::show draws its triangles.
 class ImGuiControls {
 public:
     /// Installs callbacks that also call the window's earlier callbacks.

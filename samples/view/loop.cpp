@@ -84,7 +84,7 @@ void ViewLoop::open(SceneChangeOrigin scene) {
     controls_.upload_overlay_font(viewer_->window_screen());
     if (scene == SceneChangeOrigin::same) return; // the state stays the same
     cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.output_options);
-    session::resolve_auto_exposure(viewer_->viewer_session(), request_);
+    session::resolve_exposure(viewer_->viewer_session(), request_);
     state_.camera = request_.camera;
     state_.exposure = request_.exposure;
     state_.motion.time = request_.time;
@@ -101,8 +101,7 @@ void ViewLoop::render(const UserInput& inputs, session::WindowOverlay overlay) {
                                state_.shows_panels == settings_.shows_panels
                            ? request_.size
                            : choose_picture_size(last_, state_.shows_panels);
-    const bool is_seen = inputs.window != uvec2(0) &&
-                         viewer_->window_screen().fit_to_window(inputs.window);
+    const bool is_seen = inputs.window != uvec2(0) && viewer_->window_screen().fit(inputs.window);
     waits_ = !is_seen && !is_user_simulated();
     if (waits_) return;
     viewer_->render_frame(state_, size, std::move(overlay), is_seen);

@@ -87,8 +87,8 @@ void draw_culled_work(ViewState& state, const SceneViewer& viewer) {
     ImGui::RadioButton("everything", &model, 0);
     state.model = model ? session::RenderedWork::required : session::RenderedWork::everything;
     if (viewer.capture_budget_of_technique())
-        ImGui::TextWrapped(
-            "%s", session::describe_capture_budget(*viewer.capture_budget_of_technique()).c_str());
+        ImGui::TextWrapped("%s",
+                           session::describe_budget(*viewer.capture_budget_of_technique()).c_str());
     for (const require::CulledWork& left : viewer.culled_work())
         ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
                            left.saves.c_str());

@@ -32,10 +32,8 @@ bool needs_host_picture(const ViewState& state) {
 }
 
 ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
-    ShownTechniquesAndPictures shown{{technique_text_of_plan(state.plan)},
-                                     session::WindowPictures::PictureArrangement::one,
-                                     0,
-                                     0};
+    ShownTechniquesAndPictures shown{
+        {technique_text_of_plan(state.plan)}, session::WindowPictures::Arrangement::one, 0, 0};
     switch (state.mode) {
     case ViewMode::plan: break;
     case ViewMode::answers:
@@ -46,8 +44,8 @@ ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
     case ViewMode::split:
     case ViewMode::difference:
         shown.kind = state.mode == ViewMode::split
-                         ? session::WindowPictures::PictureArrangement::split
-                         : session::WindowPictures::PictureArrangement::difference;
+                         ? session::WindowPictures::Arrangement::split
+                         : session::WindowPictures::Arrangement::difference;
         if (state.against == ComparisonPicture::reference) {
             shown.second = session::WindowPictures::kCanvasPicture;
         } else if (const std::string other = technique_text_of_plan(state.other);

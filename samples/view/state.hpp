@@ -58,8 +58,7 @@ struct ViewState {
 /// The techniques that one frame renders, and the pictures that it shows.
 struct ShownTechniquesAndPictures {
     std::vector<std::string> techniques;
-    session::WindowPictures::PictureArrangement kind =
-        session::WindowPictures::PictureArrangement::one;
+    session::WindowPictures::Arrangement kind = session::WindowPictures::Arrangement::one;
     std::size_t first = 0, second = 0; ///< indices of the pictures for session::WindowPictures
 };
 

@@ -125,7 +125,7 @@ void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
         discard_frame_history();
         for (int k = 0; k < kUnshownFramesAfterCut && !is_stopped(); ++k) {
             last_ = session_->frame(spec_);
-            if (!session::Access::does_frame_part_need_previous_frame(*last_)) break;
+            if (!session::Access::remembers(*last_)) break;
         }
     }
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
@@ -188,8 +188,7 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, session::Wind
     }
     collect_finished_frames(kFramesInFlight - 1);
     const double begin = current_milliseconds();
-    session::Frame made = is_seen ? session::Access::show_in_window(*session_, spec_, *screen_,
-                                                                    showing_)
+    session::Frame made = is_seen ? session::Access::show(*session_, spec_, *screen_, showing_)
                                   : session_->frame(spec_);
     TimeStatistics::FrameTimeSample sample;
     if (is_seen)
@@ -225,9 +224,9 @@ void SceneViewer::write_picture(const std::filesystem::path& file) const {
                                                                : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
-    if (showing_.kind == session::WindowPictures::PictureArrangement::difference)
+    if (showing_.kind == session::WindowPictures::Arrangement::difference)
         shown = make_difference_picture(shown, picture(showing_.second), showing_.gain);
-    if (showing_.kind == session::WindowPictures::PictureArrangement::split) {
+    if (showing_.kind == session::WindowPictures::Arrangement::split) {
         const measure::Picture right = picture(showing_.second);
         for (int y = 0; y < shown.height; ++y)
             for (int x = static_cast<int>(showing_.divider); x < shown.width; ++x)

@@ -55,8 +55,7 @@ struct PairedFrameTimes {
 PairedFrameTimes measure_paired_frames(const ComparedConfiguration& a,
                                        const ComparedConfiguration& b, const session::Request& base,
                                        int rounds) {
-    const session::ProcessorUsageMeter meter(
-        session::ProcessorUsageMeter::CountedThreadChoice::process);
+    const session::UsageMeter meter(session::UsageMeter::Threads::process);
     const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
         {make_frame_subject_of_side(a, base, rounds), make_frame_subject_of_side(b, base, rounds)},
         meter, {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
@@ -128,8 +127,7 @@ void compare_processor_rules(const session::Request& base) {
         benchmark::make_benchmark_subject("areas and normals of meshes | load", [&] {
             for (scene::Mesh mesh : base.scene.meshes) scene::repair_mesh(mesh);
         })};
-    const session::ProcessorUsageMeter meter(
-        session::ProcessorUsageMeter::CountedThreadChoice::process);
+    const session::UsageMeter meter(session::UsageMeter::Threads::process);
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
     for (const measure::BenchmarkResult& found : benchmark::measure_benchmarks_in_rounds(
              subjects, meter,

@@ -73,8 +73,7 @@ void compare_with_ray_query(const char* name, std::span<const bvh::Triangle> tri
                                           [&] { query.find_closest_hits(triangles, rays); }),
         benchmark::make_benchmark_subject("query, few",
                                           [&] { query.find_closest_hits(triangles, few); })};
-    const session::ProcessorUsageMeter meter(
-        session::ProcessorUsageMeter::CountedThreadChoice::process);
+    const session::UsageMeter meter(session::UsageMeter::Threads::process);
     const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
         subjects, meter, {.iterations = 3 * rounds, .rounds = rounds, .watcher = {}});
     std::vector<double> ours, theirs, ratios;

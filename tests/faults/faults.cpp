@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// Returns the folder of the driver's shader cache, which all runs share. Without the cache,
 /// compiling shaders would take most of the time.
-const fs::path& find_shader_cache_folder() {
+const fs::path& shader_cache_folder() {
     static const struct Folder {
         Folder()
             : folder_path(fs::temp_directory_path() /
@@ -36,7 +36,7 @@ std::map<std::string, std::string> make_fault_layer_environment(const fs::path& 
     return {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
             {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
             {"CATOPTRIC_FAULT_REPORT", report.string()},
-            {"MESA_SHADER_CACHE_DIR", find_shader_cache_folder().string()}};
+            {"MESA_SHADER_CACHE_DIR", shader_cache_folder().string()}};
 }
 
 std::string describe_fault(const VulkanCallFault& fault) {

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 std::string compile_plan_text(catoptric::session::Engine& engine,
                               const catoptric::session::Request& request) {
     catoptric::session::Session session(engine, request.scene);
-    return catoptric::session::Access::format_frame_plan(session, request,
-                                                         catoptric::session::GraphPlanFormat::json);
+    return catoptric::session::Access::format_plan(session, request,
+                                                   catoptric::session::PlanFormat::json);
 }
 
 /// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a

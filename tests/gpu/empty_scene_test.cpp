@@ -51,7 +51,7 @@ TEST(EmptyScene, EveryTechniqueAndModelDrawsTheSky) {
              {session::RenderedWork::everything, session::RenderedWork::required})
             for (int frame = 1; frame <= 2; ++frame)
                 expect_sky(session.frame(make_empty_scene_spec(technique, model)).hdr(),
-                           technique + " " + session::rendered_work_name(model));
+                           technique + " " + session::work_name(model));
 }
 
 TEST(EmptyScene, EveryTechniqueDrawsTheSkyAfterTheLastObjectIsRemoved) {

@@ -31,7 +31,7 @@ TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     const scene::Scene room = scene::make_cornell();
     const render::FrameGeometry geometry = render::make_geometry(room,
                                                                  render::make_scene_units(room));
-    DeviceRayTracer kernel(session::build_bvh_without_object(geometry, geometry.ranges.size()));
+    DeviceRayTracer kernel(session::build_bvh_without(geometry, geometry.ranges.size()));
     const std::vector<DeviceRay> rays = make_random_rays_in_box(
         100000, vec3(kernel.traversed_bvh().nodes[0]), vec3(kernel.traversed_bvh().nodes[1]), 1);
     for (const std::uint32_t skipped :

@@ -154,12 +154,12 @@ TEST(Session, ResumedSequenceContinues) {
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
             const session::FrameSpec spec = make_frame_spec(scene, techniques[i]);
-            if (k > 1) session::Access::resume_frame_sequence(session, std::move(aside[i]));
+            if (k > 1) session::Access::resume(session, std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
-                aside[i] = session::Access::suspend_sequence(session);
+                aside[i] = session::Access::suspend(session);
             else
-                aside.push_back(session::Access::suspend_sequence(session));
+                aside.push_back(session::Access::suspend(session));
             alone.forget();
             measure::Picture wanted;
             for (int frame = 1; frame <= k; ++frame) wanted = alone.frame(spec).hdr();
@@ -200,11 +200,11 @@ TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const session::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
     session::Session session(test::get_test_engine(), scene);
     session.frame(spec), session.frame(spec);
-    session::FrameSequence sequence = session::Access::suspend_sequence(session);
+    session::FrameSequence sequence = session::Access::suspend(session);
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
-    session::Access::resume_frame_sequence(session, std::move(sequence));
+    session::Access::resume(session, std::move(sequence));
     session::Session fresh(test::get_test_engine(), session.scene());
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }
@@ -402,8 +402,7 @@ TEST(Session, EngineCompilesEachPipelineOnce) {
     const auto begin = std::chrono::steady_clock::now();
     session::Engine engine({.device = test::read_wanted_device_name()});
     EXPECT_EQ(session::Access::compiled_pipelines(engine).pipelines, 0u);
-    EXPECT_EQ(session::Access::pipeline_cache_state_of_engine(engine),
-              session::PipelineCacheState::none);
+    EXPECT_EQ(session::Access::pipeline_cache_state(engine), session::PipelineCacheState::none);
     const session::FrameSpec spec = make_frame_spec(scene, "raytrace:depth=1");
     session::Session(engine, scene).frame(spec).times();
     const session::CompiledPipelines once = session::Access::compiled_pipelines(engine);

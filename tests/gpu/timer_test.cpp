@@ -107,10 +107,10 @@ TEST(Timing, FirstRoundIsReplacedByLaterFrames) {
     const session::Watcher watcher;
     study::RowMeasurement row(session, request, watcher, 3);
     for (const int frames : {3, 2}) row.measure_one_round_of_frames(frames);
-    EXPECT_EQ(row.rendered_frame_count(), 6);
+    EXPECT_EQ(row.frame_number(), 6);
     const std::vector<std::vector<session::FrameTimes>> before = row.list_rounds();
     row.measure_first_round_again();
-    EXPECT_EQ(row.rendered_frame_count(), 9);
+    EXPECT_EQ(row.frame_number(), 9);
     EXPECT_EQ(row.list_rounds()[0].front().wall_ms, before[0].front().wall_ms) << "not yet";
     row.replace_first_round();
     const std::vector<std::vector<session::FrameTimes>>& after = row.list_rounds();

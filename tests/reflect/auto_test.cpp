@@ -20,7 +20,7 @@ std::string suggest_plan(const scene::Scene& rest) {
     const scene::Scene now = scene::scene_at(rest, 0);
     return require::suggest_plan(
                {.now = now, .camera = now.cameras.front(), .size = kAutoPictureSize},
-               *session::find_unit_costs_of_device(test::get_test_engine().device()).costs)
+               *session::find_device_costs(test::get_test_engine().device()).costs)
         .plan;
 }
 
@@ -125,12 +125,12 @@ TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     session::FrameSpec frame_spec{
         .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
     const std::string why = session.frame(frame_spec).read().plan[0].why;
-    session::FrameSequence sequence = session::Access::suspend_sequence(session);
+    session::FrameSequence sequence = session::Access::suspend(session);
     session::FrameSpec other = frame_spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);
-    session::Access::suspend_sequence(session);
-    session::Access::resume_frame_sequence(session, std::move(sequence));
+    session::Access::suspend(session);
+    session::Access::resume(session, std::move(sequence));
     // This view does not show the ball.
     frame_spec.camera.eye = {.9, .9, 1.2}, frame_spec.camera.target = {.9, 1, 1.9};
     frame_spec.camera.vertical_fov_degrees = 10;

@@ -123,12 +123,10 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
         session::FrameSpec everything = spec;
         everything.model = session::RenderedWork::everything, everything.most_captures = 0;
         const auto settle = [&] {
-            std::vector<std::byte> state,
-                next = session::Access::read_next_frame_state(all.frame(everything));
+            std::vector<std::byte> state, next = session::Access::read_state(all.frame(everything));
             int bounces = 0;
             for (; state != next; ++bounces)
-                state = std::move(next),
-                next = session::Access::read_next_frame_state(all.frame(everything));
+                state = std::move(next), next = session::Access::read_state(all.frame(everything));
             return bounces;
         };
         const auto follow = [&] {
@@ -237,9 +235,9 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
         aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).capture_budget()) << "beside the sequence all are drawn";
         if (k == 3) { // the times measured before and after this other sequence still count
-            session::FrameSequence sequence = session::Access::suspend_sequence(little);
+            session::FrameSequence sequence = session::Access::suspend(little);
             EXPECT_EQ(little.frame(spec).capture_budget()->drawn, 3u) << "the first of its own";
-            session::Access::resume_frame_sequence(little, std::move(sequence));
+            session::Access::resume(little, std::move(sequence));
         }
         spec.budget_ms = 1e9;
         EXPECT_EQ(much.frame(spec).capture_budget()->drawn, 3u);

@@ -125,8 +125,8 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                         std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
                 asked.techniques = {text};
-                const auto plan = nlohmann::json::parse(session::Access::format_frame_plan(
-                    session, asked, session::GraphPlanFormat::json));
+                const auto plan = nlohmann::json::parse(
+                    session::Access::format_plan(session, asked, session::PlanFormat::json));
                 EXPECT_EQ(plan.at("scene_passes"),
                           choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
@@ -211,7 +211,7 @@ TEST_P(EveryTechniqueTest, EachPlannedPassHasOneTime) {
     request.frames = 3;
     session::Session session(test::get_test_engine(), request.scene);
     const auto plan = nlohmann::json::parse(
-        session::Access::format_frame_plan(session, request, session::GraphPlanFormat::json));
+        session::Access::format_plan(session, request, session::PlanFormat::json));
     for (const session::FrameTimes& frame : session::run(test::get_test_engine(), request).frames) {
         ASSERT_EQ(frame.passes.size(), plan["passes"].size());
         double time = 0;

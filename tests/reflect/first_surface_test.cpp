@@ -79,9 +79,9 @@ TEST(FirstSurface, EachTierHasItsName) {
                                                       {ReflectionTier::unknown, "unknown"},
                                                       {ReflectionTier::traced, "traced"},
                                                       {ReflectionTier::mirrored, "mirrored"}};
-    ASSERT_EQ(session::list_reflection_tiers().size(), names.size());
+    ASSERT_EQ(session::reflection_tiers().size(), names.size());
     for (const auto& [tier, name] : names)
-        EXPECT_EQ(session::list_reflection_tiers().at(static_cast<std::size_t>(tier)).name, name);
+        EXPECT_EQ(session::reflection_tiers().at(static_cast<std::size_t>(tier)).name, name);
 }
 
 /// Balls are meshes with corners on the sphere, so their surface lies below the sphere by up to the
@@ -320,7 +320,7 @@ TEST(FirstSurface, LayersLeaveTheOrderOfLimitedCapturesAsItIs) {
         EXPECT_EQ(found.capture_budget()->drawn, wanted.capture_budget()->drawn) << frame;
         EXPECT_EQ(found.capture_budget()->longest, wanted.capture_budget()->longest) << frame;
         waited = std::max(waited, found.capture_budget()->waiting);
-        const session::ReflectionTiers tiers = session::Access::read_reflection_tiers(found);
+        const session::ReflectionTiers tiers = session::Access::read_tiers(found);
         const session::FirstSurfaces surfaces = session::Access::trace_first_surfaces(traced,
                                                                                       layered);
         std::size_t mirrored = 0, captured = 0;
@@ -348,7 +348,7 @@ TierPictures render_tiers(const scene::Scene& scene, const std::string& techniqu
     for (int k = 0; k < 3; ++k) session.frame(spec);
     const session::Frame frame = session.frame(spec);
     TierPictures pictures{frame.read(), {}, {}};
-    const session::ReflectionTiers tiers = session::Access::read_reflection_tiers(frame);
+    const session::ReflectionTiers tiers = session::Access::read_tiers(frame);
     pictures.surfaces = session::Access::trace_first_surfaces(session, spec);
     for (std::size_t i = 0; i < pictures.surfaces.mirror.size(); ++i)
         pictures.tiers.push_back(tiers.tier_at(i, pictures.surfaces.mirror[i]));

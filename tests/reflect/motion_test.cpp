@@ -65,7 +65,7 @@ TEST(Motion, FramesAreNumberedFromOne) {
     session::FrameLoop frames(session, request);
     for (int k = 1; k <= 4; ++k) {
         ASSERT_TRUE(frames.render_next());
-        EXPECT_EQ(frames.rendered_frame_count(), k);
+        EXPECT_EQ(frames.frame_number(), k);
     }
     EXPECT_FALSE(frames.render_next());
     const session::RunResult result = frames.result();

@@ -58,12 +58,11 @@ public:
         model_ = session::Access::rendered_model(found);
         EXPECT_TRUE(have_same_pictures(wanted, found)) << "frame " << number_;
         if (!frame_spec.keeps_history) {
-            EXPECT_EQ(session::Access::does_frame_part_need_previous_frame(found),
-                      session::Access::does_frame_part_need_previous_frame(wanted));
+            EXPECT_EQ(session::Access::remembers(found), session::Access::remembers(wanted));
             // If not all faces are needed, some hold nothing, so the states differ.
             const bool is_whole = does_model_need_all_faces(session::Access::rendered_model(found));
-            EXPECT_TRUE(!is_whole || session::Access::read_next_frame_state(found) ==
-                                         session::Access::read_next_frame_state(wanted))
+            EXPECT_TRUE(!is_whole ||
+                        session::Access::read_state(found) == session::Access::read_state(wanted))
                 << "frame " << number_;
         }
         return pass_names(found.times());
@@ -361,23 +360,21 @@ TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
     RequiredAndFullSessions pair(test::make_lit_room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.render_next_frame();
     std::vector<session::FrameSequence> aside;
-    pair.apply_to_both_sessions([&](session::Session& session) {
-        aside.push_back(session::Access::suspend_sequence(session));
-    });
+    pair.apply_to_both_sessions(
+        [&](session::Session& session) { aside.push_back(session::Access::suspend(session)); });
     for (int k = 0; k < 2; ++k)
         pair.render_next_frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
     pair.apply_to_both_sessions([&](session::Session& session) {
-        session::Access::resume_frame_sequence(session, std::move(aside[i++]));
+        session::Access::resume(session, std::move(aside[i++]));
     });
     pair.render_until_captures_settle();
     aside.clear(), i = 0;
-    pair.apply_to_both_sessions([&](session::Session& session) {
-        aside.push_back(session::Access::suspend_sequence(session));
-    });
+    pair.apply_to_both_sessions(
+        [&](session::Session& session) { aside.push_back(session::Access::suspend(session)); });
     pair.render_next_frame();
     pair.apply_to_both_sessions([&](session::Session& session) {
-        session::Access::resume_frame_sequence(session, std::move(aside[i++]));
+        session::Access::resume(session, std::move(aside[i++]));
     });
     EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
 }
@@ -440,8 +437,7 @@ TEST(RequiredFrames, FramesReportTheirModel) {
     EXPECT_EQ(frame.read().model, session::RenderedWork::required);
     EXPECT_FALSE(session::Access::rendered_model(frame).is_everything);
     EXPECT_EQ(session::Access::rendered_model(frame).mirrors.size(), 1u);
-    const std::string plan = session::Access::format_frame_plan(session, spec,
-                                                                session::GraphPlanFormat::text);
+    const std::string plan = session::Access::format_plan(session, spec, session::PlanFormat::text);
     EXPECT_EQ(plan.find("capture/1"), std::string::npos) << plan;
 }
 

@@ -20,7 +20,7 @@ TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     std::vector<session::TechniqueResult> reused;
     session::Session session(test::get_test_engine(), scene);
     for (session::FrameLoop frames(session, request); frames.render_next();)
-        reused.push_back(frames.current_frame().read());
+        reused.push_back(frames.frame().read());
     ASSERT_EQ(reused.size(), 8u);
     for (std::size_t k = 1; k <= reused.size(); ++k) {
         const session::TechniqueResult& reuse = reused[k - 1];

@@ -156,7 +156,7 @@ TEST(Temporal, SequencesInsideOneAnotherEqualSequencesApart) {
     for (int step = 0; step < 12; ++step) {
         const std::size_t i = random() % sequences.size();
         if (sequences[i])
-            session::Access::resume_frame_sequence(together, std::move(*sequences[i]));
+            session::Access::resume(together, std::move(*sequences[i]));
         else
             together.forget();
         for (unsigned frame = 0; frame <= random() % 2; ++frame) {
@@ -165,7 +165,7 @@ TEST(Temporal, SequencesInsideOneAnotherEqualSequencesApart) {
             EXPECT_EQ(together.frame(moved).hdr().pixels, apart[i]->frame(moved).hdr().pixels)
                 << "sequence " << i << ", step " << step;
         }
-        sequences[i] = session::Access::suspend_sequence(together);
+        sequences[i] = session::Access::suspend(together);
     }
 }
 
@@ -175,7 +175,7 @@ TEST(Temporal, FramesKnowWhereObjectsWereInTheLastFrameOfTheirSequence) {
     scene.objects[0].motion = scene::HarmonicMotion{.amplitude = {.05, 0, 0}, .period = 3};
     session::FrameSpec spec = make_temporal_spec(scene);
     session::Session session(test::get_test_engine(), scene);
-    const auto list_transforms = [&](double time) {
+    const auto object_transforms = [&](double time) {
         std::vector<dmat4> transforms;
         for (const scene::Object& object : scene::scene_at(session.scene(), time).objects)
             transforms.push_back(object.world_from_object);
@@ -186,22 +186,22 @@ TEST(Temporal, FramesKnowWhereObjectsWereInTheLastFrameOfTheirSequence) {
     const auto expect_facts = [&](double time) {
         spec.time = time;
         session.frame(spec);
-        EXPECT_EQ(*known_facts.transforms, list_transforms(time));
+        EXPECT_EQ(*known_facts.transforms, object_transforms(time));
         EXPECT_EQ(known_facts.before.has_value(), drawn.has_value());
         EXPECT_EQ(known_facts.transforms_before != nullptr, drawn.has_value());
         if (drawn) {
             EXPECT_EQ(*known_facts.transforms_before, before);
         }
-        drawn = time, before = list_transforms(time);
+        drawn = time, before = object_transforms(time);
     };
     expect_facts(0), expect_facts(.3);
     EXPECT_NE(*known_facts.transforms, *known_facts.transforms_before);
-    session::FrameSequence other = session::Access::suspend_sequence(session);
+    session::FrameSequence other = session::Access::suspend(session);
     const auto [time_aside, before_aside] = std::pair(drawn, before);
     drawn.reset();
     expect_facts(1), expect_facts(1.1);
-    session::Access::suspend_sequence(session);
-    session::Access::resume_frame_sequence(session, std::move(other));
+    session::Access::suspend(session);
+    session::Access::resume(session, std::move(other));
     drawn = time_aside, before = before_aside;
     expect_facts(.4);
     dmat4 moved = scene.objects[1].world_from_object;

@@ -40,7 +40,7 @@ bvh::TraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
     const session::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
     const render::SceneUnits units = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_geometry(scene, units);
-    const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
+    const bvh::Bvh tree = session::build_bvh_without(geometry, geometry.ranges.size());
     const shared::View view = render::make_camera_view(asked.camera, units, kWorkPictureSize, 0,
                                                        render::geometry_bounds(geometry));
     bvh::TraversalCounters sum;

@@ -33,10 +33,9 @@ constexpr int kMinJudgedPixels = 32; // size of the smallest object judged on it
 session::Request make_camera_request(session::ResolvedScene& wanted, std::size_t camera) {
     session::Request request;
     request.size = kJudgedPictureSize;
-    request.camera = camera < wanted.scene.cameras.size()
-                         ? wanted.scene.cameras[camera]
-                         : session::choose_or_add_camera(wanted, 1);
-    request.ambient = session::choose_ambient_light(wanted);
+    request.camera = camera < wanted.scene.cameras.size() ? wanted.scene.cameras[camera]
+                                                          : session::choose_camera(wanted, 1);
+    request.ambient = session::choose_ambient(wanted);
     const std::optional<double> exposure = session::find_exposure(wanted);
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
@@ -260,10 +259,10 @@ constexpr const char* kRayTracingTechnique = "raytrace";
 
 json measure_view_of_camera(session::Engine& engine, const std::string& name, std::size_t camera,
                             const std::string& folder) {
-    session::ResolvedScene wanted = session::load_resolved_scene(name, {});
+    session::ResolvedScene wanted = session::resolve_scene(name, {});
     session::Request request = make_camera_request(wanted, camera);
     session::Session session(engine, request.scene);
-    session::resolve_auto_exposure(session, request);
+    session::resolve_exposure(session, request);
     const measure::Picture raster = render_picture(session, request, kRasterTechnique),
                            rays = render_picture(session, request, kRayTracingTechnique);
     const scenes::SceneSurfaceCaster sight(request);
@@ -281,7 +280,7 @@ json measure_view_of_camera(session::Engine& engine, const std::string& name, st
     line.update(measure_object_surfaces(request, looked, rays,
                                         render_picture(flat_session, flat, kRayTracingTechnique)));
 
-    session::ResolvedScene smooth = session::load_resolved_scene(
+    session::ResolvedScene smooth = session::resolve_scene(
         name, {.overrides = {.dielectric_mirrors = true}});
     session::Request with = make_camera_request(smooth, camera);
     with.exposure = request.exposure;
@@ -301,7 +300,7 @@ int main(int argc, char** argv) try {
     session::Engine engine({.cache = session::find_cache_folder()});
     const std::string folder = argc > 2 ? argv[2] : "";
     const std::size_t cameras = std::max<std::size_t>(
-        1, session::load_resolved_scene(argv[1], {}).scene.cameras.size());
+        1, session::resolve_scene(argv[1], {}).scene.cameras.size());
     for (std::size_t i = 0; i < cameras; ++i)
         std::puts(measure_view_of_camera(engine, argv[1], i, folder).dump().c_str());
     return 0;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 using benchmark::BenchmarkSubject;
-using session::ProcessorUsageMeter;
+using session::UsageMeter;
 
 /// Builds a benchmark that logs `letter` for each iteration and '|' at the end of each turn.
 BenchmarkSubject make_logging_benchmark(char letter, std::string& log, int warmup = 1) {
@@ -31,7 +31,7 @@ BenchmarkSubject make_logging_benchmark(char letter, std::string& log, int warmu
 
 TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
     std::string log;
-    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    const UsageMeter meter(UsageMeter::Threads::process);
     const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 2),
                                                  make_logging_benchmark('b', log),
                                                  make_logging_benchmark('c', log, 0)};
@@ -45,7 +45,7 @@ TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
 
 TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
     std::string log;
-    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    const UsageMeter meter(UsageMeter::Threads::process);
     const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 0),
                                                  make_logging_benchmark('b', log, 0)};
     const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
@@ -65,7 +65,7 @@ TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
 
 TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     std::string log;
-    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    const UsageMeter meter(UsageMeter::Threads::process);
     EXPECT_EQ(
         benchmark::measure_benchmarks_in_rounds({make_logging_benchmark('b', log)}, meter,
                                                 {.iterations = 2, .rounds = 6, .watcher = {}})[0]
@@ -89,8 +89,7 @@ double thread_processor_ms() {
 
 /// Processor time of another thread counts for the process, but not for the calling thread.
 TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
-    const ProcessorUsageMeter process(ProcessorUsageMeter::CountedThreadChoice::process),
-        caller(ProcessorUsageMeter::CountedThreadChoice::caller);
+    const UsageMeter process(UsageMeter::Threads::process), caller(UsageMeter::Threads::caller);
     const double caller_before = thread_processor_ms();
     const session::ProcessorUsage all = process.read(), own = caller.read();
     double worked_ms = 0;
@@ -102,13 +101,12 @@ TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
     EXPECT_GE(all_after.cpu_ms, worked_ms);
     EXPECT_LE(own_after.cpu_ms, thread_processor_ms() - caller_before + 1e-9)
         << "but for roundings";
-    EXPECT_EQ(all_after.cycles.has_value(), process.reason_cycles_are_uncounted().empty());
-    if (process.reason_cycles_are_uncounted().empty()) {
+    EXPECT_EQ(all_after.cycles.has_value(), process.why_uncounted().empty());
+    if (process.why_uncounted().empty()) {
         EXPECT_GT(*all_after.cycles, *own_after.cycles);
         EXPECT_GT(*all_after.instructions, *own_after.instructions);
     } else {
-        EXPECT_THAT(process.reason_cycles_are_uncounted(),
-                    testing::StartsWith("perf_event_open: "));
+        EXPECT_THAT(process.why_uncounted(), testing::StartsWith("perf_event_open: "));
     }
 }
 

@@ -38,7 +38,7 @@ protected:
                                                    const SceneOverrides& overrides = {}) const {
         const std::string scene = write_file_beside_scene("x.obj", kUnlitTriangleObjText + kCamera);
         write_file_beside_scene("x.obj.catoptric.json", beside);
-        return session::load_resolved_scene(scene, {.overrides = overrides});
+        return session::resolve_scene(scene, {.overrides = overrides});
     }
     std::string override_file_error_text(const std::string& beside) const {
         return test::catch_error_text(Failure::bad_data, [&] { load_with_override_file(beside); });
@@ -65,7 +65,7 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_EQ(scene.environment->size, uvec2(4, 2));
     EXPECT_EQ(scene.environment->scale, 2);
     EXPECT_EQ(scene.environment->rotation_degrees, -90);
-    EXPECT_EQ(session::choose_ambient_light(found), .125);
+    EXPECT_EQ(session::choose_ambient(found), .125);
     EXPECT_EQ(session::find_exposure(found), -1.5);
     EXPECT_EQ(scene.cameras.front().eye, dvec3(1, 2, 3)) << "first, so that it is hashed";
     EXPECT_EQ(scene.cameras.size(), 2u);
@@ -84,7 +84,7 @@ TEST_F(Beside, OverrideFileChangesTheSceneHashAndCanBeIgnored) {
     for (const char* text : {R"({"mirrors": ["thing"]})", R"({"environment": "none"})",
                              R"({"camera": "1,2,3:0,0,0:30"})", R"({"exposure": 1})"}) {
         EXPECT_NE(hash_scene(load_with_override_file(text).scene), hash_scene(plain.scene)) << text;
-        EXPECT_EQ(hash_scene(session::load_resolved_scene(path, {.use_scene_file = false}).scene),
+        EXPECT_EQ(hash_scene(session::resolve_scene(path, {.use_scene_file = false}).scene),
                   hash_scene(plain.scene));
     }
 }
@@ -96,14 +96,13 @@ TEST_F(Beside, CameraIndexCountsInTheOrderOfTheScene) {
     for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
         write_file_beside_scene("x.obj.catoptric.json",
                                 std::string("{\"camera\": \"") + index + "\"}");
-        session::ResolvedScene found = session::load_resolved_scene(scene, {});
-        EXPECT_EQ(session::choose_or_add_camera(found, 1).name, name);
+        session::ResolvedScene found = session::resolve_scene(scene, {});
+        EXPECT_EQ(session::choose_camera(found, 1).name, name);
         EXPECT_EQ(found.scene.cameras.front().name, name);
         SceneOverrides overrides;
         overrides.camera = "1";
-        session::ResolvedScene other = session::load_resolved_scene(scene,
-                                                                    {.overrides = overrides});
-        EXPECT_EQ(session::choose_or_add_camera(other, 1).name, "d");
+        session::ResolvedScene other = session::resolve_scene(scene, {.overrides = overrides});
+        EXPECT_EQ(session::choose_camera(other, 1).name, "d");
     }
 }
 
@@ -120,9 +119,9 @@ TEST_F(Beside, CommandLineWinsOverTheOverrideFile) {
         overrides);
     EXPECT_EQ(found.scene.materials[found.scene.objects[0].material].reflectance, vec3(1));
     EXPECT_EQ(found.scene.environment, nullptr);
-    EXPECT_EQ(session::choose_ambient_light(found), .5);
+    EXPECT_EQ(session::choose_ambient(found), .5);
     EXPECT_EQ(session::find_exposure(found), 2);
-    EXPECT_EQ(session::choose_or_add_camera(found, 1).name, "c");
+    EXPECT_EQ(session::choose_camera(found, 1).name, "c");
 }
 
 TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
@@ -194,11 +193,11 @@ TEST_F(Beside, AnimationNameIsRefusedForAFileWithoutAnimations) {
     const std::string path = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
     for (const std::string& scene : {path, std::string("cornell-mirrors")})
         EXPECT_THAT(
-            test::catch_error_text(
-                Failure::usage, [&] { session::load_resolved_scene(scene, {.overrides = walk}); }),
+            test::catch_error_text(Failure::usage,
+                                   [&] { session::resolve_scene(scene, {.overrides = walk}); }),
             HasSubstr("--animation: " + scene + " has no animation 'walk': wanted none"));
     walk.animation = "none";
-    EXPECT_NO_THROW(session::load_resolved_scene(path, {.overrides = walk}));
+    EXPECT_NO_THROW(session::resolve_scene(path, {.overrides = walk}));
 }
 
 TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
@@ -285,9 +284,9 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
                                      "newmtl glass\nTf 1 1 1\nNi 1.5\nillum 6\nd .1\n");
     bool names_inside = false; // whether the note names the camera that looks from inside
     const auto camera_of = [&](const std::string& text) {
-        session::ResolvedScene found = session::load_resolved_scene(
+        session::ResolvedScene found = session::resolve_scene(
             write_file_beside_scene("x.obj", text), {});
-        const Camera camera = session::choose_or_add_camera(found, 1);
+        const Camera camera = session::choose_camera(found, 1);
         const Bounds<double> box = bounds(found.scene);
         const bool is_inside = box.lo.x < camera.eye.x && camera.eye.x < box.hi.x &&
                                box.lo.y < camera.eye.y && camera.eye.y < box.hi.y &&
@@ -322,11 +321,11 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
 
 TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
     const std::string path = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
-    session::ResolvedScene found = session::load_resolved_scene(path, {});
-    const Camera camera = session::choose_or_add_camera(found, 2);
+    session::ResolvedScene found = session::resolve_scene(path, {});
+    const Camera camera = session::choose_camera(found, 2);
     ASSERT_NE(found.scene.environment, nullptr);
     EXPECT_TRUE(found.scene.environment->studio);
-    EXPECT_EQ(session::choose_ambient_light(found), 0);
+    EXPECT_EQ(session::choose_ambient(found), 0);
     EXPECT_EQ(session::find_exposure(found), std::nullopt) << "auto";
     EXPECT_EQ(camera, default_camera(found.scene, 2));
     std::vector<std::string> ids;
@@ -345,21 +344,20 @@ TEST_F(Beside, NoEnvironmentIsAddedToALitSceneOrIfTheUserChoseNone) {
     SceneOverrides none;
     none.environment = "none";
     const std::string dark = write_file_beside_scene("x.obj", kUnlitTriangleObjText + kCamera);
-    const session::ResolvedScene black = session::load_resolved_scene(dark, {.overrides = none});
+    const session::ResolvedScene black = session::resolve_scene(dark, {.overrides = none});
     EXPECT_EQ(black.scene.environment, nullptr);
-    EXPECT_EQ(session::choose_ambient_light(black), .05);
+    EXPECT_EQ(session::choose_ambient(black), .05);
     EXPECT_THAT(black.scene.unsupported, IsEmpty());
     EXPECT_THAT(black.said, IsEmpty());
     write_file_beside_scene("l.mtl", "newmtl l\nKe 1 1 1\n");
     const std::string lit = write_file_beside_scene("y.obj", "mtllib l.mtl\nusemtl l\n" +
                                                                  kUnlitTriangleObjText + kCamera);
-    EXPECT_EQ(session::load_resolved_scene(lit, {}).scene.environment, nullptr);
+    EXPECT_EQ(session::resolve_scene(lit, {}).scene.environment, nullptr);
     SceneOverrides turned;
     turned.environment_rotation = 3;
-    EXPECT_THAT(
-        test::catch_error_text(Failure::usage,
-                               [&] { session::load_resolved_scene(lit, {.overrides = turned}); }),
-        HasSubstr("--environment-rotate: wanted an environment, found none"));
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [&] { session::resolve_scene(lit, {.overrides = turned}); }),
+                HasSubstr("--environment-rotate: wanted an environment, found none"));
 }
 
 TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
@@ -369,21 +367,20 @@ TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
     SceneOverrides overrides;
     overrides.environment = (folder / "sky.exr").string();
     const std::string path = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
-    EXPECT_THAT(test::catch_error_text(
-                    Failure::bad_data,
-                    [&] { session::load_resolved_scene(path, {.overrides = overrides}); }),
-                HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::bad_data,
+                               [&] { session::resolve_scene(path, {.overrides = overrides}); }),
+        HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
     picture.at(1, 1) = vec3(0, -.004f, 0), picture.at(0, 0) = vec3(1);
     measure::write_exr(picture, folder / "sky.exr");
-    EXPECT_EQ(
-        session::load_resolved_scene(path, {.overrides = overrides}).scene.environment->texels[4],
-        vec3(0))
+    EXPECT_EQ(session::resolve_scene(path, {.overrides = overrides}).scene.environment->texels[4],
+              vec3(0))
         << "what a filter or lossy compression leaves below 0";
     overrides.environment = "gone.hdr";
-    EXPECT_THAT(test::catch_error_text(
-                    Failure::missing_input,
-                    [&] { session::load_resolved_scene(path, {.overrides = overrides}); }),
-                HasSubstr("gone.hdr"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::missing_input,
+                               [&] { session::resolve_scene(path, {.overrides = overrides}); }),
+        HasSubstr("gone.hdr"));
 }
 
 /// The Radiance file is not run-length encoded. Each texel has a shared exponent, and rows run from
@@ -393,7 +390,7 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
     for (const int byte : {128, 64, 32, 129, 255, 128, 0, 133}) file += static_cast<char>(byte);
     SceneOverrides overrides;
     overrides.environment = write_file_beside_scene("sky.hdr", file);
-    const session::ResolvedScene found = session::load_resolved_scene(
+    const session::ResolvedScene found = session::resolve_scene(
         write_file_beside_scene("x.obj", kUnlitTriangleObjText), {.overrides = overrides});
     ASSERT_EQ(found.scene.environment->size, uvec2(2, 1));
     const std::vector<vec3>& texels = found.scene.environment->texels;
@@ -407,13 +404,13 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
 }
 
 TEST_F(Beside, BuiltInScenesGetNoAddedLightOrCamera) {
-    session::ResolvedScene found = session::load_resolved_scene("cornell-mirrors", {});
+    session::ResolvedScene found = session::resolve_scene("cornell-mirrors", {});
     EXPECT_EQ(hash_scene(found.scene), hash_scene(make_cornell()));
-    EXPECT_EQ(session::choose_ambient_light(found), .05);
+    EXPECT_EQ(session::choose_ambient(found), .05);
     EXPECT_EQ(session::find_exposure(found), 0);
     ASSERT_EQ(found.scene.unsupported.size(), 1u) << "as in any scene that is lit";
     EXPECT_EQ(found.scene.unsupported[0].id, "indirect-left-out");
-    EXPECT_EQ(session::choose_or_add_camera(found, 1).name, "contract");
+    EXPECT_EQ(session::choose_camera(found, 1).name, "contract");
     EXPECT_THAT(found.said, IsEmpty());
 }
 

@@ -31,7 +31,7 @@ std::size_t count_steps_past_copies(std::size_t count) {
     const scene::Scene scene = make_scene_with_coincident_triangles(count);
     const render::FrameGeometry geometry = render::make_geometry(scene,
                                                                  render::make_scene_units(scene));
-    const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
+    const bvh::Bvh tree = session::build_bvh_without(geometry, geometry.ranges.size());
     bvh::TraversalCounters steps;
     int hits = 0;
     for (int y = 0; y < 16; ++y)

@@ -1,4 +1,4 @@
-// Tests of find_first_object_per_pixel, which finds the object that each pixel shows without a BVH.
+// Tests of find_first_objects, which finds the object that each pixel shows without a BVH.
 // Rays through a BVH give the expected objects.
 #include "bvh/closest_hit.hpp"
 #include "render/space.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 std::vector<int> objects_by_pixel_from_tree(const render::FrameGeometry& geometry,
                                             const shared::View& view, uvec2 size) {
-    const bvh::Bvh tree = session::build_bvh_without_object(geometry, geometry.ranges.size());
+    const bvh::Bvh tree = session::build_bvh_without(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
         const auto hit = bvh::find_closest_hit<float>(
@@ -47,8 +47,8 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
             const scene::Camera camera = draw_random_camera_near(scene.cameras.front(), random);
             const shared::View view = render::make_camera_view(camera, space, kCoveragePictureSize,
                                                                0);
-            const auto seen = session::find_first_object_per_pixel(geometry, view,
-                                                                   kCoveragePictureSize, 1U << 30);
+            const auto seen = session::find_first_objects(geometry, view, kCoveragePictureSize,
+                                                          1U << 30);
             ASSERT_TRUE(seen.has_value());
             EXPECT_EQ(*seen, objects_by_pixel_from_tree(geometry, view, kCoveragePictureSize))
                 << name << ", camera " << k;
@@ -61,7 +61,7 @@ TEST(Coverage, SearchStopsAtTheLimitOfTests) {
     const render::SceneUnits space = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_geometry(scene, space);
     const shared::View view = render::make_camera_view(scene.cameras.front(), space, {64, 64}, 0);
-    EXPECT_FALSE(session::find_first_object_per_pixel(geometry, view, {64, 64}, 100));
+    EXPECT_FALSE(session::find_first_objects(geometry, view, {64, 64}, 100));
 }
 
 } // namespace

@@ -89,9 +89,9 @@ TEST_F(JsonFileTest, AllReadersGiveTheSameJsonError) {
     for (const auto& [reader, read] : std::map<std::string, std::function<void()>>{
              {"glTF", [&] { scene::load(put("scene.gltf", broken)); }},
              {"scene file", [&] { scene::read_scene_file(folder / "scene.obj", {}); }},
-             {"plan", [&] { session::read_technique_plan("plan:" + put("plan.json", broken)); }},
+             {"plan", [&] { session::read_plan("plan:" + put("plan.json", broken)); }},
              {"benchmarks", [&] { report::read_benchmarks(broken, "b.json"); }},
-             {"profile", [&] { session::parse_device_profile(broken, "p.json", {}); }}})
+             {"profile", [&] { session::parse_profile(broken, "p.json", {}); }}})
         EXPECT_THAT(test::catch_error_text(Failure::bad_data, read), HasSubstr(place)) << reader;
 }
 

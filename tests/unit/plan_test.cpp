@@ -80,9 +80,8 @@ TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
 
 void expect_plan_refused(const std::string& text, const std::vector<std::string>& words,
                          Failure failure = Failure::usage) {
-    test::expect_error(
-        [&] { reflect::assign_techniques(session::read_technique_plan(text), kMirrorNames); },
-        failure, words);
+    test::expect_error([&] { reflect::assign_techniques(session::read_plan(text), kMirrorNames); },
+                       failure, words);
 }
 
 TEST(PlanText, InvalidPlansAreRefusedWithTheReason) {
@@ -183,23 +182,21 @@ protected:
 TEST_F(PlanFileTest, PlanFileMeansTheSameAsThePlanText) {
     const reflect::TechniquePlan text = reflect::parse_plan(
         "1=reuse:face=64 2,back=hybrid *=march");
-    EXPECT_TRUE(session::read_technique_plan(
-                    write_plan_file(R"([{"mirror": 1, "technique": "reuse:face=64"},
+    EXPECT_TRUE(session::read_plan(write_plan_file(R"([{"mirror": 1, "technique": "reuse:face=64"},
                                         {"mirror": "2,back", "technique": "hybrid"},
                                         {"mirror": "*", "technique": "march"}])"))
                     .is_same(text));
     // A row of a report stores the same plan as an object with more fields.
-    const reflect::TechniquePlan row = session::read_technique_plan(
+    const reflect::TechniquePlan row = session::read_plan(
         write_plan_file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
                            "settings": {"face": 64, "colour": "half"}, "why": "rule '1'"},
                           {"mirror": "2,back", "technique": "hybrid", "settings": {}},
                           {"mirror": "*", "technique": "march"}]})"));
     EXPECT_TRUE(row.is_same(text));
     EXPECT_TRUE(row.label.starts_with("plan:"));
-    EXPECT_TRUE(
-        session::read_technique_plan(write_plan_file(R"([{"mirror": "*", "technique": "reuse",
+    EXPECT_TRUE(session::read_plan(write_plan_file(R"([{"mirror": "*", "technique": "reuse",
                                          "settings": {"face": "auto"}}])"))
-            .is_same(reflect::parse_plan("*=reuse:face=auto")));
+                    .is_same(reflect::parse_plan("*=reuse:face=auto")));
 }
 
 TEST_F(PlanFileTest, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {

@@ -20,8 +20,8 @@ bool does_frame_remember(bool reads_image, bool reads_buffer) {
     pass.writes(image, ResourceUse::storage_write).writes(buffer, ResourceUse::storage_write);
     pass.record([](graph::PassCommands&) {});
     frame.graph.output(image);
-    return session::depends_on_previous_frame(
-        frame, graph::plan_graph(frame.graph, {}, graph::default_sizer()), {});
+    return session::remembers(frame, graph::plan_graph(frame.graph, {}, graph::default_sizer()),
+                              {});
 }
 
 TEST(PreviousFrame, ImagesAndBuffersOfTheFrameBeforeAreHistory) {

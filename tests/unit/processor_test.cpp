@@ -31,13 +31,13 @@ TEST(Processor, ProcessSecondsCountAllThreads) {
 }
 
 TEST(Processor, ProcessorUseReportsHowLongThreadsRan) {
-    const auto before = read_processor_use();
+    const auto before = read_processor_times();
     ASSERT_TRUE(before) << "Linux tells";
     burn_processor_time(.05);
-    const auto after = read_processor_use();
+    const auto after = read_processor_times();
     ASSERT_TRUE(after);
-    EXPECT_NEAR(compute_waiting_times(*before, *after).ran, .05, .02);
-    EXPECT_EQ(compute_waiting_times(*after, *after).ran, 0);
+    EXPECT_NEAR(waiting_times(*before, *after).ran, .05, .02);
+    EXPECT_EQ(waiting_times(*after, *after).ran, 0);
     EXPECT_GE(after->busy, before->busy);
 }
 
@@ -51,19 +51,19 @@ TEST(Processor, OverloadedProcessorsShowAsWaiting) {
             while (!stop) {
             }
         });
-    const auto before = read_processor_use();
+    const auto before = read_processor_times();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto after = read_processor_use();
+    const auto after = read_processor_times();
     stop = true;
     ASSERT_TRUE(before && after);
-    const ProcessorWaitingTimes waiting = compute_waiting_times(*before, *after);
+    const WaitingTimes waiting = waiting_times(*before, *after);
     EXPECT_GT(waiting.waited, waiting.ran);
 }
 
 TEST(Processor, WaitingCountsNewThreadsButNotEndedOnes) {
-    const ProcessorUsageSoFar before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
+    const ProcessorTimes before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
         after{{{1, {11, 1.25}}, {3, {.5, .125}}}, 104};
-    ProcessorWaitingTimes waiting = compute_waiting_times(before, after);
+    WaitingTimes waiting = waiting_times(before, after);
     EXPECT_EQ(waiting.ran, 1.5) << "2 has ended: nobody knows what it did; 3 is new";
     EXPECT_EQ(waiting.waited, .375);
     EXPECT_EQ(waiting.others, 2.5);
@@ -74,14 +74,12 @@ TEST(Processor, WaitingCountsNewThreadsButNotEndedOnes) {
 }
 
 TEST(Processor, WaitingForOwnThreadsIsNoNoise) {
-    EXPECT_EQ(compute_waited_share({0, 0, 0}), 0);
-    EXPECT_EQ(compute_waited_share({6, 2, 0}), 0) << "nobody else was there";
-    EXPECT_EQ(compute_waited_share({6, 2, -.01}), 0) << "the system counts in hundredths";
-    EXPECT_EQ(compute_waited_share({6, 2, 2}), .25 * .25)
-        << "in a quarter of the time others had them";
-    EXPECT_EQ(compute_waited_share({6, 2, std::nan("")}), .25)
-        << "nobody tells, so all of it counts";
-    EXPECT_EQ(compute_waited_share({0, 2, 1}), 1);
+    EXPECT_EQ(waiting_share({0, 0, 0}), 0);
+    EXPECT_EQ(waiting_share({6, 2, 0}), 0) << "nobody else was there";
+    EXPECT_EQ(waiting_share({6, 2, -.01}), 0) << "the system counts in hundredths";
+    EXPECT_EQ(waiting_share({6, 2, 2}), .25 * .25) << "in a quarter of the time others had them";
+    EXPECT_EQ(waiting_share({6, 2, std::nan("")}), .25) << "nobody tells, so all of it counts";
+    EXPECT_EQ(waiting_share({0, 2, 1}), 1);
 }
 
 TEST(Processor, NoisyMeansWaitingForMoreThanFivePercent) {
@@ -129,7 +127,7 @@ TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
     while (numbers[0] == 0 || numbers[1] == 0) std::this_thread::yield();
     {
         const PinnedThreads held;
-        EXPECT_EQ(held.pinned_thread_count(), 2u);
+        EXPECT_EQ(held.count(), 2u);
         cpu_set_t first, second, both;
         ::sched_getaffinity(numbers[0], sizeof first, &first);
         ::sched_getaffinity(numbers[1], sizeof second, &second);

@@ -42,11 +42,11 @@ const std::vector<double> kFasterRoundRatios{.9, .91, .92, .93, .94, .95},
     kSlowerRoundRatios{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kMixedRoundRatios{.5, .6, .7, .8, .9, 1.01};
 
 TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
-    const std::string text = session::make_profile_text(
+    const std::string text = session::profile_text(
         make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios),
                              make_shader_variant_trial(1, kSlowerRoundRatios),
                              make_shader_variant_trial(2, kMixedRoundRatios)});
-    EXPECT_EQ(session::parse_device_profile(text, "p.json", make_device_info()),
+    EXPECT_EQ(session::parse_profile(text, "p.json", make_device_info()),
               (gpu::VariantChoices{1, 0, 0}));
     const json document = json::parse(text);
     EXPECT_EQ(document["variants"],
@@ -61,11 +61,11 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
 }
 
 TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
-    const std::string text = session::make_profile_text(
+    const std::string text = session::profile_text(
         make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios)});
     const auto refuses = [&](const session::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
-        test::expect_error([&] { session::parse_device_profile(text, "p.json", device); },
+        test::expect_error([&] { session::parse_profile(text, "p.json", device); },
                            Failure::bad_data,
                            {"p.json: is another device's or driver's profile: device." + member +
                             ": wanted '" + wanted + "', found '" + found + "'"});
@@ -79,12 +79,11 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
 }
 
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
-    json good = json::parse(session::make_profile_text(
+    json good = json::parse(session::profile_text(
         make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
-        test::expect_error(
-            [&] { session::parse_device_profile(text, "p.json", make_device_info()); },
-            Failure::bad_data, {"p.json: ", part});
+        test::expect_error([&] { session::parse_profile(text, "p.json", make_device_info()); },
+                           Failure::bad_data, {"p.json: ", part});
     };
     refuses("{", "JSON: line 1, column 2: wanted a key in quotation marks, found the end");
     refuses("[]", "wanted a device profile, schema 'catoptric/device-profile/1', found nothing");
@@ -98,12 +97,12 @@ TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     bad = good, bad["variants"]["pixels"] = "storage";
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
     good["variants"] = json::object(); // variants that are left out have their defaults
-    EXPECT_EQ(session::parse_device_profile(good.dump(), "p.json", make_device_info()),
+    EXPECT_EQ(session::parse_profile(good.dump(), "p.json", make_device_info()),
               gpu::VariantChoices{});
 }
 
 TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
-    EXPECT_EQ(session::make_profile_file_name(make_device_info("../a b:c\\d\n")),
+    EXPECT_EQ(session::profile_file_name(make_device_info("../a b:c\\d\n")),
               "10de-2330-.._a_b_c_d_.json");
 }
 
@@ -113,8 +112,8 @@ protected:
         std::ofstream(folder / name) << text;
     }
     std::string make_valid_profile_text() const {
-        return session::make_profile_text(make_device_info(),
-                                          {make_shader_variant_trial(0, kFasterRoundRatios)});
+        return session::profile_text(make_device_info(),
+                                     {make_shader_variant_trial(0, kFasterRoundRatios)});
     }
 };
 
@@ -122,24 +121,23 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     session::EngineOptions options;
     options.profiles = folder;
     session::DeviceInfo device = make_device_info();
-    EXPECT_EQ(session::choose_shader_variants(options, device), gpu::VariantChoices{})
-        << "there is none";
+    EXPECT_EQ(session::choose_variants(options, device), gpu::VariantChoices{}) << "there is none";
     EXPECT_EQ(device.profile + device.warning, "");
     EXPECT_THAT(device.variants,
                 testing::ElementsAre(Pair("groups", "scattered"), Pair("hierarchy", "texel"),
                                      Pair("pixels", "blocks")));
-    const std::string name = session::make_profile_file_name(device);
+    const std::string name = session::profile_file_name(device);
     write_profile_file(name, make_valid_profile_text());
-    EXPECT_EQ(session::choose_shader_variants(options, device), (gpu::VariantChoices{1, 0, 0}));
+    EXPECT_EQ(session::choose_variants(options, device), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
          {std::string("{"),
-          session::make_profile_text(make_device_info("another"),
-                                     {make_shader_variant_trial(0, kFasterRoundRatios)})}) {
+          session::profile_text(make_device_info("another"),
+                                {make_shader_variant_trial(0, kFasterRoundRatios)})}) {
         write_profile_file(name, text);
         device = make_device_info();
-        EXPECT_EQ(session::choose_shader_variants(options, device), gpu::VariantChoices{});
+        EXPECT_EQ(session::choose_variants(options, device), gpu::VariantChoices{});
         EXPECT_EQ(device.profile, "");
         EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
         EXPECT_THAT(device.warning, testing::HasSubstr("; shaders are as by default"));
@@ -149,13 +147,12 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
 TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
     session::DeviceInfo device = make_device_info();
     const auto choose = [&](const std::string& name) {
-        return session::choose_shader_variants({.profile = folder / name, .profiles = folder},
-                                               device);
+        return session::choose_variants({.profile = folder / name, .profiles = folder}, device);
     };
     write_profile_file("good.json", make_valid_profile_text()), write_profile_file("bad.json", "3");
-    write_profile_file("other.json", session::make_profile_text(
-                                         make_device_info("another"),
-                                         {make_shader_variant_trial(0, kFasterRoundRatios)}));
+    write_profile_file("other.json",
+                       session::profile_text(make_device_info("another"),
+                                             {make_shader_variant_trial(0, kFasterRoundRatios)}));
     EXPECT_EQ(choose("good.json"), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
@@ -164,7 +161,7 @@ TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
     test::expect_error([&] { choose("."); }, Failure::bad_data, {": wanted a file with a device"});
     test::expect_error(
         [&] {
-            session::choose_shader_variants({.variants = {{"pixels", "round"}}}, device);
+            session::choose_variants({.variants = {{"pixels", "round"}}}, device);
         },
         Failure::usage, {"variants.pixels: wanted 'blocks' or 'rows'"});
 }
@@ -177,11 +174,11 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
         session::DeviceInfo device = make_device_info();
         device.type = type;
-        const gpu::VariantChoices choices = session::choose_shader_variants({}, device);
+        const gpu::VariantChoices choices = session::choose_variants({}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
         EXPECT_THAT(device.variants, testing::Contains(Pair("hierarchy", "texel"))) << type;
-        EXPECT_EQ(choices, session::choose_default_variants(device));
-        session::choose_shader_variants({.variants = {{"pixels", "rows"}}}, device);
+        EXPECT_EQ(choices, session::default_variants(device));
+        session::choose_variants({.variants = {{"pixels", "rows"}}}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
     }
 }

@@ -250,7 +250,7 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
     ASSERT_EQ(read.punctual.size(), 1u);
     EXPECT_EQ(read.punctual[0].kind, kTestOnlyLightKind);
     EXPECT_NEAR(read.punctual[0].cos_outer, std::cos(.4), 1e-12);
-    EXPECT_EQ(session::list_light_facts(read).back().kind, "test-only");
+    EXPECT_EQ(session::light_facts(read).back().kind, "test-only");
     EXPECT_FALSE(scene::list_lights(read).back().directional);
     EXPECT_EQ(scene::list_lights(read).back().cos_outer, read.punctual[0].cos_outer);
 

@@ -51,27 +51,27 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
 }
 
 TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
-    session::CaptureCostEstimate pace;
-    EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "nothing was measured";
+    session::CaptureCost pace;
+    EXPECT_EQ(pace.count_affordable(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
-    EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "no mirror was drawn";
+    EXPECT_EQ(pace.count_affordable(1, 16), 16u) << "no mirror was drawn";
     pace.add(16, 8); // 16 ms for 8 mirrors, which is 2 ms for each
-    EXPECT_EQ(pace.count_affordable_captures(7.9, 16), 3u);
-    EXPECT_EQ(pace.count_affordable_captures(.1, 16), 1u) << "one at least";
-    EXPECT_EQ(pace.count_affordable_captures(1000, 16), 16u);
+    EXPECT_EQ(pace.count_affordable(7.9, 16), 3u);
+    EXPECT_EQ(pace.count_affordable(.1, 16), 1u) << "one at least";
+    EXPECT_EQ(pace.count_affordable(1000, 16), 16u);
     for (int k = 0; k < 4; ++k) pace.add(900, 1);
     for (int k = 0; k < 5; ++k) pace.add(4, 1);
-    EXPECT_EQ(pace.count_affordable_captures(8, 16), 2u) << "the median of the last nine";
-    session::CaptureCostEstimate at_once;
+    EXPECT_EQ(pace.count_affordable(8, 16), 2u) << "the median of the last nine";
+    session::CaptureCost at_once;
     at_once.add(0, 1);
-    EXPECT_EQ(at_once.count_affordable_captures(1, 16), 16u);
+    EXPECT_EQ(at_once.count_affordable(1, 16), 16u);
 }
 
 TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
-    EXPECT_EQ(session::describe_capture_budget({.mirrors = 16, .most = 3}),
+    EXPECT_EQ(session::describe_budget({.mirrors = 16, .most = 3}),
               "captures: at most 3 of 16 mirrors a frame; a reflection is at most 5 frames old, "
               "and 6 more for each further mirror on the light's path");
-    EXPECT_EQ(session::describe_capture_budget({.mirrors = 4, .most = 2}),
+    EXPECT_EQ(session::describe_budget({.mirrors = 4, .most = 2}),
               "captures: at most 2 of 4 mirrors a frame; a reflection is at most 1 frame old, "
               "and 2 more for each further mirror on the light's path");
     EXPECT_EQ((session::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_cycle(), 1u);

@@ -304,17 +304,17 @@ TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
 TEST(ExposureFor, ExposureBringsThe95thPercentileTo80Percent) {
     measure::Picture picture(10, 10);
     for (std::size_t i = 0; i < 100; ++i) picture.pixels[i] = vec3(i < 90 ? .01f : .1f);
-    EXPECT_EQ(session::choose_exposure_for_picture(picture), 3) << "log2(.8 / .1)";
+    EXPECT_EQ(session::choose_exposure(picture), 3) << "log2(.8 / .1)";
     for (vec3& pixel : picture.pixels) pixel *= 1.25f; // log2(.8 / .125) = 2.68, nearest to 8/3
-    EXPECT_DOUBLE_EQ(session::choose_exposure_for_picture(picture), 8.0 / 3);
+    EXPECT_DOUBLE_EQ(session::choose_exposure(picture), 8.0 / 3);
     picture.pixels.assign(100, vec3(0, 1, 0)); // luminance .7152 (Rec. 709)
-    EXPECT_EQ(session::choose_exposure_for_picture(picture), 0);
+    EXPECT_EQ(session::choose_exposure(picture), 0);
     picture.pixels.assign(100, vec3(0, 0, 1)); // luminance .0722 (Rec. 709): 3.47 stops
-    EXPECT_DOUBLE_EQ(session::choose_exposure_for_picture(picture), 10.0 / 3);
+    EXPECT_DOUBLE_EQ(session::choose_exposure(picture), 10.0 / 3);
     picture.pixels.assign(100, vec3(NAN));
-    EXPECT_EQ(session::choose_exposure_for_picture(picture), 0);
+    EXPECT_EQ(session::choose_exposure(picture), 0);
     picture.pixels.assign(100, vec3(0));
-    EXPECT_EQ(session::choose_exposure_for_picture(picture), 0);
+    EXPECT_EQ(session::choose_exposure(picture), 0);
 }
 
 } // namespace
