@@ -9,7 +9,7 @@ namespace catoptric::embed {
 
 namespace {
 
-graph::ResourceUse resource_use_for_vulkan_layout(VkImageLayout layout) {
+graph::ResourceUse use_of_layout(VkImageLayout layout) {
     switch (layout) {
     case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL: return graph::ResourceUse::sampled;
     case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL: return graph::ResourceUse::copy_from;
@@ -24,13 +24,13 @@ graph::ResourceUse resource_use_for_vulkan_layout(VkImageLayout layout) {
 }
 
 /// Adds the frame's last pass, which copies the displayed picture byte for byte.
-void add_copy_pass_to_caller_image(session::FrameGraph& frame, const Target& target, uvec2 size) {
+void add_copy_pass(session::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
         .name = "target", .format = TexelFormat::rgba8_unorm, .width = size.x, .height = size.y};
     frame.target = std::make_shared<graph::PhysicalImage>(graph::wrap_image(desc, target.image));
     const graph::ImageHandle display = frame.parts.front().outputs.display;
     const graph::ImageHandle image = frame.graph.import_resource(
-        desc, frame.target.get(), std::nullopt, resource_use_for_vulkan_layout(target.leaves));
+        desc, frame.target.get(), std::nullopt, use_of_layout(target.leaves));
     frame.graph.add_pass("target")
         .reads(display, graph::ResourceUse::copy_from)
         .writes(image, graph::ResourceUse::copy_to)
@@ -60,9 +60,9 @@ session::Frame render_into(session::Session& session, const session::FrameSpec& 
     check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
-    static_cast<void>(resource_use_for_vulkan_layout(target.leaves)); // throws before any work
+    static_cast<void>(use_of_layout(target.leaves)); // throws before any work
     return session::EmbedAccess::submit(session, spec, [&](session::FrameGraph& frame) {
-        add_copy_pass_to_caller_image(frame, target, spec.size);
+        add_copy_pass(frame, target, spec.size);
     });
 }
 

@@ -9,8 +9,7 @@ namespace catoptric::study {
 
 namespace {
 
-PlanAuditRequest make_audit_request_of_file(const std::filesystem::path& file,
-                                            AuditOptions options) {
+PlanAuditRequest read_audit_request(const std::filesystem::path& file, AuditOptions options) {
     PlanAuditRequest request = read_plan_audit(file);
     request.pace = {options.every, options.most_time, options.seed};
     request.before_audit = std::move(options.before_audit);
@@ -24,8 +23,8 @@ struct PlanAudit::Impl {
 };
 
 PlanAudit::PlanAudit(const std::filesystem::path& file, AuditOptions options)
-    : impl_(std::make_unique<Impl>(
-          RunningPlanAudit(make_audit_request_of_file(file, std::move(options))))) {}
+    : impl_(
+          std::make_unique<Impl>(RunningPlanAudit(read_audit_request(file, std::move(options))))) {}
 
 PlanAudit::~PlanAudit() = default;
 

@@ -34,25 +34,25 @@ namespace catoptric::study {
 namespace {
 
 /// A cause that the technique's own shader can ablate, with or without the others.
-struct AblatableErrorCause {
+struct AblatableCause {
     const char* name;
     std::uint32_t mends; ///< sum of shared::kAblate...
 };
 
-constexpr AblatableErrorCause kAblatableCauses[] = {
+constexpr AblatableCause kAblatableCauses[] = {
     {"direction", shared::kAblateDistance | shared::kAblateDirection},
     {"hidden target", shared::kAblateHiddenPoints},
     {"texels", shared::kAblateTexelColour},
     {"mirror in mirror", shared::kAblateMirrorReflections | shared::kAblateSelfReflection},
     {"shadow map", shared::kAblateShadows}};
-constexpr std::size_t kAblatableCauseCount = std::size(kAblatableCauses);
-constexpr std::uint32_t kAllErrorCausesMask = (1U << kAblatableCauseCount) - 1;
+constexpr std::size_t kCauseCount = std::size(kAblatableCauses);
+constexpr std::uint32_t kAllCauses = (1U << kCauseCount) - 1;
 
 /// Returns the flags of all causes that the coalition removes, as a sum of shared::kAblate... Bit i
 /// of `coalition` stands for cause i.
-std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
+std::uint32_t ablation_flags(std::uint32_t coalition) {
     std::uint32_t ablated = 0;
-    for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
+    for (std::size_t i = 0; i < kCauseCount; ++i)
         if ((coalition >> i & 1U) != 0) ablated |= kAblatableCauses[i].mends;
     return ablated;
 }
@@ -86,7 +86,7 @@ struct HistorySourceFrames {
 };
 
 /// Returns the technique with distances stored as 32-bit floats.
-std::string technique_with_float_distances(const std::string& technique) {
+std::string with_float_distances(const std::string& technique) {
     const ParsedTechnique choice = parse_technique(technique);
     const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
         return setting.name == "distance" && setting.text != "r32f";
@@ -130,29 +130,28 @@ Request make_history_request(const Request& base, const HistorySourceFrames& his
 
 using MirrorPixelValues = std::vector<double>;
 
-MirrorPixelValues subtract_pixel_values(const MirrorPixelValues& from,
-                                        const MirrorPixelValues& what) {
+MirrorPixelValues subtract(const MirrorPixelValues& from, const MirrorPixelValues& what) {
     MirrorPixelValues left(from.size());
     std::ranges::transform(from, what, left.begin(), std::minus());
     return left;
 }
 
 /// Returns the values of the pixels where `chosen` equals `told`, and 0 for all other pixels.
-MirrorPixelValues keep_values_of_chosen_pixels(const std::vector<bool>& chosen, bool told,
-                                               MirrorPixelValues values) {
+MirrorPixelValues keep_chosen(const std::vector<bool>& chosen, bool told,
+                              MirrorPixelValues values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         if (chosen[i] != told) values[i] = 0;
     return values;
 }
 
 /// The histories that pictures of a row use. Some of them may be equal.
-struct ErrorHistorySources {
+struct HistorySources {
     HistorySourceFrames row, row_settled;
     HistorySourceFrames stored, settled; ///< frames with distances stored as 32-bit floats
 };
 
-ErrorHistorySources choose_history_sources(const Request& base, const std::string& technique) {
-    const std::string full = technique_with_float_distances(technique);
+HistorySources choose_history_sources(const Request& base, const std::string& technique) {
+    const std::string full = with_float_distances(technique);
     return {choose_history_source(base, technique, false),
             choose_history_source(base, technique, true), choose_history_source(base, full, false),
             choose_history_source(base, full, true)};
@@ -161,26 +160,26 @@ ErrorHistorySources choose_history_sources(const Request& base, const std::strin
 using PictureWithHistory = std::pair<HistorySourceFrames, AblatedPicture>;
 
 /// Pictures of a row with causes removed, and the parts of its error that follow from their errors.
-class ErrorCauseLadder {
+class CauseLadder {
 public:
     /// `has_noise`: the reference has noise, because some surface reflects by a lobe.
-    ErrorCauseLadder(const Request& base, const std::string& technique, bool has_noise)
+    CauseLadder(const Request& base, const std::string& technique, bool has_noise)
         : histories_(choose_history_sources(base, technique)), has_noise_(has_noise),
           lookup_(read_lobe_lookup(technique)) {}
 
     PictureWithHistory row() const { return {histories_.row, {}}; }
 
     /// Returns the pictures that are needed with each history.
-    std::map<HistorySourceFrames, std::set<AblatedPicture>> list_pictures() const {
+    std::map<HistorySourceFrames, std::set<AblatedPicture>> pictures() const {
         std::map<HistorySourceFrames, std::set<AblatedPicture>> wanted;
         for (const HistorySourceFrames& history :
              {histories_.row, histories_.row_settled, histories_.stored, histories_.settled})
             wanted[history].insert(AblatedPicture{});
-        for (std::size_t i = 0; i < kAblatableCauseCount && !has_noise_; ++i)
-            wanted[histories_.row].insert({combine_ablation_flags(1U << i)});
-        for (std::uint32_t coalition = 0; coalition <= kAllErrorCausesMask; ++coalition)
-            wanted[histories_.settled].insert(picture_of_coalition(coalition));
-        for (const std::uint32_t flags : list_lobe_steps())
+        for (std::size_t i = 0; i < kCauseCount && !has_noise_; ++i)
+            wanted[histories_.row].insert({ablation_flags(1U << i)});
+        for (std::uint32_t coalition = 0; coalition <= kAllCauses; ++coalition)
+            wanted[histories_.settled].insert(picture_of(coalition));
+        for (const std::uint32_t flags : lobe_steps())
             wanted[histories_.settled].insert({flags, true});
         return wanted;
     }
@@ -201,79 +200,75 @@ public:
             return values;
         };
         const auto negate = [&](const MirrorPixelValues& values) {
-            return subtract_pixel_values(MirrorPixelValues(values.size()), values);
+            return subtract(MirrorPixelValues(values.size()), values);
         };
         const MirrorPixelValues &row = of(histories_.row),
-                                &left = of(histories_.settled,
-                                           picture_of_coalition(kAllErrorCausesMask)),
-                                format = subtract_pixel_values(row, of(histories_.stored));
+                                &left = of(histories_.settled, picture_of(kAllCauses)),
+                                format = subtract(row, of(histories_.stored));
         std::vector<measure::PixelCause> parts{
             {"storage format", format, format},
-            {"last frame", subtract_pixel_values(of(histories_.stored), of(histories_.settled)),
-             subtract_pixel_values(row, of(histories_.row_settled))}};
+            {"last frame", subtract(of(histories_.stored), of(histories_.settled)),
+             subtract(row, of(histories_.row_settled))}};
         const auto add_step = [&](const char* cause, const AblatedPicture& with,
                                   std::uint32_t without) {
-            parts.push_back({cause,
-                             subtract_pixel_values(of(histories_.settled, with),
-                                                   of(histories_.settled, {without, true})),
-                             {}});
+            parts.push_back(
+                {cause,
+                 subtract(of(histories_.settled, with), of(histories_.settled, {without, true})),
+                 {}});
         };
-        if (has_noise_) add_step("noise", {}, list_lobe_steps().front());
+        if (has_noise_) add_step("noise", {}, lobe_steps().front());
         if (has_noise_ && lookup_ == LobeLookup::sharply)
             add_step("lobe shape", {0, true}, kAblateLobeLookup);
         if (has_noise_ && lookup_ == LobeLookup::in_filtered_levels) {
             add_step("filter", {0, true}, shared::kAblateFilter);
-            const measure::ShapleyValues values = shapley_values(2, picture_of_lobe_coalition);
+            const measure::ShapleyValues values = shapley_values(2, lobe_picture_of);
             parts.push_back({"distance law", negate(values.worth(0)), {}});
             parts.push_back({"lobe shape", negate(values.worth(1)), {}});
         }
         const measure::ShapleyValues values = shapley_values(
-            kAblatableCauseCount,
-            [this](std::uint32_t coalition) { return picture_of_coalition(coalition); });
-        for (std::size_t i = 0; i < kAblatableCauseCount; ++i) {
+            kCauseCount, [this](std::uint32_t coalition) { return picture_of(coalition); });
+        for (std::size_t i = 0; i < kCauseCount; ++i) {
             parts.push_back({kAblatableCauses[i].name, negate(values.worth(i)), {}});
             if (!has_noise_)
-                parts.back().alone = subtract_pixel_values(
-                    row, of(histories_.row, {combine_ablation_flags(1U << i)}));
+                parts.back().alone = subtract(row, of(histories_.row, {ablation_flags(1U << i)}));
         }
-        parts.push_back({"silhouettes", keep_values_of_chosen_pixels(disagree, true, left),
-                         keep_values_of_chosen_pixels(disagree, true, row)});
-        parts.push_back({"rest", keep_values_of_chosen_pixels(disagree, false, left), {}});
+        parts.push_back(
+            {"silhouettes", keep_chosen(disagree, true, left), keep_chosen(disagree, true, row)});
+        parts.push_back({"rest", keep_chosen(disagree, false, left), {}});
         return parts;
     }
 
 private:
     /// Returns the picture without a coalition of kAblatableCauses.
-    AblatedPicture picture_of_coalition(std::uint32_t coalition) const {
-        return {combine_ablation_flags(coalition) | (has_noise_ ? kAblateLobeLookup : 0),
-                has_noise_};
+    AblatedPicture picture_of(std::uint32_t coalition) const {
+        return {ablation_flags(coalition) | (has_noise_ ? kAblateLobeLookup : 0), has_noise_};
     }
     /// Returns the picture without filter and a coalition of distance law and lobe shape.
-    static AblatedPicture picture_of_lobe_coalition(std::uint32_t coalition) {
+    static AblatedPicture lobe_picture_of(std::uint32_t coalition) {
         return {shared::kAblateFilter | ((coalition & 1U) != 0 ? shared::kAblateDistanceLaw : 0) |
                     ((coalition & 2U) != 0 ? shared::kAblateLobeShape : 0),
                 true};
     }
-    /// Returns the flags of the mean pictures between the row and picture_of_coalition(0), and of
+    /// Returns the flags of the mean pictures between the row and picture_of(0), and of
     /// the latter. The first has no noise, and the error of the row otherwise.
-    std::vector<std::uint32_t> list_lobe_steps() const {
+    std::vector<std::uint32_t> lobe_steps() const {
         std::vector<std::uint32_t> steps;
         if (has_noise_ && lookup_ != LobeLookup::by_rays) steps.push_back(0);
         if (has_noise_ && lookup_ == LobeLookup::in_filtered_levels)
             for (std::uint32_t coalition = 0; coalition < 3; ++coalition)
-                steps.push_back(picture_of_lobe_coalition(coalition).flags);
+                steps.push_back(lobe_picture_of(coalition).flags);
         if (has_noise_) steps.push_back(kAblateLobeLookup);
         return steps;
     }
 
-    ErrorHistorySources histories_;
+    HistorySources histories_;
     bool has_noise_;
     LobeLookup lookup_;
 };
 
 /// Throws `usage` for another reference than a default one, because removed causes are replaced by
 /// rays of the default reference.
-void check_reference_is_default(const std::string& reference) {
+void check_default_reference(const std::string& reference) {
     const ParsedTechnique found = parse_technique(reference);
     check(std::ranges::any_of(std::array{kReference, kRoughReference},
                               [&](const char* text) {
@@ -287,7 +282,7 @@ void check_reference_is_default(const std::string& reference) {
 
 /// Throws `usage` for techniques with light between surfaces, because the rays that replace removed
 /// causes have no such light, and for techniques that hide the environment from surfaces.
-void check_light_is_ambient(const CompareRequest& request) {
+void check_ambient_light(const CompareRequest& request) {
     check(request.base.scene.environment_shadows == 0, Failure::usage,
           "--causes: wanted --environment-shadows 0, found ",
           request.base.scene.environment_shadows,
@@ -305,8 +300,8 @@ void check_light_is_ambient(const CompareRequest& request) {
 /// Throws `usage` for rough mirrors of glass or with a clear coat, because the code that removes
 /// causes draws directions of the lobes of other mirrors only, and for another reference than the
 /// scene's default.
-void check_causes_are_known(const CompareRequest& request, int, report::Comparison&) {
-    check_light_is_ambient(request);
+void check_causes(const CompareRequest& request, int, report::Comparison&) {
+    check_ambient_light(request);
     const scene::Scene& scene = request.base.scene;
     for (const std::size_t i : scene::mirrors(scene)) {
         const scene::Material& material = scene.materials[scene.objects[i].material];
@@ -322,11 +317,11 @@ void check_causes_are_known(const CompareRequest& request, int, report::Comparis
           ", found '", request.reference, "'");
 }
 
-void measure_error_causes(const StudyInput& input) {
+void measure_causes(const StudyInput& input) {
     const CompareRequest& request = input.request;
     std::vector<report::Row>& rows = input.comparison.rows;
-    const ReferencePicture& truth = input.truth.get_reference("1");
-    std::optional<ErrorCauseFinder> finder;
+    const ReferencePicture& truth = input.truth.get("1");
+    std::optional<CauseFinder> finder;
     for (std::size_t i = 0; i < request.base.techniques.size(); ++i) {
         const std::string& text = request.base.techniques[i];
         // Plans are left out, because their error belongs to several searches.
@@ -336,9 +331,8 @@ void measure_error_causes(const StudyInput& input) {
         if (!rows[i].lookup || is_plan || is_twin) continue;
         report_row(request.watcher, "causes of " + text, i, rows.size());
         if (!finder)
-            finder.emplace(input.session, request.base, truth.part.hdr,
-                           input.truth.find_mirror_hits(), request.watcher,
-                           truth.compared_reference().halves);
+            finder.emplace(input.session, request.base, truth.part.hdr, input.truth.hits(),
+                           request.watcher, truth.compared().halves);
         rows[i].causes = std::make_shared<report::Causes>(finder->find(text));
         input.tell();
     }
@@ -348,15 +342,15 @@ const RegisteredStudy kErrorCausesStudy{
     {.name = "causes",
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,
-     .check_reference = check_reference_is_default,
-     .prepare = check_causes_are_known,
-     .run = measure_error_causes}};
+     .check_reference = check_default_reference,
+     .prepare = check_causes,
+     .run = measure_causes}};
 
 } // namespace
 
-void render_ablated_pictures(Session& session, const Request& request,
-                             const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
-                             const Watcher& watcher) {
+void render_ablated(Session& session, const Request& request,
+                    const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
+                    const Watcher& watcher) {
     FrameLoop frames(session, request);
     for (int k = 1; k < request.total(); ++k) frames.render_next(), throw_if_stopped(watcher);
     FrameSpec aside = request;
@@ -373,11 +367,10 @@ void render_ablated_pictures(Session& session, const Request& request,
     }
 }
 
-ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
-                                   const measure::Picture& truth,
-                                   const std::vector<std::uint32_t>& hits, const Watcher& watcher,
-                                   const measure::NoisyHalves* halves)
-    : study_session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
+CauseFinder::CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits, const Watcher& watcher,
+                         const measure::NoisyHalves* halves)
+    : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
       halves_(halves), pixels_(measure::mirror_pixels(hits)) {
     // This technique follows no ray through other mirrors. Its look-ups therefore name the mirror
     // that the rasteriser draws in each pixel.
@@ -396,8 +389,8 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
 
 /// Returns the squared error of a pixel in a picture that has two halves `a` and `b`, or is both of
 /// them. With halves of the reference, the estimate is unbiased: each factor has a half of its own.
-double ErrorCauseFinder::pixel_error(const measure::Picture& a, const measure::Picture& b,
-                                     std::size_t place) const {
+double CauseFinder::pixel_error(const measure::Picture& a, const measure::Picture& b,
+                                std::size_t place) const {
     const auto shown = [&](const measure::Picture& picture) {
         return measure::apply_exposure(picture.pixels[place], base_.exposure);
     };
@@ -410,16 +403,16 @@ double ErrorCauseFinder::pixel_error(const measure::Picture& a, const measure::P
     return (glm::dot(x - truth_a, y - truth_b) + glm::dot(x - truth_b, y - truth_a)) / 6;
 }
 
-report::Causes ErrorCauseFinder::find(const std::string& technique) const {
-    const ErrorCauseLadder ladder(base_, technique, halves_ != nullptr);
+report::Causes CauseFinder::find(const std::string& technique) const {
+    const CauseLadder ladder(base_, technique, halves_ != nullptr);
     std::map<PictureWithHistory, MirrorPixelValues> errors;
     measure::Mask off(hits_.size());
-    for (const auto& [history, pictures] : ladder.list_pictures()) {
+    for (const auto& [history, pictures] : ladder.pictures()) {
         std::vector<std::uint32_t> ablated;
         std::vector<AblatedPicture> shown; // of each entry of `ablated`
         for (const AblatedPicture& picture : pictures) {
             // The last bit of a picture's number is its half.
-            for (std::uint32_t i = 0; i < (picture.is_mean ? 2 * kDrawnFramesPerHalf : 1); ++i) {
+            for (std::uint32_t i = 0; i < (picture.is_mean ? 2 * kFramesPerHalf : 1); ++i) {
                 const std::uint32_t number = picture.is_mean ? i + 2 : 0;
                 ablated.push_back(picture.flags | number << shared::kAblateDrawBits);
                 shown.push_back(picture);
@@ -442,8 +435,7 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
                         measure::apply_exposure(truth_.pixels[place], base_.exposure));
             }
         };
-        render_ablated_pictures(study_session_, make_history_request(base_, history), ablated,
-                                judge, watcher_);
+        render_ablated(session_, make_history_request(base_, history), ablated, judge, watcher_);
     }
     return measure::summarise_causes(hits_, off, errors.at(ladder.row()),
                                      ladder.split_error(errors, disagree_));

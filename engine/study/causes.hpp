@@ -20,20 +20,20 @@ using PictureVisitor = std::function<void(std::size_t entry, const measure::Pict
 /// earlier frames. An entry is a sum of causes of error to remove (shared::kAblate...); 0 is the
 /// frame itself. From bit shared::kAblateDrawBits on it has the number of the picture's random
 /// directions; 0: those of the row. The session shows the request's scene.
-void render_ablated_pictures(Session& session, const Request& request,
-                             const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
-                             const Watcher& watcher = {});
+void render_ablated(Session& session, const Request& request,
+                    const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
+                    const Watcher& watcher = {});
 
 /// Splits the error of rows that look into captures by cause, against the default reference.
-class ErrorCauseFinder {
+class CauseFinder {
 public:
     /// Finds causes of errors in the scene of `base`, which `session` must show. `truth` is the
     /// reference's picture, and `hits` holds what each of its camera rays met (measure/masks.hpp).
     /// `halves` are the two halves of a reference with noise; null for a reference without noise.
     /// All objects passed by reference must outlive the finder.
-    ErrorCauseFinder(Session& session, const Request& base, const measure::Picture& truth,
-                     const std::vector<std::uint32_t>& hits, const Watcher& watcher = {},
-                     const measure::NoisyHalves* halves = nullptr);
+    CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
+                const std::vector<std::uint32_t>& hits, const Watcher& watcher = {},
+                const measure::NoisyHalves* halves = nullptr);
 
     /// Finds how much each cause contributes to the error of `technique`. Five causes share their
     /// joint error by Shapley values, per pixel, from pictures of all 32 sets of ablated causes.
@@ -46,17 +46,17 @@ public:
     /// random directions, so that squared errors are unbiased (measure/halves.hpp). Before the five
     /// causes, noise is removed, then the filter of captures. Distance law and lobe shape follow
     /// together and share their error by Shapley values. Renders about 36 times 2
-    /// kDrawnFramesPerHalf frames, with a dozen rays for each direction of a lobe.
+    /// kFramesPerHalf frames, with a dozen rays for each direction of a lobe.
     report::Causes find(const std::string& technique) const;
     /// Frames of each half of a picture of a removed cause, with shared::kAblatedLobeRays
     /// directions for each pixel of a rough mirror.
-    static constexpr std::uint32_t kDrawnFramesPerHalf = 4;
+    static constexpr std::uint32_t kFramesPerHalf = 4;
 
 private:
     double pixel_error(const measure::Picture& a, const measure::Picture& b,
                        std::size_t place) const;
 
-    Session& study_session_;
+    Session& session_;
     const Request& base_;
     const measure::Picture& truth_;
     const std::vector<std::uint32_t>& hits_;

@@ -21,7 +21,7 @@ namespace catoptric::study {
 
 namespace {
 
-void check_choose_request(const ResolvedChooseRequest& request) {
+void check_choose_request(const ResolvedRequest& request) {
     const auto check_part = [](const char* name, double value) {
         check(value > 0 && value < 1, Failure::usage, name,
               ": wanted a number between 0 and 1, found ", value);
@@ -41,7 +41,7 @@ void check_choose_request(const ResolvedChooseRequest& request) {
           Failure::usage, "training views: wanted at least ", measure::kMinIntervalSamples,
           ", found ", request.training_views);
     check(request.proof_seed != request.base.seed &&
-              request.proof_seed != seed_of_further_training_views(request),
+              request.proof_seed != further_training_seed(request),
           Failure::usage,
           "seed of the proof: wanted another than that of the training views, found ",
           request.proof_seed);
@@ -50,7 +50,7 @@ void check_choose_request(const ResolvedChooseRequest& request) {
     check(request.share <= kMaxPart && request.confidence <= kMaxPart, Failure::usage,
           "share and confidence: wanted at most ", kMaxPart, ", found ", request.share, " and ",
           request.confidence);
-    const int needed = count_fewest_proof_views(request);
+    const int needed = min_proof_views(request);
     check(request.proof_views == 0 || request.proof_views >= needed, Failure::usage,
           "views of the proof: wanted at least ", needed, ", since fewer cannot prove a share of ",
           request.share, " with a confidence of ", request.confidence, ", found ",
@@ -79,7 +79,7 @@ PlanComparer make_rendering_comparer(Engine& engine, const ChooseRequest& reques
     };
 }
 
-std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
+std::vector<PlanProof> prove_plans(const ResolvedRequest& request,
                                    const std::vector<std::string>& texts) {
     const int views = count_proof_views(request);
     request.tell_step(fmt::format(
@@ -88,7 +88,7 @@ std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
     const measure::Comparison comparison = request.compare_plans(texts, views, request.proof_seed,
                                                                  1);
     std::vector<PlanProof> proofs;
-    for (JudgedPlan& plan : list_judged_plans(request, comparison, texts)) {
+    for (JudgedPlan& plan : judged_plans(request, comparison, texts)) {
         PlanProof proof{.plan = std::move(plan),
                         .device = request.device_costs
                                       ? request.device_costs->device + " (predicted)"
@@ -96,14 +96,14 @@ std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
                         .scene_hash = comparison.scene.hash,
                         .exposure = comparison.exposure};
         const std::vector<double>& errors = proof.plan.errors;
-        proof.failures = count_views_above_limit(request, proof.plan);
+        proof.failures = count_failures(request, proof.plan);
         const double seen_share = measure::passing_share_bound(proof.failures, errors.size(),
                                                                request.confidence);
-        proof.share_bound = std::max(0.0, 1 - (1 - seen_share) /
-                                                  (1 - find_noise_miss_probability(request)));
-        proof.error_bound = measure::upper_tolerance_limit(errors, find_share_to_prove(request),
+        proof.share_bound = std::max(0.0,
+                                     1 - (1 - seen_share) / (1 - noise_miss_probability(request)));
+        proof.error_bound = measure::upper_tolerance_limit(errors, share_to_prove(request),
                                                            request.confidence);
-        proof.noise = find_reference_noise_of_views(request, comparison);
+        proof.noise = find_view_noise(request, comparison);
         proof.keeps_error = request.max_error ? proof.share_bound >= request.share
                                               : std::isfinite(proof.error_bound);
         proof.time = judge_time(request, proof.plan);
@@ -113,14 +113,14 @@ std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
     return proofs;
 }
 
-std::string format_limit_of_error(const ResolvedChooseRequest& request) {
-    return fmt::format("{} <= {:g}", error_quantity_name(request.quantity), *request.max_error);
+std::string format_limit(const ResolvedRequest& request) {
+    return fmt::format("{} <= {:g}", quantity_name(request.quantity), *request.max_error);
 }
 
 /// Returns the reason why no plan keeps the limits in the training views, and the nearest plan.
-std::string describe_nearest_plan(const ResolvedChooseRequest& request, const PlanChoice& choice,
+std::string describe_nearest_plan(const ResolvedRequest& request, const PlanChoice& choice,
                                   const JudgedPlan& nearest,
-                                  const std::optional<NoiseOfViews>& noise) {
+                                  const std::optional<ViewNoise>& noise) {
     const bool has_time = std::ranges::any_of(choice.candidates, [&](const JudgedPlan& plan) {
         return judge_time(request, plan) != TimeVerdict::breaks;
     });
@@ -130,13 +130,13 @@ std::string describe_nearest_plan(const ResolvedChooseRequest& request, const Pl
                            *request.max_ms, nearest.text, nearest.ms);
     return fmt::format("no candidate keeps {} in the {} training views{}; the best that is "
                        "reachable is {}, at most {:.4g}{}",
-                       format_limit_of_error(request), nearest.errors.size(),
+                       format_limit(request), nearest.errors.size(),
                        request.max_ms ? " within the time" : "", nearest.text,
-                       nearest.largest_error, describe_noise_as_cause(noise));
+                       nearest.largest_error, describe_noise_cause(noise));
 }
 
 /// Returns the reason why no plan keeps its limits in the proof views.
-std::string describe_failed_proof(const ResolvedChooseRequest& request,
+std::string describe_failed_proof(const ResolvedRequest& request,
                                   const std::vector<PlanProof>& proofs) {
     const PlanProof& first = proofs.front();
     if (first.keeps_error)
@@ -146,8 +146,8 @@ std::string describe_failed_proof(const ResolvedChooseRequest& request,
     return fmt::format("{} keeps the limits in the training views, but not in enough of the fresh "
                        "ones ({} of {} fail); the best that is reachable is {} <= {:.4g}{}",
                        first.plan.text, first.failures, first.plan.errors.size(),
-                       error_quantity_name(request.quantity), first.error_bound,
-                       describe_noise_as_cause(first.noise));
+                       quantity_name(request.quantity), first.error_bound,
+                       describe_noise_cause(first.noise));
 }
 
 /// Returns the index of the plan that comes nearest to the limits among proved plans: the last that
@@ -159,15 +159,15 @@ std::size_t find_nearest_proof(const std::vector<PlanProof>& proofs) {
     return nearest;
 }
 
-std::string describe_result_of_proof(const ResolvedChooseRequest& request, const PlanChoice& choice,
-                                     std::size_t index) {
+std::string describe_result(const ResolvedRequest& request, const PlanChoice& choice,
+                            std::size_t index) {
     const PlanProof& proof = choice.proofs[index];
     if (choice.chosen == index)
         return proof.holds() ? "chosen" : "chosen, if its predicted time is right";
     if (!proof.keeps_error)
         return request.max_error
                    ? fmt::format("proof failed: {} above {:g} in {} of {} fresh views",
-                                 error_quantity_name(request.quantity), *request.max_error,
+                                 quantity_name(request.quantity), *request.max_error,
                                  proof.failures, proof.plan.errors.size())
                    : "proof failed: some pixels of fresh views are not finite";
     if (proof.time == TimeVerdict::breaks) return describe_broken_time(request, proof.plan);
@@ -175,7 +175,7 @@ std::string describe_result_of_proof(const ResolvedChooseRequest& request, const
 }
 
 /// Sets why each plan of the proofs was chosen or fell.
-void explain_proofs(const ResolvedChooseRequest& request, const std::vector<std::string>& chain,
+void explain_proofs(const ResolvedRequest& request, const std::vector<std::string>& chain,
                     PlanChoice& choice) {
     for (std::size_t i = 0; i < chain.size(); ++i) {
         JudgedPlan& plan = *std::ranges::find(choice.candidates, chain[i], &JudgedPlan::text);
@@ -183,23 +183,23 @@ void explain_proofs(const ResolvedChooseRequest& request, const std::vector<std:
             plan.why = fmt::format("not proved, because the proof of {} failed",
                                    choice.proofs.back().plan.text);
         else if (plan.why.empty() || choice.chosen)
-            plan.why = describe_result_of_proof(request, choice, i);
+            plan.why = describe_result(request, choice, i);
         if (choice.nearest == i) plan.why += "; comes nearest";
     }
 }
 
 } // namespace
 
-const char* error_quantity_name(ErrorQuantity quantity) {
+const char* quantity_name(ErrorQuantity quantity) {
     return quantity == ErrorQuantity::flip ? "flip" : "rmse";
 }
 
-double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
+double mirror_error(ErrorQuantity quantity, const measure::Difference& mirrors) {
     if (mirrors.nonfinite > 0) return INFINITY;
-    return mirrors.pixels == 0 ? 0 : error_value_of_difference(quantity, mirrors);
+    return mirrors.pixels == 0 ? 0 : error_value(quantity, mirrors);
 }
 
-double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
+double lower_mirror_error(ErrorQuantity quantity, const measure::Difference& mirrors) {
     if (mirrors.nonfinite > 0) return INFINITY;
     if (mirrors.pixels == 0) return 0;
     return quantity == ErrorQuantity::flip ? measure::lower_flip_bound(mirrors)
@@ -208,7 +208,7 @@ double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Differe
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::string& plan) {
     const WatchedWork watched(asked.watcher);
-    const ResolvedChooseRequest request(asked, make_rendering_comparer(engine, asked));
+    const ResolvedRequest request(asked, make_rendering_comparer(engine, asked));
     check_choose_request(request);
     return prove_plans(request, {plan}).front();
 }
@@ -216,18 +216,17 @@ PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::stri
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& asked) {
     const WatchedWork watched(asked.watcher);
     ChooseRequest request = asked;
-    if (request.base.techniques.empty())
-        request.base.techniques = list_default_techniques(request.base);
+    if (request.base.techniques.empty()) request.base.techniques = default_techniques(request.base);
     return choose_plan(request, make_rendering_comparer(engine, request));
 }
 
 PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_plans) {
-    const ResolvedChooseRequest request(asked, compare_plans);
+    const ResolvedRequest request(asked, compare_plans);
     check_choose_request(request);
     check(!request.base.techniques.empty(), Failure::usage,
           "candidates: wanted at least one, found none");
     PlanChoice choice;
-    std::optional<NoiseOfViews> noise;
+    std::optional<ViewNoise> noise;
     std::vector<std::string> chain = find_plans_to_prove(request, choice.candidates, noise);
     const bool has_failed = chain.empty();
     if (has_failed) {

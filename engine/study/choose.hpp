@@ -18,14 +18,14 @@ namespace catoptric::study {
 using namespace session;
 
 /// Returns "flip" or "rmse".
-const char* error_quantity_name(ErrorQuantity quantity);
+const char* quantity_name(ErrorQuantity quantity);
 
 /// Returns the error of a view, from the difference of the pictures over the mirrors: 0 if the view
 /// shows no mirror, and infinite if any mirror pixel is not finite. Against a reference with noise,
 /// it is a bound that includes the noise (measure::flip_bound and rmse_bound).
-double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
+double mirror_error(ErrorQuantity quantity, const measure::Difference& mirrors);
 /// Returns the same error, but against a reference with noise a bound that it is not below.
-double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
+double lower_mirror_error(ErrorQuantity quantity, const measure::Difference& mirrors);
 
 /// A plan with its cost and its errors over views.
 struct JudgedPlan {
@@ -34,14 +34,14 @@ struct JudgedPlan {
     /// 95 % interval of a measured time; of a predicted time, the times by the least and the
     /// largest cost of each kind of work.
     measure::Interval ms_range;
-    std::vector<double> errors; ///< mirror_error_of_view of each drawn view
+    std::vector<double> errors; ///< mirror_error of each drawn view
     double largest_error = 0;   ///< largest of `errors`; without any, the error in the own view
     /// Why it was not chosen, or "chosen", or that it comes nearest: a clause.
     std::string why = {};
 };
 
 /// Returns the time of a plan in milliseconds with its range, such as "3.1 [2.9 - 3.4]".
-std::string format_milliseconds_with_range(const JudgedPlan& plan);
+std::string format_time_range(const JudgedPlan& plan);
 
 /// Whether a time keeps a limit. A predicted time may keep it at best.
 enum class TimeVerdict : std::uint8_t { keeps, may_keep, breaks };
@@ -66,7 +66,7 @@ struct PlanProof {
     std::string device;     ///< whose times decide, with " (predicted)" if costs predict them
     std::string scene_hash; ///< hash of the scene whose views were drawn
     double exposure = 0;    ///< stops
-    std::optional<NoiseOfViews> noise; ///< of the proof views; none: the reference has no noise
+    std::optional<ViewNoise> noise; ///< of the proof views; none: the reference has no noise
 };
 
 struct PlanChoice {

@@ -19,7 +19,7 @@ namespace {
 using report::Json;
 
 /// Returns the rules of a plan. The file of a plan was read before, so it is valid.
-Json make_plan_rules_json(const std::string& text) {
+Json plan_rules_json(const std::string& text) {
     if (constexpr std::string_view kFile = "plan:"; text.starts_with(kFile)) {
         const std::string file = text.substr(kFile.size());
         const Json document = parse_json<Json>(file, read_file(file));
@@ -40,7 +40,7 @@ Json make_plan_rules_json(const std::string& text) {
     return rules;
 }
 
-Json make_judged_plan_json(const JudgedPlan& plan) {
+Json judged_plan_json(const JudgedPlan& plan) {
     return {{"technique", plan.text},
             {"ms", report::number_json(plan.ms)},
             {"ms_range", report::interval_json(plan.ms_range)},
@@ -48,30 +48,30 @@ Json make_judged_plan_json(const JudgedPlan& plan) {
             {"errors", report::numbers_json(plan.errors)}};
 }
 
-Json make_candidate_json(const JudgedPlan& plan) {
-    Json json = make_judged_plan_json(plan);
+Json candidate_json(const JudgedPlan& plan) {
+    Json json = judged_plan_json(plan);
     json["why"] = plan.why;
     return json;
 }
 
 /// Returns true, false, or "may" for a predicted time.
-Json make_time_verdict_json(TimeVerdict verdict) {
+Json verdict_json(TimeVerdict verdict) {
     if (verdict == TimeVerdict::may_keep) return "may";
     return verdict == TimeVerdict::keeps;
 }
 
-Json make_proof_json(const PlanProof& proof) {
-    Json json = make_judged_plan_json(proof.plan);
+Json proof_json(const PlanProof& proof) {
+    Json json = judged_plan_json(proof.plan);
     json["views"] = proof.plan.errors.size(), json["failures"] = proof.failures;
     json["share_bound"] = report::number_json(proof.share_bound);
     json["error_bound"] = report::number_json(proof.error_bound);
     json["keeps_error"] = proof.keeps_error;
-    json["keeps_time"] = make_time_verdict_json(proof.time);
+    json["keeps_time"] = verdict_json(proof.time);
     return json;
 }
 
 /// Returns the noise of the proof views; null if the reference has no noise.
-Json make_noise_json(const std::optional<NoiseOfViews>& noise) {
+Json noise_json(const std::optional<ViewNoise>& noise) {
     if (!noise) return nullptr;
     return {{"median_floor", report::number_json(noise->median_floor)},
             {"largest_floor", report::number_json(noise->largest_floor)},
@@ -85,22 +85,22 @@ struct StatedLimits {
     std::size_t failures = 0;
 };
 
-StatedLimits state_requested_limits(const ChooseRequest& request, const PlanProof& proof) {
+StatedLimits requested_limits(const ChooseRequest& request, const PlanProof& proof) {
     return {request.max_error, request.max_ms, proof.failures};
 }
 
 /// Returns the limits that a plan keeps. A certificate without a limit of error states the error
 /// that the share of views does not exceed.
-StatedLimits state_kept_limits(const ChooseRequest& request, const PlanProof& proof) {
-    StatedLimits limits = state_requested_limits(request, proof);
+StatedLimits kept_limits(const ChooseRequest& request, const PlanProof& proof) {
+    StatedLimits limits = requested_limits(request, proof);
     if (!proof.keeps_error) limits.max_error.reset(), limits.failures = 0;
     if (proof.time == TimeVerdict::breaks) limits.max_ms.reset();
     return limits;
 }
 
-Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
-                           const StatedLimits& limits, const std::string& scene) {
-    return {{"quantity", error_quantity_name(request.quantity)},
+Json certificate_json(const ChooseRequest& request, const PlanProof& proof,
+                      const StatedLimits& limits, const std::string& scene) {
+    return {{"quantity", quantity_name(request.quantity)},
             {"max_error", report::number_json(limits.max_error)},
             {"max_ms", report::number_json(limits.max_ms)},
             {"share", request.share},
@@ -117,7 +117,7 @@ Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
             {"scene_hash", proof.scene_hash},
             {"reference",
              choose_reference(request.reference, request.base.scene, ReferencePixelKind::centre)},
-            {"reference_noise", make_noise_json(proof.noise)},
+            {"reference_noise", noise_json(proof.noise)},
             {"exposure", proof.exposure},
             {"width", request.base.size.x},
             {"height", request.base.size.y},
@@ -131,7 +131,7 @@ Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
 
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof,
                            const StatedLimits& limits) {
-    const char* quantity = error_quantity_name(request.quantity);
+    const char* quantity = quantity_name(request.quantity);
     // The certificate claims no larger share than requested, because only the requested share was
     // tested.
     const double share = std::min(proof.share_bound, request.share);
@@ -143,20 +143,20 @@ std::string describe_proof(const ChooseRequest& request, const PlanProof& proof,
                                                     proof.error_bound);
     return fmt::format(
         "{}: {} ms on {}; {}, with {:g} % confidence ({} views of {}x{}, {} failures){}",
-        proof.plan.text, format_milliseconds_with_range(proof.plan), proof.device, statement,
+        proof.plan.text, format_time_range(proof.plan), proof.device, statement,
         100 * request.confidence, proof.plan.errors.size(), request.base.size.x,
         request.base.size.y, limits.failures,
-        proof.noise ? "; " + describe_noise_of_views(*proof.noise) : "");
+        proof.noise ? "; " + describe_noise(*proof.noise) : "");
 }
 
 } // namespace
 
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof) {
-    return describe_proof(request, proof, state_requested_limits(request, proof));
+    return describe_proof(request, proof, requested_limits(request, proof));
 }
 
 std::string describe_nearest_proof(const ChooseRequest& request, const PlanProof& proof) {
-    return describe_proof(request, proof, state_kept_limits(request, proof));
+    return describe_proof(request, proof, kept_limits(request, proof));
 }
 
 std::string describe_verdict(const ChooseRequest& request, const PlanProof& proof) {
@@ -169,35 +169,34 @@ std::string describe_verdict(const ChooseRequest& request, const PlanProof& proo
                : fmt::format("may hold, {:.3g} ms with an unknown error", proof.plan.ms);
 }
 
-Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
-                      const std::string& scene) {
+Json choice_json(const ChooseRequest& request, const PlanChoice& choice, const std::string& scene) {
     Json document{{"schema", "catoptric/plan/1"}};
     if (choice.chosen) {
         const PlanProof& proof = choice.proofs[*choice.chosen];
-        document["plan"] = make_plan_rules_json(proof.plan.text);
-        document["certificate"] = make_certificate_json(
-            request, proof, state_requested_limits(request, proof), scene);
+        document["plan"] = plan_rules_json(proof.plan.text);
+        document["certificate"] = certificate_json(request, proof, requested_limits(request, proof),
+                                                   scene);
     } else {
         const PlanProof& proof = choice.proofs.at(choice.nearest.value());
-        document["plan"] = make_plan_rules_json(proof.plan.text);
+        document["plan"] = plan_rules_json(proof.plan.text);
         document["nearest"] = {{"why", choice.failure},
                                {"max_error", report::number_json(request.max_error)},
                                {"max_ms", report::number_json(request.max_ms)}};
-        document["certificate"] = make_certificate_json(request, proof,
-                                                        state_kept_limits(request, proof), scene);
+        document["certificate"] = certificate_json(request, proof, kept_limits(request, proof),
+                                                   scene);
     }
-    document["proofs"] = report::list_json(choice.proofs, make_proof_json);
-    document["candidates"] = report::list_json(choice.candidates, make_candidate_json);
+    document["proofs"] = report::list_json(choice.proofs, proof_json);
+    document["candidates"] = report::list_json(choice.candidates, candidate_json);
     return document;
 }
 
-Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
-                           const PlanProof& proof, const std::string& scene) {
-    Json document{{"schema", "catoptric/plan/1"}, {"plan", make_plan_rules_json(plan)}};
+Json proved_plan_json(const ChooseRequest& request, const std::string& plan, const PlanProof& proof,
+                      const std::string& scene) {
+    Json document{{"schema", "catoptric/plan/1"}, {"plan", plan_rules_json(plan)}};
     // The figures of a plan that is not proved are written under another name, without a statement.
-    document[proof.may_hold() ? "certificate" : "not_proved"] = make_certificate_json(
-        request, proof, state_requested_limits(request, proof), scene);
-    document["proofs"] = Json::array({make_proof_json(proof)});
+    document[proof.may_hold() ? "certificate" : "not_proved"] = certificate_json(
+        request, proof, requested_limits(request, proof), scene);
+    document["proofs"] = Json::array({proof_json(proof)});
     return document;
 }
 
@@ -206,16 +205,16 @@ ChosenPlan choose(Engine& engine, const ChooseRequest& request) {
     const PlanChoice choice = choose_plan(engine, request);
     return {.plan = choice.chosen ? choice.proofs[*choice.chosen].plan.text : "",
             .failure = choice.failure,
-            .json = report::serialise(make_choice_json(request, choice, request.base.scene.name))};
+            .json = report::serialise(choice_json(request, choice, request.base.scene.name))};
 }
 
 ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::string& plan) {
     scene::check_scene(request.base.scene);
     const PlanProof proof = prove_plan(engine, request, plan);
-    return {.plan = proof.may_hold() ? plan : "",
-            .failure = proof.may_hold() ? "" : "does not hold: " + describe_proof(request, proof),
-            .json = report::serialise(
-                make_proved_plan_json(request, plan, proof, request.base.scene.name))};
+    return {
+        .plan = proof.may_hold() ? plan : "",
+        .failure = proof.may_hold() ? "" : "does not hold: " + describe_proof(request, proof),
+        .json = report::serialise(proved_plan_json(request, plan, proof, request.base.scene.name))};
 }
 
 } // namespace catoptric::study

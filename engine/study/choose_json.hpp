@@ -13,13 +13,13 @@ using namespace session;
 /// Returns the file of a choice. Without a chosen plan, the file has the nearest plan with a
 /// certificate of what it proves, and `nearest` has the limits that it breaks, and the reason.
 /// `scene` is how the user names the scene.
-report::Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
-                              const std::string& scene);
+report::Json choice_json(const ChooseRequest& request, const PlanChoice& choice,
+                         const std::string& scene);
 /// Returns the file of a plan that was tested alone. Its `certificate` is named `not_proved` if the
 /// plan does not hold. `plan`: its text in Request::techniques; a
 /// file that it names must exist.
-report::Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
-                                   const PlanProof& proof, const std::string& scene);
+report::Json proved_plan_json(const ChooseRequest& request, const std::string& plan,
+                              const PlanProof& proof, const std::string& scene);
 /// Returns one sentence with the result of testing a plan on the proof views.
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof);
 /// Returns one sentence with what the nearest plan proves instead of the requested limits.

@@ -29,20 +29,19 @@ measure::Interval find_predicted_range(const measure::DeviceCosts& costs,
 /// Returns whether one plan takes less time than another. The interval of a measured time must end
 /// before the other interval. Predicted times are compared without their ranges, because both
 /// ranges have the same unknown unit costs.
-bool does_plan_take_less_time(const ResolvedChooseRequest& request, const JudgedPlan& a,
-                              const JudgedPlan& b) {
+bool takes_less_time(const ResolvedRequest& request, const JudgedPlan& a, const JudgedPlan& b) {
     const bool known = !request.device_costs && a.ms_range.is_known() && b.ms_range.is_known();
     return known ? a.ms_range.high < b.ms_range.low : a.ms < b.ms;
 }
 
-std::string describe_broken_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
-    return fmt::format("{} above {:g} in {} of {} training views",
-                       error_quantity_name(request.quantity), request.max_error.value_or(0),
-                       count_views_above_limit(request, plan), plan.errors.size());
+std::string describe_broken_error(const ResolvedRequest& request, const JudgedPlan& plan) {
+    return fmt::format("{} above {:g} in {} of {} training views", quantity_name(request.quantity),
+                       request.max_error.value_or(0), count_failures(request, plan),
+                       plan.errors.size());
 }
 
 /// Returns whether no further measurement is likely to bring the time below its limit.
-bool is_surely_too_slow(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+bool is_surely_too_slow(const ResolvedRequest& request, const JudgedPlan& plan) {
     const bool known = !request.device_costs && plan.ms_range.is_known();
     return request.max_ms && (known ? plan.ms_range.low : plan.ms) > *request.max_ms;
 }
@@ -52,7 +51,7 @@ double excess(double value, double limit) {
     return limit > 0 ? value / limit : value > 0 ? INFINITY : 0;
 }
 
-double find_excess_of_plan(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+double find_excess(const ResolvedRequest& request, const JudgedPlan& plan) {
     double factor = 0;
     if (request.max_error) factor = excess(plan.largest_error, *request.max_error);
     if (request.max_ms) factor = std::max(factor, excess(plan.ms, *request.max_ms));
@@ -61,45 +60,45 @@ double find_excess_of_plan(const ResolvedChooseRequest& request, const JudgedPla
 
 } // namespace
 
-ResolvedChooseRequest::ResolvedChooseRequest(const ChooseRequest& request, PlanComparer comparer)
+ResolvedRequest::ResolvedRequest(const ChooseRequest& request, PlanComparer comparer)
     : ChooseRequest(request), compare_plans(std::move(comparer)) {
     if (!costs.empty()) device_costs = report::read_costs_file(costs);
 }
 
-std::string format_milliseconds_with_range(const JudgedPlan& plan) {
+std::string format_time_range(const JudgedPlan& plan) {
     std::string text = fmt::format("{:.3g}", plan.ms);
     if (plan.ms_range.low < plan.ms_range.high)
         text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
     return text;
 }
 
-int count_fewest_proof_views(const ChooseRequest& request) {
+int min_proof_views(const ChooseRequest& request) {
     return static_cast<int>(
-        std::max(measure::needed_views(find_share_to_prove(request), request.confidence, 0),
+        std::max(measure::needed_views(share_to_prove(request), request.confidence, 0),
                  measure::kMinIntervalSamples));
 }
 
 int count_proof_views(const ChooseRequest& request) {
-    return request.proof_views > 0 ? request.proof_views : count_fewest_proof_views(request);
+    return request.proof_views > 0 ? request.proof_views : min_proof_views(request);
 }
 
 int count_training_views(const ChooseRequest& request) {
-    return request.training_views > 0 ? request.training_views : count_fewest_proof_views(request);
+    return request.training_views > 0 ? request.training_views : min_proof_views(request);
 }
 
-std::uint64_t seed_of_further_training_views(const ChooseRequest& request) {
+std::uint64_t further_training_seed(const ChooseRequest& request) {
     constexpr std::uint64_t kAboveTypedSeeds = std::uint64_t{1} << 40;
     return request.base.seed + kAboveTypedSeeds;
 }
 
-double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error) {
+double error_value(ErrorQuantity quantity, const measure::Difference& error) {
     return quantity == ErrorQuantity::flip ? measure::flip_bound(error)
                                            : measure::rmse_bound(error);
 }
 
-std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
-                                          const measure::Comparison& comparison,
-                                          const std::vector<std::string>& texts) {
+std::vector<JudgedPlan> judged_plans(const ResolvedRequest& request,
+                                     const measure::Comparison& comparison,
+                                     const std::vector<std::string>& texts) {
     std::vector<measure::PredictedTime> predicted;
     if (request.device_costs)
         predicted = measure::predict_front(*request.device_costs, comparison.rows).times;
@@ -115,16 +114,15 @@ std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
             plan.ms_range = find_predicted_range(*request.device_costs, predicted[i]);
         }
         for (const measure::Errors& errors : row.views)
-            plan.errors.push_back(mirror_error_of_view(request.quantity, errors.error));
-        plan.largest_error = plan.errors.empty()
-                                 ? error_value_of_difference(request.quantity, row.error)
-                                 : std::ranges::max(plan.errors);
+            plan.errors.push_back(mirror_error(request.quantity, errors.error));
+        plan.largest_error = plan.errors.empty() ? error_value(request.quantity, row.error)
+                                                 : std::ranges::max(plan.errors);
         plans.push_back(std::move(plan));
     }
     return plans;
 }
 
-TimeVerdict judge_time(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+TimeVerdict judge_time(const ResolvedRequest& request, const JudgedPlan& plan) {
     if (!request.max_ms) return TimeVerdict::keeps;
     if (request.device_costs)
         return plan.ms <= *request.max_ms ? TimeVerdict::may_keep : TimeVerdict::breaks;
@@ -132,24 +130,23 @@ TimeVerdict judge_time(const ResolvedChooseRequest& request, const JudgedPlan& p
     return ms <= *request.max_ms ? TimeVerdict::keeps : TimeVerdict::breaks;
 }
 
-std::size_t count_views_above_limit(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+std::size_t count_failures(const ResolvedRequest& request, const JudgedPlan& plan) {
     if (!request.max_error) return 0;
     return static_cast<std::size_t>(std::ranges::count_if(
         plan.errors, [&](double error) { return !(error <= *request.max_error); }));
 }
 
-bool keeps_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
-    return count_views_above_limit(request, plan) == 0;
+bool keeps_error(const ResolvedRequest& request, const JudgedPlan& plan) {
+    return count_failures(request, plan) == 0;
 }
 
-std::string describe_broken_time(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
+std::string describe_broken_time(const ResolvedRequest& request, const JudgedPlan& plan) {
     return fmt::format("{} {} ms, above {:g}", request.device_costs ? "predicted" : "takes",
-                       format_milliseconds_with_range(plan), request.max_ms.value_or(0));
+                       format_time_range(plan), request.max_ms.value_or(0));
 }
 
-void drop_clearly_beaten_plans(const ResolvedChooseRequest& request,
-                               const measure::Comparison& comparison,
-                               std::vector<JudgedPlan>& plans) {
+void drop_beaten_plans(const ResolvedRequest& request, const measure::Comparison& comparison,
+                       std::vector<JudgedPlan>& plans) {
     constexpr double kMargin = 1.5; // ratio of times and errors in the own view that counts as a
                                     // wide margin
     for (std::size_t i = 0; i < plans.size(); ++i)
@@ -166,7 +163,7 @@ void drop_clearly_beaten_plans(const ResolvedChooseRequest& request,
         if (better != plans.end())
             plan.why = fmt::format(
                 "{} is {:.3g} times as fast and has a smaller {} in the own view", better->text,
-                plan.ms / better->ms, error_quantity_name(request.quantity));
+                plan.ms / better->ms, quantity_name(request.quantity));
         // With a limit of error, a technique that is too slow alone may still draw a mirror of a
         // mix.
         else if (!request.max_error && is_surely_too_slow(request, plan))
@@ -174,8 +171,8 @@ void drop_clearly_beaten_plans(const ResolvedChooseRequest& request,
     }
 }
 
-std::vector<JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& request,
-                                             std::vector<JudgedPlan>& plans) {
+std::vector<JudgedPlan*> unbeaten_plans(const ResolvedRequest& request,
+                                        std::vector<JudgedPlan>& plans) {
     std::vector<JudgedPlan*> kept;
     for (JudgedPlan& plan : plans) {
         if (!plan.why.empty()) continue;
@@ -193,7 +190,7 @@ std::vector<JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& reques
     std::vector<JudgedPlan*> unbeaten;
     for (JudgedPlan* plan : kept) { // plans earlier in the list err less
         const auto surer = std::ranges::find_if(unbeaten, [&](const JudgedPlan* other) {
-            return !does_plan_take_less_time(request, *plan, *other);
+            return !takes_less_time(request, *plan, *other);
         });
         if (surer == unbeaten.end())
             unbeaten.push_back(plan);
@@ -203,12 +200,11 @@ std::vector<JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& reques
     return unbeaten;
 }
 
-JudgedPlan* find_nearest_plan(const ResolvedChooseRequest& request,
-                              std::vector<JudgedPlan>& plans) {
+JudgedPlan* find_nearest_plan(const ResolvedRequest& request, std::vector<JudgedPlan>& plans) {
     std::size_t views = 0;
     for (const JudgedPlan& plan : plans) views = std::max(views, plan.errors.size());
     const auto measure_distance = [&](const JudgedPlan& plan) {
-        return std::pair(find_excess_of_plan(request, plan),
+        return std::pair(find_excess(request, plan),
                          request.max_error ? plan.largest_error : plan.ms);
     };
     JudgedPlan* nearest = nullptr;

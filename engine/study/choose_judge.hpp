@@ -14,8 +14,8 @@ using namespace session;
 
 /// A request to choose a plan, together with the contents of the files that the request names, and
 /// where its comparisons come from.
-struct ResolvedChooseRequest : ChooseRequest {
-    ResolvedChooseRequest(const ChooseRequest& request, PlanComparer comparer);
+struct ResolvedRequest : ChooseRequest {
+    ResolvedRequest(const ChooseRequest& request, PlanComparer comparer);
     /// Tells the caller about the next step, a sentence.
     void tell_step(const std::string& sentence) const {
         if (tell) tell(sentence);
@@ -32,40 +32,39 @@ inline constexpr int kFirstTrainingViews = 12;
 /// than the allowed share of views shows it in one of them, with the requested confidence.
 int count_training_views(const ChooseRequest& request);
 /// Returns the least number of proof views that can prove the share, and that `compare` accepts.
-int count_fewest_proof_views(const ChooseRequest& request);
+int min_proof_views(const ChooseRequest& request);
 /// Returns the number of fresh views in which plans are proved.
 int count_proof_views(const ChooseRequest& request);
 /// Returns the seed of the training views after the first kFirstTrainingViews.
-std::uint64_t seed_of_further_training_views(const ChooseRequest& request);
+std::uint64_t further_training_seed(const ChooseRequest& request);
 
 /// Returns the plans of a comparison's rows, with their times and their errors in drawn views.
-std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
-                                          const measure::Comparison& comparison,
-                                          const std::vector<std::string>& texts);
+std::vector<JudgedPlan> judged_plans(const ResolvedRequest& request,
+                                     const measure::Comparison& comparison,
+                                     const std::vector<std::string>& texts);
 /// Returns the error of the pixels that are finite, including the noise of the reference.
-double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error);
+double error_value(ErrorQuantity quantity, const measure::Difference& error);
 
-TimeVerdict judge_time(const ResolvedChooseRequest& request, const JudgedPlan& plan);
+TimeVerdict judge_time(const ResolvedRequest& request, const JudgedPlan& plan);
 /// Returns whether the plan keeps the limit of error in each of its views.
-bool keeps_error(const ResolvedChooseRequest& request, const JudgedPlan& plan);
+bool keeps_error(const ResolvedRequest& request, const JudgedPlan& plan);
 /// Returns the number of the plan's views above the limit of error; 0 without a limit.
-std::size_t count_views_above_limit(const ResolvedChooseRequest& request, const JudgedPlan& plan);
+std::size_t count_failures(const ResolvedRequest& request, const JudgedPlan& plan);
 
 /// Returns a clause such as "takes 8.1 [7.9 - 8.3] ms, above 4".
-std::string describe_broken_time(const ResolvedChooseRequest& request, const JudgedPlan& plan);
+std::string describe_broken_time(const ResolvedRequest& request, const JudgedPlan& plan);
 
 /// Marks candidates that another candidate beats by a wide margin in time and error in the
 /// comparison's own view, and those that cannot be used: sets their `why`.
-void drop_clearly_beaten_plans(const ResolvedChooseRequest& request,
-                               const measure::Comparison& comparison,
-                               std::vector<JudgedPlan>& plans);
+void drop_beaten_plans(const ResolvedRequest& request, const measure::Comparison& comparison,
+                       std::vector<JudgedPlan>& plans);
 /// Returns the plans without `why` that keep the limits and that no other such plan beats, in order
 /// from the smallest error to the shortest time. A plan is beaten by a plan that errs less and does
 /// not take more time. Sets `why` of all others.
-std::vector<JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& request,
-                                             std::vector<JudgedPlan>& plans);
+std::vector<JudgedPlan*> unbeaten_plans(const ResolvedRequest& request,
+                                        std::vector<JudgedPlan>& plans);
 /// Returns the plan that exceeds its limits by the smallest factor, among those with errors in as
 /// many views as any; null without plans.
-JudgedPlan* find_nearest_plan(const ResolvedChooseRequest& request, std::vector<JudgedPlan>& plans);
+JudgedPlan* find_nearest_plan(const ResolvedRequest& request, std::vector<JudgedPlan>& plans);
 
 } // namespace catoptric::study

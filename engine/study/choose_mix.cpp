@@ -12,8 +12,7 @@ namespace {
 
 /// Returns the text of a plan with one technique per mirror; empty if all mirrors have the same
 /// technique.
-std::string make_plan_text_from_technique_mix(const std::vector<std::string>& texts,
-                                              const std::vector<std::size_t>& mix) {
+std::string mix_text(const std::vector<std::string>& texts, const std::vector<std::size_t>& mix) {
     std::map<std::size_t, std::string> mirrors; // numbers of the mirrors of each technique
     for (std::size_t mirror = 0; mirror < mix.size(); ++mirror) {
         std::string& list = mirrors[mix[mirror]];
@@ -28,7 +27,7 @@ std::string make_plan_text_from_technique_mix(const std::vector<std::string>& te
 
 } // namespace
 
-std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
+std::string find_fastest_mixed_plan(const ResolvedRequest& request,
                                     const measure::Comparison& training,
                                     const std::vector<JudgedPlan>& plans) {
     if (!request.max_error) return "";
@@ -45,9 +44,7 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
             std::vector<double>& sums = candidate.error_sums.emplace_back();
             std::vector<double>& counts = pixels.emplace_back();
             for (const measure::Difference& mirror : view.error_per_mirror) {
-                const double error = mirror.pixels > 0
-                                         ? error_value_of_difference(request.quantity, mirror)
-                                         : 0;
+                const double error = mirror.pixels > 0 ? error_value(request.quantity, mirror) : 0;
                 counts.push_back(static_cast<double>(mirror.pixels));
                 sums.push_back(counts.back() * (squares ? error * error : error));
             }
@@ -57,14 +54,14 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
     }
     const double limit = squares ? *request.max_error * *request.max_error : *request.max_error;
     const std::vector<std::size_t> mix = measure::find_fastest_mix(candidates, pixels, limit);
-    return make_plan_text_from_technique_mix(texts, mix);
+    return mix_text(texts, mix);
 }
 
-bool is_second_plan_faster(const ResolvedChooseRequest& request, const std::string& first,
-                           JudgedPlan& second) {
+bool is_second_faster(const ResolvedRequest& request, const std::string& first,
+                      JudgedPlan& second) {
     const std::vector<std::string> texts{first, second.text};
     const measure::Comparison both = request.compare_plans(texts, 0, request.base.seed, 1);
-    std::vector<JudgedPlan> plans = list_judged_plans(request, both, texts);
+    std::vector<JudgedPlan> plans = judged_plans(request, both, texts);
     const bool is_faster = request.device_costs
                                ? plans[1].ms < plans[0].ms
                                : measure::RowJudge(both.rows).times(both.rows[1], both.rows[0]) ==

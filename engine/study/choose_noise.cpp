@@ -12,15 +12,15 @@
 
 namespace catoptric::study {
 
-double find_noise_miss_probability(const ChooseRequest& request) {
+double noise_miss_probability(const ChooseRequest& request) {
     const scene::Scene& scene = request.base.scene;
-    return does_reference_have_noise(choose_reference(request.reference, scene), scene)
+    return is_noisy(choose_reference(request.reference, scene), scene)
                ? measure::kNoiseMissProbability
                : 0;
 }
 
-double find_share_to_prove(const ChooseRequest& request) {
-    return 1 - (1 - request.share) * (1 - find_noise_miss_probability(request));
+double share_to_prove(const ChooseRequest& request) {
+    return 1 - (1 - request.share) * (1 - noise_miss_probability(request));
 }
 
 std::optional<NoiseFloorTarget> find_noise_target(const ChooseRequest& request) {
@@ -28,15 +28,15 @@ std::optional<NoiseFloorTarget> find_noise_target(const ChooseRequest& request) 
     return NoiseFloorTarget{request.quantity, kNoiseShareOfLimit * *request.max_error};
 }
 
-std::optional<NoiseOfViews> find_reference_noise_of_views(const ChooseRequest& request,
-                                                          const measure::Comparison& comparison) {
+std::optional<ViewNoise> find_view_noise(const ChooseRequest& request,
+                                         const measure::Comparison& comparison) {
     if (!comparison.noise) return {};
     std::vector<double> floors = comparison.noise->view_floors;
     std::erase_if(floors, [](double floor) { return std::isnan(floor); }); // no mirror is seen
     if (floors.empty()) return {};
-    NoiseOfViews noise{.median_floor = measure::percentile(floors, .5),
-                       .largest_floor = std::ranges::max(floors),
-                       .wanted_floor = {}};
+    ViewNoise noise{.median_floor = measure::percentile(floors, .5),
+                    .largest_floor = std::ranges::max(floors),
+                    .wanted_floor = {}};
     if (const std::optional<NoiseFloorTarget> target = find_noise_target(request)) {
         noise.wanted_floor = target->floor;
         noise.views_above = static_cast<std::size_t>(
@@ -45,13 +45,13 @@ std::optional<NoiseOfViews> find_reference_noise_of_views(const ChooseRequest& r
     return noise;
 }
 
-std::string describe_noise_as_cause(const std::optional<NoiseOfViews>& noise) {
+std::string describe_noise_cause(const std::optional<ViewNoise>& noise) {
     if (!noise || noise->views_above == 0) return "";
     return fmt::format("; errors include the {}, which more --reference-seconds lower",
-                       describe_noise_of_views(*noise));
+                       describe_noise(*noise));
 }
 
-std::string describe_noise_of_views(const NoiseOfViews& noise) {
+std::string describe_noise(const ViewNoise& noise) {
     std::string text = fmt::format("noise floor of the reference: median {:.3g}, at most {:.3g}",
                                    noise.median_floor, noise.largest_floor);
     if (noise.wanted_floor)

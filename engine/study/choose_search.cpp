@@ -14,17 +14,17 @@ namespace catoptric::study {
 namespace {
 
 /// Returns the most failures among the proof views with which a proof succeeds.
-std::size_t find_most_failures_of_proof(const ResolvedChooseRequest& request, std::size_t views) {
+std::size_t max_proof_failures(const ResolvedRequest& request, std::size_t views) {
     std::size_t failures = 0;
-    while (failures < views && measure::needed_views(find_share_to_prove(request),
-                                                     request.confidence, failures + 1) <= views)
+    while (failures < views && measure::needed_views(share_to_prove(request), request.confidence,
+                                                     failures + 1) <= views)
         ++failures;
     return failures;
 }
 
 /// Returns those of the plans that are worth a proof, in the order of their proofs. If a plan's
 /// proof fails, the plan before it is chosen.
-std::vector<JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
+std::vector<JudgedPlan*> find_best_proofs(const ResolvedRequest& request,
                                           const std::vector<JudgedPlan*>& plans,
                                           std::size_t max_count) {
     // Without it, a few views with similar errors make a proof look certain. Chosen by replaying
@@ -33,7 +33,7 @@ std::vector<JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
     // Having no plan is as bad as a plan that takes this many times as long.
     constexpr double kNoPlanFactor = 10;
     const auto views = static_cast<std::size_t>(count_proof_views(request));
-    const std::size_t failures = find_most_failures_of_proof(request, views);
+    const std::size_t failures = max_proof_failures(request, views);
     std::vector<measure::ProofCandidate> candidates;
     for (JudgedPlan* plan : plans)
         candidates.push_back({std::max(plan->ms, 1e-9),
@@ -50,13 +50,13 @@ std::string count_candidates(std::size_t count) {
     return fmt::format("{} candidate{}", count, count == 1 ? "" : "s");
 }
 
-std::vector<std::string> list_plan_texts(const std::vector<JudgedPlan*>& plans) {
+std::vector<std::string> plan_texts(const std::vector<JudgedPlan*>& plans) {
     std::vector<std::string> texts;
     for (const JudgedPlan* plan : plans) texts.push_back(plan->text);
     return texts;
 }
 
-std::vector<JudgedPlan*> list_plans_without_reason(std::vector<JudgedPlan>& candidates) {
+std::vector<JudgedPlan*> plans_without_reason(std::vector<JudgedPlan>& candidates) {
     std::vector<JudgedPlan*> plans;
     for (JudgedPlan& plan : candidates)
         if (plan.why.empty()) plans.push_back(&plan);
@@ -65,13 +65,13 @@ std::vector<JudgedPlan*> list_plans_without_reason(std::vector<JudgedPlan>& cand
 
 /// Draws plans in further views. Adds the errors to those of earlier views, and takes over the new
 /// times.
-measure::Comparison draw_views_of_plans(const ResolvedChooseRequest& request,
-                                        const std::vector<JudgedPlan*>& plans, int views,
-                                        std::uint64_t seed) {
-    const std::vector<std::string> texts = list_plan_texts(plans);
+measure::Comparison draw_plans(const ResolvedRequest& request,
+                               const std::vector<JudgedPlan*>& plans, int views,
+                               std::uint64_t seed) {
+    const std::vector<std::string> texts = plan_texts(plans);
     measure::Comparison drawn = request.compare_plans(texts, views, seed,
                                                       request.cameras_per_instant);
-    const std::vector<JudgedPlan> judged = list_judged_plans(request, drawn, texts);
+    const std::vector<JudgedPlan> judged = judged_plans(request, drawn, texts);
     for (std::size_t i = 0; i < plans.size(); ++i) {
         JudgedPlan& plan = *plans[i];
         plan.ms = judged[i].ms, plan.ms_range = judged[i].ms_range;
@@ -83,7 +83,7 @@ measure::Comparison draw_views_of_plans(const ResolvedChooseRequest& request,
 
 /// Adds the mix of techniques to the candidates if it is faster than all plans that keep the
 /// limits. `first`: the comparison in the first training views of `judged`.
-void add_mixed_plan(const ResolvedChooseRequest& request, const measure::Comparison& first,
+void add_mixed_plan(const ResolvedRequest& request, const measure::Comparison& first,
                     const std::vector<JudgedPlan>& judged, const std::vector<JudgedPlan*>& unbeaten,
                     std::vector<JudgedPlan>& candidates) {
     const std::string mixed = find_fastest_mixed_plan(request, first, judged);
@@ -92,13 +92,13 @@ void add_mixed_plan(const ResolvedChooseRequest& request, const measure::Compari
         unbeaten, {}, [](const JudgedPlan* plan) { return plan->ms; });
     request.tell_step("measuring the mix " + mixed + " beside " + cheapest.text);
     JudgedPlan mix{.text = mixed, .errors = {}};
-    if (!is_second_plan_faster(request, cheapest.text, mix))
+    if (!is_second_faster(request, cheapest.text, mix))
         mix.why = fmt::format("the mix is not faster than {}", cheapest.text);
     candidates.push_back(std::move(mix));
 }
 
 /// Returns the plans to prove among those that no other plan beats, the mix of techniques last.
-std::vector<std::string> order_proofs(const ResolvedChooseRequest& request,
+std::vector<std::string> order_proofs(const ResolvedRequest& request,
                                       std::vector<JudgedPlan*> unbeaten, JudgedPlan* mix) {
     constexpr std::size_t kMaxProvedPlans = 4; // without the mix of techniques
     if (mix != nullptr) std::erase(unbeaten, mix);
@@ -111,34 +111,33 @@ std::vector<std::string> order_proofs(const ResolvedChooseRequest& request,
         if (std::ranges::find(chain, plan) == chain.end())
             plan->why = request.max_error ? "not proved: other proofs promise more"
                                           : fmt::format("{} has a smaller {}", chain.front()->text,
-                                                        error_quantity_name(request.quantity));
+                                                        quantity_name(request.quantity));
     if (mix != nullptr) chain.push_back(mix);
-    return list_plan_texts(chain);
+    return plan_texts(chain);
 }
 
 } // namespace
 
-std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& request,
+std::vector<std::string> find_plans_to_prove(const ResolvedRequest& request,
                                              std::vector<JudgedPlan>& candidates,
-                                             std::optional<NoiseOfViews>& noise) {
+                                             std::optional<ViewNoise>& noise) {
     const std::vector<std::string>& texts = request.base.techniques;
     request.tell_step(fmt::format("measuring {} in one view", count_candidates(texts.size())));
     const measure::Comparison own = request.compare_plans(texts, 0, request.base.seed, 1);
-    candidates = list_judged_plans(request, own, texts);
+    candidates = judged_plans(request, own, texts);
     candidates.reserve(candidates.size() + 1); // for the mix; pointers stay valid
-    drop_clearly_beaten_plans(request, own, candidates);
-    const std::vector<JudgedPlan*> kept = list_plans_without_reason(candidates);
+    drop_beaten_plans(request, own, candidates);
+    const std::vector<JudgedPlan*> kept = plans_without_reason(candidates);
     if (kept.empty()) return {};
     const int views = count_training_views(request),
               first_views = std::min(views, kFirstTrainingViews);
     request.tell_step(
         fmt::format("judging {} in {} training views", count_candidates(kept.size()), first_views));
-    const measure::Comparison first = draw_views_of_plans(request, kept, first_views,
-                                                          request.base.seed);
-    noise = find_reference_noise_of_views(request, first);
+    const measure::Comparison first = draw_plans(request, kept, first_views, request.base.seed);
+    noise = find_view_noise(request, first);
     std::vector<JudgedPlan> judged;
     for (const JudgedPlan* plan : kept) judged.push_back(*plan);
-    std::vector<JudgedPlan*> unbeaten = list_unbeaten_plans(request, candidates);
+    std::vector<JudgedPlan*> unbeaten = unbeaten_plans(request, candidates);
     if (unbeaten.empty()) return {};
     const JudgedPlan* last = &candidates.back();
     add_mixed_plan(request, first, judged, unbeaten, candidates);
@@ -149,11 +148,10 @@ std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& reques
         request.tell_step(fmt::format("judging {} in {} more training views",
                                       count_candidates(unbeaten.size() + (mix != nullptr ? 1 : 0)),
                                       views - first_views));
-        noise = find_reference_noise_of_views(
-            request,
-            draw_views_of_plans(request, list_plans_without_reason(candidates), views - first_views,
-                                seed_of_further_training_views(request)));
-        unbeaten = list_unbeaten_plans(request, candidates);
+        noise = find_view_noise(request,
+                                draw_plans(request, plans_without_reason(candidates),
+                                           views - first_views, further_training_seed(request)));
+        unbeaten = unbeaten_plans(request, candidates);
         if (unbeaten.empty()) return {};
         if (mix != nullptr && !mix->why.empty()) mix = nullptr;
     }

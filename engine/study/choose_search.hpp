@@ -15,8 +15,8 @@ using namespace session;
 /// techniques by mirror. Returns the plans to prove, from the slowest to the fastest; none if no
 /// plan keeps the limits. Sets `candidates`, with `why` for all that need no proof, and the noise
 /// of the last training views.
-std::vector<std::string> find_plans_to_prove(const ResolvedChooseRequest& request,
+std::vector<std::string> find_plans_to_prove(const ResolvedRequest& request,
                                              std::vector<JudgedPlan>& candidates,
-                                             std::optional<NoiseOfViews>& noise);
+                                             std::optional<ViewNoise>& noise);
 
 } // namespace catoptric::study

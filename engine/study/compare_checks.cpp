@@ -20,7 +20,7 @@
 
 namespace catoptric::study {
 
-std::vector<std::string> list_default_techniques(const Request& base) {
+std::vector<std::string> default_techniques(const Request& base) {
     const scene::SceneAtTime at_time(base.scene, base.time);
     const scene::Scene& now = *at_time;
     std::vector<scene::FlatFaces> flats;
@@ -53,7 +53,7 @@ void check_round_limit(int rounds) {
           ", because fewer give no 95 % interval of the median, found ", rounds);
 }
 
-void check_row_techniques(const std::vector<std::string>& techniques) {
+void check_techniques(const std::vector<std::string>& techniques) {
     std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
         reflect::TechniquePlan plan = read_plan(text);
@@ -66,7 +66,7 @@ void check_row_techniques(const std::vector<std::string>& techniques) {
 
 void check_compare_request(const CompareRequest& request) {
     scene::check_scene(request.base.scene);
-    check_row_techniques(request.base.techniques);
+    check_techniques(request.base.techniques);
     for (const std::string& text : request.base.techniques)
         if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto)
             reflect::assign_techniques(plan, mirror_names(request.base.scene));
@@ -78,9 +78,9 @@ void check_compare_request(const CompareRequest& request) {
           "--model both and --together: rows of one frame have one model");
 }
 
-void check_compare_inputs(const CompareRequest& request) {
+void check_inputs(const CompareRequest& request) {
     check_compare_request(request);
-    read_plan_certificates(request.base.techniques);
+    read_certificates(request.base.techniques);
     if (!request.reference_file.empty()) {
         check_reference_has_file(request.reference, request.base.scene, request.reference_file);
         if (std::filesystem::exists(request.reference_file))

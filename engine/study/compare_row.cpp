@@ -20,7 +20,7 @@ namespace {
 using FrameTimesByRound = std::vector<std::vector<FrameTimes>>;
 
 template <typename Value>
-measure::SampleSummary summarise_over_frames(const FrameTimesByRound& rounds, Value&& value) {
+measure::SampleSummary summarise_frames(const FrameTimesByRound& rounds, Value&& value) {
     std::vector<std::vector<double>> samples;
     for (const std::vector<FrameTimes>& round : rounds) {
         samples.emplace_back();
@@ -31,8 +31,7 @@ measure::SampleSummary summarise_over_frames(const FrameTimesByRound& rounds, Va
 
 HostTimes summarise_host_times(const FrameTimesByRound& rounds) {
     const auto part = [&](double HostTimes::*which) {
-        return summarise_over_frames(rounds,
-                                     [&](const FrameTimes& frame) { return frame.host.*which; })
+        return summarise_frames(rounds, [&](const FrameTimes& frame) { return frame.host.*which; })
             .median;
     };
     return {part(&HostTimes::update), part(&HostTimes::hierarchy), part(&HostTimes::compile),
@@ -82,8 +81,8 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 }
 
 /// Sets the row's estimates against the halves of a reference with noise, over all masks.
-void estimate_row_noise(report::Row& row, const measure::NoisyHalves& halves,
-                        const std::vector<std::uint32_t>& hits, double exposure) {
+void estimate_noise(report::Row& row, const measure::NoisyHalves& halves,
+                    const std::vector<std::uint32_t>& hits, double exposure) {
     const measure::Picture found = measure::apply_exposure(row.hdr, exposure);
     std::vector<measure::NoiseFreeError> estimates;
     for (const measure::Mask& mask : measure::compute_masks(hits))
@@ -101,24 +100,23 @@ std::vector<float> compute_flip_map(const measure::Picture& picture, const Compa
                          measure::to_unrounded_display(truth.hdr, exposure));
 }
 
-measure::Difference compute_masked_error(const measure::Picture& picture,
-                                         const ComparedReference& truth, const measure::Mask& mask,
-                                         std::span<const float> flip_map, double exposure) {
+measure::Difference masked_error(const measure::Picture& picture, const ComparedReference& truth,
+                                 const measure::Mask& mask, std::span<const float> flip_map,
+                                 double exposure) {
     const measure::Picture found = measure::apply_exposure(picture, exposure);
     if (truth.halves != nullptr)
         return measure::difference_from_halves(found, *truth.halves, mask, flip_map);
     return measure::difference(found, measure::apply_exposure(truth.hdr, exposure), mask, flip_map);
 }
 
-measure::Errors compute_masked_errors(const measure::Picture& picture,
-                                      const ComparedReference& truth,
-                                      std::span<const float> flip_map,
-                                      const std::vector<std::uint32_t>& hits, std::size_t mirrors,
-                                      double exposure) {
+measure::Errors masked_errors(const measure::Picture& picture, const ComparedReference& truth,
+                              std::span<const float> flip_map,
+                              const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                              double exposure) {
     const measure::Picture found = measure::apply_exposure(picture, exposure),
                            wanted = measure::apply_exposure(truth.hdr, exposure);
     const auto against = [&](const measure::Mask& mask) {
-        return compute_masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
+        return masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
     };
     measure::Errors errors;
     const std::vector<measure::Mask> masks = measure::compute_masks(hits);
@@ -135,15 +133,15 @@ void fill_row_errors(report::Row& row, const TechniqueResult& part, const Compar
     row.hdr = part.hdr;
     row.display = part.display;
     row.flip_map = compute_flip_map(part.hdr, truth, exposure);
-    static_cast<measure::Errors&>(row) = compute_masked_errors(part.hdr, truth, row.flip_map, hits,
-                                                               mirrors, exposure);
-    if (truth.halves != nullptr) estimate_row_noise(row, *truth.halves, hits, exposure);
+    static_cast<measure::Errors&>(row) = masked_errors(part.hdr, truth, row.flip_map, hits, mirrors,
+                                                       exposure);
+    if (truth.halves != nullptr) estimate_noise(row, *truth.halves, hits, exposure);
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::ValueRange::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::ValueRange::clamped);
 }
 
-report::Row make_row_description(const std::string& text, const TechniqueResult& part) {
+report::Row describe_row(const std::string& text, const TechniqueResult& part) {
     const ParsedTechnique choice = parse_technique(text);
     report::Row row;
     row.technique = choice.technique;
@@ -170,37 +168,37 @@ void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std
                     bool on_processor) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
     const FrameTimesByRound detailed = keep_frames_with_passes(rounds);
-    row.gpu_ms = prefix.empty() ? summarise_over_frames(
+    row.gpu_ms = prefix.empty() ? summarise_frames(
                                       rounds, [](const FrameTimes& frame) { return frame.gpu_ms; })
-                                : summarise_over_frames(detailed, [&](const FrameTimes& frame) {
+                                : summarise_frames(detailed, [&](const FrameTimes& frame) {
                                       double sum = 0;
                                       for (const PassTime& pass : frame.passes)
                                           sum += mine(pass) ? pass.ms() : 0;
                                       return sum;
                                   });
     const auto summary = [&](double FrameTimes::*which) {
-        return summarise_over_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
+        return summarise_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
     };
     row.wait_ms = summary(&FrameTimes::wait_ms);
     row.cpu_record_ms = summary(&FrameTimes::record_ms);
     row.wall_ms = summary(&FrameTimes::wall_ms);
     if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
     row.on_processor = on_processor && prefix.empty();
-    row.closure = summarise_over_frames(
+    row.closure = summarise_frames(
         rounds, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
-    row.host_ms = summarise_over_frames(rounds,
-                                        [](const FrameTimes& frame) { return frame.host.sum(); });
-    row.frame_ms = summarise_over_frames(rounds,
-                                         [](const FrameTimes& frame) { return frame.frame_ms(); });
+    row.host_ms = summarise_frames(rounds,
+                                   [](const FrameTimes& frame) { return frame.host.sum(); });
+    row.frame_ms = summarise_frames(rounds,
+                                    [](const FrameTimes& frame) { return frame.frame_ms(); });
     row.host_parts = summarise_host_times(rounds);
     row.passes.clear();
     for (const std::string& name : pass_names(detailed))
         if (name.starts_with(prefix))
-            row.passes.push_back(
-                {name, summarise_over_frames(detailed, [&](const FrameTimes& frame) {
-                     const auto pass = std::ranges::find(frame.passes, name, &PassTime::name);
-                     return pass == frame.passes.end() ? 0 : pass->ms();
-                 })});
+            row.passes.push_back({name, summarise_frames(detailed, [&](const FrameTimes& frame) {
+                                      const auto pass = std::ranges::find(frame.passes, name,
+                                                                          &PassTime::name);
+                                      return pass == frame.passes.end() ? 0 : pass->ms();
+                                  })});
 }
 
 } // namespace catoptric::study

@@ -15,7 +15,7 @@ namespace catoptric::study {
 using namespace session;
 
 /// Returns a row that describes the technique or plan, without its cost, picture and errors.
-report::Row make_row_description(const std::string& text, const TechniqueResult& part);
+report::Row describe_row(const std::string& text, const TechniqueResult& part);
 /// Fills the row's cost from the frames measured so far, round by round. The row's passes are those
 /// whose name begins with `prefix`. `on_processor`: the device is a processor.
 void fill_row_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
@@ -34,16 +34,15 @@ std::vector<float> compute_flip_map(const measure::Picture& picture, const Compa
                                     double exposure);
 /// Returns how far a picture is from the truth, over the pixels of a mask. `flip_map`: FLIP of both
 /// pictures for each pixel.
-measure::Difference compute_masked_error(const measure::Picture& picture,
-                                         const ComparedReference& truth, const measure::Mask& mask,
-                                         std::span<const float> flip_map, double exposure);
+measure::Difference masked_error(const measure::Picture& picture, const ComparedReference& truth,
+                                 const measure::Mask& mask, std::span<const float> flip_map,
+                                 double exposure);
 /// Returns how far a picture is from the truth, over all masks. `flip_map`: FLIP of both pictures
 /// for each pixel. `hits`: first hits of the picture, see TechniqueResult::hits. `exposure`: stops.
-measure::Errors compute_masked_errors(const measure::Picture& picture,
-                                      const ComparedReference& truth,
-                                      std::span<const float> flip_map,
-                                      const std::vector<std::uint32_t>& hits, std::size_t mirrors,
-                                      double exposure);
+measure::Errors masked_errors(const measure::Picture& picture, const ComparedReference& truth,
+                              std::span<const float> flip_map,
+                              const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                              double exposure);
 /// Fills the errors of a row, its picture and the means of its picture. `hits`: first hits at the
 /// same instant. `exposure`: stops.
 void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedReference& truth,

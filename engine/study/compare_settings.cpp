@@ -14,7 +14,7 @@ CompareRequest replace_auto_reference(CompareRequest request) {
     return request;
 }
 
-void fill_comparison_settings(const CompareRequest& request, report::Comparison& comparison) {
+void fill_settings(const CompareRequest& request, report::Comparison& comparison) {
     const Request& base = request.base;
     comparison.version = version();
     comparison.commit = commit();
@@ -26,7 +26,7 @@ void fill_comparison_settings(const CompareRequest& request, report::Comparison&
     comparison.height = static_cast<int>(base.size.y);
     comparison.frames = base.frames;
     comparison.warmup = base.warmup;
-    comparison.rounds = choose_round_count(base.frames, request.rounds);
+    comparison.rounds = round_count(base.frames, request.rounds);
     comparison.time = base.time;
     comparison.ambient = base.ambient;
     comparison.exposure = base.auto_exposure ? NAN : base.exposure;

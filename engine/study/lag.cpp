@@ -24,35 +24,35 @@ namespace catoptric::study {
 
 namespace {
 
-constexpr int kMaxLagFrames = 30;        // frames of a still, and of each side of a cut
-constexpr int kLagPathWarmupFrames = 16; // frames along the path before the first that counts
+constexpr int kMaxLagFrames = 30; // frames of a still, and of each side of a cut
+constexpr int kPathWarmup = 16;   // frames along the path before the first that counts
 // Seconds; a long animation is cut, because a run would take hours.
 constexpr double kMaxPathSeconds = 10;
 constexpr double kFramesPerSecond = 60;
 
 /// The instants along the scene's motion at which lag is measured. At every speed, a frame
 /// coincides with each instant.
-struct LagMeasurementInstants {
+struct LagInstants {
     double start = 0;   ///< seconds
     double step = 0;    ///< seconds from one instant to the next
     double fastest = 1; ///< fastest speed, as in LagRequest::speeds
     int stride = 1;     ///< frames of the fastest speed in a step
     int count = 1;      ///< number of instants
 
-    double path_length_seconds() const { return step * count; }
-    double scene_seconds_of_lag_instant(int i) const { return start + step * i; }
+    double path_seconds() const { return step * count; }
+    double seconds_of_instant(int i) const { return start + step * i; }
     /// Returns the number of frames of a speed in a step.
-    int count_frames_per_instant(double speed) const {
+    int frames_per_instant(double speed) const {
         return stride * static_cast<int>(fastest / speed);
     }
     /// Returns the instant of frame f (0 at the start) of a speed, in seconds. Every
-    /// count_frames_per_instant()-th frame lies exactly on an instant of the path.
-    double scene_seconds_of_lag_frame(double speed, int f) const {
-        return start + step * (static_cast<double>(f) / count_frames_per_instant(speed));
+    /// frames_per_instant()-th frame lies exactly on an instant of the path.
+    double seconds_of_frame(double speed, int f) const {
+        return start + step * (static_cast<double>(f) / frames_per_instant(speed));
     }
 };
 
-void check_lag_speeds(const std::vector<double>& speeds) {
+void check_speeds(const std::vector<double>& speeds) {
     check(!speeds.empty(), Failure::usage, "lag: wanted at least one speed, found none");
     const double fastest = std::ranges::max(speeds);
     for (const double speed : speeds) {
@@ -65,12 +65,11 @@ void check_lag_speeds(const std::vector<double>& speeds) {
 
 /// Returns a path with as many instants as the fastest speed has frames, or as are allowed. Returns
 /// one instant if nothing moves.
-LagMeasurementInstants choose_lag_instants(const LagRequest& request) {
-    check_lag_speeds(request.speeds);
+LagInstants choose_instants(const LagRequest& request) {
+    check_speeds(request.speeds);
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
           request.most_instants);
-    LagMeasurementInstants path{.start = request.base.time,
-                                .fastest = std::ranges::max(request.speeds)};
+    LagInstants path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
     const double frame = path.fastest / kFramesPerSecond;
     const double frames = std::min(scene::scene_period(request.base.scene), kMaxPathSeconds) /
                           frame;
@@ -81,8 +80,8 @@ LagMeasurementInstants choose_lag_instants(const LagRequest& request) {
 }
 
 /// Returns all figures of the difference. `exposure`: stops.
-measure::Difference compute_picture_difference(const measure::Picture& a, const measure::Picture& b,
-                                               const measure::Mask& mask, double exposure) {
+measure::Difference picture_difference(const measure::Picture& a, const measure::Picture& b,
+                                       const measure::Mask& mask, double exposure) {
     return measure::difference(measure::apply_exposure(a, exposure),
                                measure::apply_exposure(b, exposure), mask,
                                measure::flip(measure::to_unrounded_display(a, exposure),
@@ -90,9 +89,8 @@ measure::Difference compute_picture_difference(const measure::Picture& a, const 
 }
 
 /// Returns the difference without FLIP, which takes longer than all other figures.
-measure::Difference compute_difference_without_flip(const measure::Picture& a,
-                                                    const measure::Picture& b,
-                                                    const measure::Mask& mask, double exposure) {
+measure::Difference difference_without_flip(const measure::Picture& a, const measure::Picture& b,
+                                            const measure::Mask& mask, double exposure) {
     return measure::difference(measure::apply_exposure(a, exposure),
                                measure::apply_exposure(b, exposure), mask,
                                std::vector<float>(a.pixels.size(), 0.0f));
@@ -114,32 +112,27 @@ struct SettledPicture {
 class LagMeasurement {
 public:
     LagMeasurement(Session& session, const LagRequest& request, report::LagResults& lag)
-        : lag_session_(session), lag_request_(request), lag_(lag),
-          path_(choose_lag_instants(request)),
+        : session_(session), request_(request), lag_(lag), path_(choose_instants(request)),
           mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
-        check(!lag_request_.base.techniques.empty(), Failure::usage,
-              "lag: no technique was asked for");
-        for (const std::string& text : lag_request_.base.techniques)
+        check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
+        for (const std::string& text : request_.base.techniques)
             parse_technique(text); // throws before any work
     }
 
-    void measure_all_rows() {
-        for (int i = 0; i < path_.count; ++i)
-            lag_.seconds.push_back(path_.scene_seconds_of_lag_instant(i));
-        lag_.path = path_.path_length_seconds();
-        lag_.jump_from = path_.start + path_.path_length_seconds() / 2;
+    void measure_rows() {
+        for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.seconds_of_instant(i));
+        lag_.path = path_.path_seconds();
+        lag_.jump_from = path_.start + path_.path_seconds() / 2;
         lag_.frame_cap = kMaxLagFrames;
-        const bool has_noise = does_reference_have_noise(lag_request_.reference,
-                                                         lag_request_.base.scene);
-        begin_row_progress("reference " + lag_request_.reference, 0,
-                           (path_.count + (has_noise ? 1 : 0)) * kMaxLagFrames);
-        if (has_noise) fit_reference_into_seconds();
-        for (int i = 0; i < path_.count; ++i)
-            add_reference_instant(path_.scene_seconds_of_lag_instant(i));
-        if (has_noise) measure_reference_noise();
-        for (std::size_t i = 0; i < lag_request_.base.techniques.size(); ++i) {
-            measure_lag_of_technique(i);
-            if (lag_request_.on_finished_row) lag_request_.on_finished_row();
+        const bool has_noise = is_noisy(request_.reference, request_.base.scene);
+        begin_progress("reference " + request_.reference, 0,
+                       (path_.count + (has_noise ? 1 : 0)) * kMaxLagFrames);
+        if (has_noise) fit_reference();
+        for (int i = 0; i < path_.count; ++i) add_instant(path_.seconds_of_instant(i));
+        if (has_noise) measure_noise();
+        for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) {
+            measure_row(i);
+            if (request_.on_finished_row) request_.on_finished_row();
         }
         lag_.complete = true;
     }
@@ -153,33 +146,33 @@ private:
         measure::Picture reference;
     };
 
-    void begin_row_progress(const std::string& label, std::size_t index, int frames) {
-        report_row(lag_request_.watcher, label, index, lag_request_.base.techniques.size() + 1);
+    void begin_progress(const std::string& label, std::size_t index, int frames) {
+        report_row(request_.watcher, label, index, request_.base.techniques.size() + 1);
         frames_done_ = 0;
         frames_expected_ = frames;
     }
 
     /// Renders a frame of the current row.
     Frame render_frame(const std::string& technique, double seconds) {
-        FrameSpec spec = lag_request_.base;
+        FrameSpec spec = request_.base;
         spec.techniques = {technique};
         spec.time = seconds;
         spec.model =
             RenderedWork::required; // gives the same pictures, and their times are not used
-        const Frame made = lag_session_.frame(spec);
-        report_frame(lag_request_.watcher, ++frames_done_, frames_expected_);
+        const Frame made = session_.frame(spec);
+        report_frame(request_.watcher, ++frames_done_, frames_expected_);
         return made;
     }
     /// Begins a run of frames without history. `frames_before`: frames of the progress that count
     /// as rendered, because earlier runs made them unnecessary.
-    void begin_frame_run_without_history(int frames_before) {
-        lag_session_.forget();
+    void begin_without_history(int frames_before) {
+        session_.forget();
         frames_done_ = frames_before;
     }
 
-    SettledPicture render_still_picture(const std::string& technique, double seconds) {
+    SettledPicture render_still(const std::string& technique, double seconds) {
         const int before = frames_done_;
-        begin_frame_run_without_history(before);
+        begin_without_history(before);
         SettledPicture still;
         int unchanged = 0;
         for (int k = 1; k <= kMaxLagFrames && !still.rests; ++k) {
@@ -197,93 +190,89 @@ private:
 
     /// Lowers the number of the reference's rays so that all instants fit into
     /// `reference_seconds`, by the time of a coarse picture.
-    void fit_reference_into_seconds() {
-        const int wanted = find_lobe_rays(lag_request_.reference);
-        const uvec2 size = lag_request_.base.size;
-        const std::string coarse = choose_coarse_technique(lag_request_.reference, size);
+    void fit_reference() {
+        const int wanted = find_lobe_rays(request_.reference);
+        const uvec2 size = request_.base.size;
+        const std::string coarse = choose_coarse_technique(request_.reference, size);
         const int rays = find_lobe_rays(coarse);
         lag_.wanted_reference_rays = lag_.reference_rays = wanted;
         if (rays == wanted) return;
         const auto begin = SteadyClock::now();
-        render_still_picture(coarse, path_.start);
+        render_still(coarse, path_.start);
         frames_done_ = 0;
         lag_.reference_rays = choose_refined_rays(wanted, rays, ms_since(begin) / 1000,
-                                                  2 * lag_request_.reference_seconds /
+                                                  2 * request_.reference_seconds /
                                                       (path_.count + 1)); // for one of two pictures
-        lag_request_.reference = set_lobe_rays(lag_request_.reference, lag_.reference_rays);
+        request_.reference = set_lobe_rays(request_.reference, lag_.reference_rays);
     }
 
-    void add_reference_instant(double seconds) {
-        const TechniqueResult reference =
-            render_still_picture(lag_request_.reference, seconds).part;
-        std::vector<std::uint32_t> hits =
-            !reference.hits.empty() ? reference.hits
-                                    : render_still_picture("raytrace:depth=1", seconds).part.hits;
+    void add_instant(double seconds) {
+        const TechniqueResult reference = render_still(request_.reference, seconds).part;
+        std::vector<std::uint32_t> hits = !reference.hits.empty()
+                                              ? reference.hits
+                                              : render_still("raytrace:depth=1", seconds).part.hits;
         const measure::Mask mirrors = measure::mask_mirrors(hits);
         instants_.push_back({seconds, std::move(hits), mirrors, reference.hdr});
     }
 
     /// Draws the first instant once more with other random rays than the reference and the rows.
-    void measure_reference_noise() {
-        std::vector<std::string> others = lag_request_.base.techniques;
-        others.push_back(lag_request_.reference);
-        const std::string second = set_lobe_seed(lag_request_.reference,
-                                                 ReferenceSeeds(others).next());
+    void measure_noise() {
+        std::vector<std::string> others = request_.base.techniques;
+        others.push_back(request_.reference);
+        const std::string second = set_lobe_seed(request_.reference, ReferenceSeeds(others).next());
         const ReferenceAtInstant& first = instants_.front();
-        lag_.reference_flip_floor = compute_masked_difference(
-                                        render_still_picture(second, first.seconds).part.hdr,
-                                        first.reference, first)
+        lag_.reference_flip_floor = masked_difference(render_still(second, first.seconds).part.hdr,
+                                                      first.reference, first)
                                         .flip;
     }
 
-    void measure_lag_of_technique(std::size_t index) {
-        const std::string& text = lag_request_.base.techniques[index];
+    void measure_row(std::size_t index) {
+        const std::string& text = request_.base.techniques[index];
         const std::string label = parse_technique(text).label;
-        begin_row_progress("lag of " + label, index + 1, count_lag_frames_of_row());
+        begin_progress("lag of " + label, index + 1, count_row_frames());
         report::LagRow row;
         row.label = label;
         stills_.clear();
         for (const ReferenceAtInstant& instant : instants_)
             if (!add_settled_picture(row, text, instant))
                 return lag_.without_history.push_back(label);
-        row.after_black = measure_settling_after_cut(text, 0);
-        row.after_jump = measure_settling_after_cut(text, kMaxLagFrames);
+        row.after_black = measure_settling(text, 0);
+        row.after_jump = measure_settling(text, kMaxLagFrames);
         lag_.rows.push_back(std::move(row)); // keeps partial results if a signal comes
-        for (const double speed : lag_request_.speeds)
+        for (const double speed : request_.speeds)
             lag_.rows.back().speeds.push_back(
-                measure_lag_at_speed(text, speed, lag_.rows.back().worst));
+                measure_at_speed(text, speed, lag_.rows.back().worst));
     }
 
-    measure::Difference compute_masked_difference(const measure::Picture& a,
-                                                  const measure::Picture& b,
-                                                  const ReferenceAtInstant& instant) const {
-        return compute_picture_difference(a, b, instant.mirrors, lag_request_.base.exposure);
+    measure::Difference masked_difference(const measure::Picture& a, const measure::Picture& b,
+                                          const ReferenceAtInstant& instant) const {
+        return picture_difference(a, b, instant.mirrors, request_.base.exposure);
     }
 
     /// Adds the picture of the scene at rest. Returns false if the technique reads no contents of
     /// the last frame, and therefore has no lag.
     bool add_settled_picture(report::LagRow& row, const std::string& text,
                              const ReferenceAtInstant& instant) {
-        const SettledPicture found = render_still_picture(text, instant.seconds);
+        const SettledPicture found = render_still(text, instant.seconds);
         if (!found.part.remembers) return false;
         stills_.push_back(found.part.hdr);
         row.still_frames = std::max(row.still_frames, found.frames);
         row.restless_stills += !found.rests;
         row.still_reference_errors.push_back(
-            compute_masked_difference(stills_.back(), instant.reference, instant));
+            masked_difference(stills_.back(), instant.reference, instant));
         return true;
     }
 
     /// Compares frames at the first instant with the picture of the scene at rest. Before these
     /// frames, `before` frames show another instant.
-    report::SettlingAfterCut measure_settling_after_cut(const std::string& text, int before) {
+    report::SettlingAfterCut measure_settling(const std::string& text, int before) {
         report::SettlingAfterCut settling;
-        begin_frame_run_without_history(frames_done_);
+        begin_without_history(frames_done_);
         for (int k = 0; k < before; ++k) render_frame(text, lag_.jump_from);
         for (int k = 0; k < kMaxLagFrames; ++k) {
-            const measure::Difference error = compute_difference_without_flip(
+            const measure::Difference error = difference_without_flip(
                 render_frame(text, path_.start).hdr(), stills_.front(), instants_.front().mirrors,
-                lag_request_.base.exposure);
+                request_.base.exposure);
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }
@@ -294,20 +283,20 @@ private:
     }
 
     /// Measures a speed, and replaces `worst` by each instant with a larger FLIP.
-    report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed,
-                                            std::optional<measure::WorstLag>& worst) {
+    report::LagAtSpeed measure_at_speed(const std::string& text, double speed,
+                                        std::optional<measure::WorstLag>& worst) {
         report::LagAtSpeed lag{.speed = speed};
-        const int between = path_.count_frames_per_instant(speed),
-                  count = count_lag_frames_at_speed(speed) - kLagPathWarmupFrames;
-        begin_frame_run_without_history(frames_done_);
-        for (int k = -kLagPathWarmupFrames; k < count; ++k) {
-            const Frame moving = render_frame(text, path_.scene_seconds_of_lag_frame(speed, k));
+        const int between = path_.frames_per_instant(speed),
+                  count = count_frames(speed) - kPathWarmup;
+        begin_without_history(frames_done_);
+        for (int k = -kPathWarmup; k < count; ++k) {
+            const Frame moving = render_frame(text, path_.seconds_of_frame(speed, k));
             if (k < 0 || k % between != 0) continue;
             const auto i = static_cast<std::size_t>(k / between);
             const measure::Picture picture = moving.hdr();
-            lag.errors.push_back(compute_masked_difference(picture, stills_[i], instants_[i]));
+            lag.errors.push_back(masked_difference(picture, stills_[i], instants_[i]));
             lag.reference_errors.push_back(
-                compute_masked_difference(picture, instants_[i].reference, instants_[i]));
+                masked_difference(picture, instants_[i].reference, instants_[i]));
             // The FLIP of an instant without a mirror is NaN, and never larger.
             if (const double flip = lag.errors.back().flip; flip > (worst ? worst->flip : 0))
                 worst = {speed,
@@ -321,21 +310,21 @@ private:
         return lag;
     }
 
-    int count_lag_frames_at_speed(double speed) const {
-        return kLagPathWarmupFrames + (path_.count - 1) * path_.count_frames_per_instant(speed) + 1;
+    int count_frames(double speed) const {
+        return kPathWarmup + (path_.count - 1) * path_.frames_per_instant(speed) + 1;
     }
     /// Returns the largest number of frames that the measurement of a row may take, for the display
     /// of progress.
-    int count_lag_frames_of_row() const {
+    int count_row_frames() const {
         int frames = path_.count * kMaxLagFrames + 3 * kMaxLagFrames;
-        for (const double speed : lag_request_.speeds) frames += count_lag_frames_at_speed(speed);
+        for (const double speed : request_.speeds) frames += count_frames(speed);
         return frames;
     }
 
-    Session& lag_session_;
-    LagRequest lag_request_;
+    Session& session_;
+    LagRequest request_;
     report::LagResults& lag_;
-    LagMeasurementInstants path_;
+    LagInstants path_;
     int mirrors_ = 0;
     std::vector<ReferenceAtInstant> instants_;
     /// Still pictures of the current technique, one per instant.
@@ -347,12 +336,11 @@ private:
 std::string choose_reference_unlike_rows(const std::string& reference,
                                          const std::vector<std::string>& rows,
                                          const scene::Scene& scene) {
-    if (!draws_rays_from_lobes(reference) && !draws_rays_to_environment(reference, scene))
-        return reference;
+    if (!draws_lobe_rays(reference) && !draws_environment_rays(reference, scene)) return reference;
     return set_lobe_seed(reference, ReferenceSeeds(rows).next());
 }
 
-void measure_lag_of_rows(const StudyInput& input) {
+void run_lag(const StudyInput& input) {
     Request base = input.request.base;
     if (input.request.both_models)
         base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
@@ -372,13 +360,13 @@ const RegisteredStudy kLagStudy{
      .help = "also measure how far rows that read last frame's captures lag behind a moving scene; "
              "about 2300 frames per row",
      .order = 30,
-     .run = measure_lag_of_rows}};
+     .run = run_lag}};
 
 } // namespace
 
 void measure_lag(Session& session, const LagRequest& request, report::LagResults& lag) {
     lag.complete = false;
-    LagMeasurement(session, request, lag).measure_all_rows();
+    LagMeasurement(session, request, lag).measure_rows();
 }
 
 } // namespace catoptric::study

@@ -11,7 +11,7 @@ namespace catoptric::study {
 namespace {
 
 /// Returns the texels along an edge of each mirror's capture; 0: the mirror has no capture.
-std::vector<std::uint32_t> list_capture_edges(const report::Row& row) {
+std::vector<std::uint32_t> capture_edges(const report::Row& row) {
     std::vector<std::uint32_t> faces;
     for (const PlanEntry& entry : row.plan) {
         const auto face = std::ranges::find(entry.settings, "face", &Setting::name);
@@ -27,19 +27,19 @@ std::vector<std::uint32_t> list_capture_edges(const report::Row& row) {
 
 } // namespace
 
-measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
-                                                    const ComparedReference& truth,
-                                                    const std::vector<std::uint32_t>& hits,
-                                                    const std::vector<vec4>& lookup,
-                                                    const TrueHitFinder& oracle, double exposure) {
-    measure::Mask there = oracle.find_pixels_at_light_edges(lookup, list_capture_edges(row));
+measure::LightEdgeErrors split_at_light_edges(const report::Row& row,
+                                              const ComparedReference& truth,
+                                              const std::vector<std::uint32_t>& hits,
+                                              const std::vector<vec4>& lookup,
+                                              const TrueHitFinder& oracle, double exposure) {
+    measure::Mask there = oracle.find_light_edges(lookup, capture_edges(row));
     measure::Mask elsewhere = measure::mask_mirrors(hits);
     for (std::size_t i = 0; i < there.size(); ++i) {
         there[i] = there[i] & elsewhere[i];
         elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
     }
     const auto over = [&](const measure::Mask& mask) {
-        return compute_masked_error(row.hdr, truth, mask, row.flip_map, exposure);
+        return masked_error(row.hdr, truth, mask, row.flip_map, exposure);
     };
     return measure::split_by_light_edges(over(there), over(elsewhere));
 }

@@ -19,10 +19,10 @@ bool is_lit_by_rasteriser(const reflect::TechniquePlan& plan) {
 
 } // namespace
 
-std::vector<std::string> list_warnings_of_light_models(const CompareRequest& request,
-                                                       const std::string& technique,
-                                                       const std::string& label,
-                                                       const std::vector<Setting>& reference) {
+std::vector<std::string> light_model_warnings(const CompareRequest& request,
+                                              const std::string& technique,
+                                              const std::string& label,
+                                              const std::vector<Setting>& reference) {
     if (std::ranges::any_of(reference, [](const Setting& setting) {
             return setting.name == "indirect" && setting.text == "paths";
         }))

@@ -19,12 +19,12 @@ namespace {
 
 constexpr int kLookupStateUnknown = 1, kLookupStateMiss = 2; // Lookup::state
 constexpr std::size_t kRaysBetweenLooks = 1024;              // at the signal to stop
-constexpr float kUnlimitedRayDistance = std::numeric_limits<float>::max();
+constexpr float kUnlimited = std::numeric_limits<float>::max();
 
 /// Returns the ray that a mirror reflects from the point where `ray` met it, as
 /// shaders/lib/whitted.glsl does.
-f32::Ray reflect_ray_at_hit(const render::FrameGeometry& geometry, const f32::Ray& ray,
-                            const bvh::RayHit<float>& hit) {
+f32::Ray reflect_ray(const render::FrameGeometry& geometry, const f32::Ray& ray,
+                     const bvh::RayHit<float>& hit) {
     const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
         return geometry.vertices[geometry.indices[3 * hit.triangle + j]];
     };
@@ -55,10 +55,10 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
     for (const std::size_t object : mirror_objects_) {
         without_.push_back(build_bvh_without(geometry_, object));
     }
-    trace_true_hits_of_request(request);
+    trace(request);
 }
 
-void TrueHitFinder::trace_true_hits_of_request(const Request& request) {
+void TrueHitFinder::trace(const Request& request) {
     const render::SceneUnits space = render::make_scene_units(request.scene);
     const shared::View view = render::make_camera_view(
         scene::camera_at(request.camera, request.time), space, request.size, 0,
@@ -70,15 +70,14 @@ void TrueHitFinder::trace_true_hits_of_request(const Request& request) {
     for (std::size_t pixel = 0; pixel < std::size_t{request.size.x} * request.size.y; ++pixel) {
         if (pixel % kRaysBetweenLooks == 0) look_at_stop();
         const f32::Ray ray = make_camera_ray(view, request.size, pixel);
-        const auto hit = bvh::find_closest_hit<float>(everything_, ray, kUnlimitedRayDistance,
-                                                      bvh::kHiddenFromCameraFlag |
-                                                          bvh::kOneSidedFlag);
+        const auto hit = bvh::find_closest_hit<float>(
+            everything_, ray, kUnlimited, bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
         if (!hit || mirror_of(hit->object) == mirror_objects_.size()) continue;
-        const f32::Ray onward = reflect_ray_at_hit(geometry_, ray, *hit);
-        const auto met = bvh::find_closest_hit<float>(everything_, onward, kUnlimitedRayDistance);
+        const f32::Ray onward = reflect_ray(geometry_, ray, *hit);
+        const auto met = bvh::find_closest_hit<float>(everything_, onward, kUnlimited);
         if (met && mirror_of(met->object) < mirror_objects_.size()) continue;
         FirstOrderPixel target{pixel, mirror_of(hit->object),
-                               met ? static_cast<int>(met->object) : kNoObjectIndex,
+                               met ? static_cast<int>(met->object) : kNoObject,
                                dvec3(onward.direction)};
         if (met) target.place = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction);
         targets_.push_back(target);
@@ -91,8 +90,8 @@ int TrueHitFinder::find_captured_object(std::uint32_t mirror, const vec3& direct
     f32::Ray ray{centres_[mirror], direction, 0};
     // The second layer is the next surface behind the first that faces the centre.
     bool behind_first = !second_layer;
-    for (auto hit = bvh::find_closest_hit<float>(tree, ray, kUnlimitedRayDistance); hit;
-         hit = bvh::find_closest_hit<float>(tree, ray, kUnlimitedRayDistance)) {
+    for (auto hit = bvh::find_closest_hit<float>(tree, ray, kUnlimited); hit;
+         hit = bvh::find_closest_hit<float>(tree, ray, kUnlimited)) {
         const vec4* corner = &tree.triangles[3 * hit->place];
         const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])),
                                ray.direction) < 0;
@@ -104,7 +103,7 @@ int TrueHitFinder::find_captured_object(std::uint32_t mirror, const vec3& direct
         ray.origin += ray.direction * hit->t;
         ray.leaves = hit->triangle + 1;
     }
-    return kNoObjectIndex;
+    return kNoObject;
 }
 
 std::vector<measure::LookupError> TrueHitFinder::judge_lookups(const std::vector<vec4>& lookup,
@@ -122,11 +121,10 @@ std::vector<measure::LookupError> TrueHitFinder::judge_lookups(const std::vector
         const bool leaves = state == kLookupStateMiss ||
                             (state == kLookupStateUnknown &&
                              second); // as kLeaves in shaders/lib/probe.glsl
-        const int object = leaves ? kNoObjectIndex
+        const int object = leaves ? kNoObject
                                   : find_captured_object(capture, direction, second, left_out);
-        const dvec3 wanted = target.object == kNoObjectIndex
-                                 ? target.place
-                                 : target.place - dvec3(centres_[capture]);
+        const dvec3 wanted = target.object == kNoObject ? target.place
+                                                        : target.place - dvec3(centres_[capture]);
         judged.push_back({measure::angle_between_degrees(dvec3(direction), wanted),
                           object != target.object, state,
                           double{pixel.w} - std::floor(double{pixel.w})});
@@ -134,9 +132,8 @@ std::vector<measure::LookupError> TrueHitFinder::judge_lookups(const std::vector
     return judged;
 }
 
-measure::Mask
-TrueHitFinder::find_pixels_at_light_edges(const std::vector<vec4>& lookup,
-                                          const std::vector<std::uint32_t>& faces) const {
+measure::Mask TrueHitFinder::find_light_edges(const std::vector<vec4>& lookup,
+                                              const std::vector<std::uint32_t>& faces) const {
     measure::Mask found(lookup.size(), 0);
     for (std::size_t pixel = 0; pixel < lookup.size(); ++pixel) {
         if (pixel % kRaysBetweenLooks == 0) look_at_stop();
@@ -153,7 +150,7 @@ TrueHitFinder::find_pixels_at_light_edges(const std::vector<vec4>& lookup,
             beside[(axis + 1) % 3] += texel * static_cast<float>(i % 3 - 1);
             beside[(axis + 2) % 3] += texel * static_cast<float>(i / 3 - 1);
             const int object = find_captured_object(mirror, normalize(beside), false, false);
-            lights += object != kNoObjectIndex && emits_[static_cast<std::size_t>(object)];
+            lights += object != kNoObject && emits_[static_cast<std::size_t>(object)];
         }
         found[pixel] = lights > 0 && lights < 9 ? 255 : 0;
     }

@@ -28,8 +28,8 @@ public:
 
     /// Returns the pixels that looked within one texel of a light's outline. `faces`: texels along
     /// an edge of each mirror's capture, entry n-1 of mirror n.
-    measure::Mask find_pixels_at_light_edges(const std::vector<vec4>& lookup,
-                                             const std::vector<std::uint32_t>& faces) const;
+    measure::Mask find_light_edges(const std::vector<vec4>& lookup,
+                                   const std::vector<std::uint32_t>& faces) const;
 
 private:
     /// A mirror pixel whose reflected ray meets no second mirror.
@@ -40,9 +40,9 @@ private:
         /// Point that the reflected ray meets; the ray's direction if the ray meets nothing.
         dvec3 place{0};
     };
-    static constexpr int kNoObjectIndex = -1;
+    static constexpr int kNoObject = -1;
 
-    void trace_true_hits_of_request(const Request& request);
+    void trace(const Request& request);
     /// Returns the object that the capture of `mirror` shows in a direction, in its first or second
     /// layer.
     int find_captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,

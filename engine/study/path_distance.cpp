@@ -47,7 +47,7 @@ bool is_small_picture(const uvec2& size) {
 
 /// Returns the size of the small picture: the shape of the comparison's picture, at most 64x64
 /// pixels in all.
-uvec2 choose_size_of_path_picture(const uvec2& size) {
+uvec2 choose_path_size(const uvec2& size) {
     const double pixels = double{1} * size.x * size.y;
     const double factor = std::min(std::sqrt(kPathDistancePixels / pixels), 1.0);
     const auto shrink = [&](unsigned edge) {
@@ -58,7 +58,7 @@ uvec2 choose_size_of_path_picture(const uvec2& size) {
 
 /// Returns the technique that renders one frame of the reference: one sample a pixel, and few rays
 /// in each frame if the reference has noise.
-std::string make_technique_of_reference_frame(const std::string& reference) {
+std::string frame_technique(const std::string& reference) {
     const ParsedTechnique choice = parse_technique(reference);
     std::string text = choice.technique;
     char separator = ':';
@@ -86,7 +86,7 @@ std::string quote_for_shell(const std::string& word) {
 }
 
 /// Returns the command that measures the distance in a full comparison.
-std::string make_command_to_find_out(const scene::Scene& scene, const std::string& reference) {
+std::string make_command(const scene::Scene& scene, const std::string& reference) {
     const std::string name = scene.files.empty() ? scene.name : scene.files.front().string();
     return fmt::format("catoptric compare {} -o DIR --truth paths --techniques {}",
                        quote_for_shell(name), quote_for_shell(reference));
@@ -98,16 +98,15 @@ class PathPictures {
 public:
     PathPictures(Session& session, Request request, const std::string& reference,
                  const Watcher& watcher)
-        : path_session_(session), path_request_(std::move(request)), path_watcher_(watcher),
-          reference_frame_(make_technique_of_reference_frame(reference)),
-          reference_has_noise_(does_reference_have_noise(reference_frame_, path_request_.scene)),
-          path_seeds_({reference}) {}
+        : session_(session), request_(std::move(request)), watcher_(watcher),
+          reference_frame_(frame_technique(reference)),
+          has_noise_(is_noisy(reference_frame_, request_.scene)), seeds_({reference}) {}
 
     /// Adds a frame to one half. Both halves of a reference without noise are one picture.
     void add_frame(std::size_t half) {
-        add_frame_of_technique(paths_[half], kPathsOfFrameTechnique, true);
-        if (reference_has_noise_ || references_[0].count() == 0)
-            add_frame_of_technique(references_[half], reference_frame_, reference_has_noise_);
+        add_frame_of(paths_[half], kPathsOfFrameTechnique, true);
+        if (has_noise_ || references_[0].count() == 0)
+            add_frame_of(references_[half], reference_frame_, has_noise_);
     }
     bool has_both_halves() const { return paths_[1].count() > 0; }
     int path_count() const { return kPathsOfFrame * (paths_[0].count() + paths_[1].count()); }
@@ -117,7 +116,7 @@ public:
         std::vector<float> flip_map = compute_flip(references_, paths_),
                            noise_map = measure::flip(show(paths_[0].mean()),
                                                      show(paths_[1].mean()));
-        if (reference_has_noise_) {
+        if (has_noise_) {
             const std::vector<float> added = measure::flip(show(references_[0].mean()),
                                                            show(references_[1].mean()));
             for (std::size_t i = 0; i < added.size(); ++i) noise_map[i] += added[i];
@@ -133,17 +132,15 @@ public:
 private:
     using Halves = std::array<measure::PictureMean, 2>;
 
-    void add_frame_of_technique(measure::PictureMean& half, const std::string& technique,
-                                bool has_noise) {
-        path_request_.techniques = {has_noise ? set_lobe_seed(technique, path_seeds_.next())
-                                              : technique};
-        RunResult result = run(path_session_, path_request_, path_watcher_);
+    void add_frame_of(measure::PictureMean& half, const std::string& technique, bool has_noise) {
+        request_.techniques = {has_noise ? set_lobe_seed(technique, seeds_.next()) : technique};
+        RunResult result = run(session_, request_, watcher_);
         if (hits_.empty()) hits_ = std::move(result.parts.front().hits);
         half.add(result.parts.front().hdr);
     }
 
     measure::Picture show(const measure::Picture& picture) const {
-        return measure::to_unrounded_display(picture, path_request_.exposure);
+        return measure::to_unrounded_display(picture, request_.exposure);
     }
 
     /// Returns the mean of both halves; of the first half alone if the second has no picture.
@@ -160,12 +157,12 @@ private:
         return measure::flip(show(mean_of_halves(a)), show(mean_of_halves(b)));
     }
 
-    Session& path_session_;
-    Request path_request_;
-    const Watcher& path_watcher_;
+    Session& session_;
+    Request request_;
+    const Watcher& watcher_;
     std::string reference_frame_;
-    bool reference_has_noise_;
-    ReferenceSeeds path_seeds_;
+    bool has_noise_;
+    ReferenceSeeds seeds_;
     Halves references_, paths_;
     std::vector<std::uint32_t> hits_; ///< of the first frame: first mirror of each pixel
 };
@@ -173,7 +170,7 @@ private:
 /// Returns the request for one frame of a small picture.
 Request make_path_request(const Request& base) {
     Request request = base;
-    request.size = choose_size_of_path_picture(base.size);
+    request.size = choose_path_size(base.size);
     request.time = base.instant(base.total());
     request.animate = false;
     request.warmup = 0, request.frames = 1;
@@ -183,8 +180,8 @@ Request make_path_request(const Request& base) {
     return request;
 }
 
-ReferenceKey make_path_distance_key(const Request& request, const std::string& reference) {
-    ReferenceKey key = make_reference_key(request, make_technique_of_reference_frame(reference));
+ReferenceKey make_path_key(const Request& request, const std::string& reference) {
+    ReferenceKey key = make_reference_key(request, frame_technique(reference));
     key.emplace_back("paths", kPathsOfFrameTechnique);
     key.emplace_back("exposure", fmt::format("{}", request.exposure));
     key.emplace_back("program", version() + " " + commit());
@@ -220,9 +217,7 @@ void trace_path_distance(const Engine& engine, PathPictures& pictures, const Wat
 
 } // namespace
 
-int choose_path_distance_seconds(const uvec2& size) {
-    return is_small_picture(size) ? 0 : kDefaultSeconds;
-}
+int choose_path_seconds(const uvec2& size) { return is_small_picture(size) ? 0 : kDefaultSeconds; }
 
 std::optional<measure::PathDistance>
 measure_path_distance(Engine& engine, Session& session, const Request& base,
@@ -234,13 +229,13 @@ measure_path_distance(Engine& engine, Session& session, const Request& base,
     distance.width = static_cast<int>(request.size.x);
     distance.height = static_cast<int>(request.size.y);
     distance.most_seconds = seconds;
-    distance.command = make_command_to_find_out(base.scene, reference);
+    distance.command = make_command(base.scene, reference);
     if (!parse_technique(reference).traits().is_ray_traced()) {
         distance.unknown = "the reference is not ray traced";
         return distance;
     }
     const std::filesystem::path folder = Access::cache_folder(engine);
-    const ReferenceKey key = make_path_distance_key(request, reference);
+    const ReferenceKey key = make_path_key(request, reference);
     const std::filesystem::path file = folder.empty() ? folder
                                                       : find_path_distance_file(folder, key);
     if (!file.empty())
@@ -274,7 +269,7 @@ void prepare_path_distance(const CompareRequest& request, int /*count*/,
     if (traces_paths(request.reference)) return;
     measure::PathDistance distance;
     distance.unknown = "it is measured after the rows";
-    distance.command = make_command_to_find_out(request.base.scene, request.reference);
+    distance.command = make_command(request.base.scene, request.reference);
     comparison.path_distance = std::make_shared<measure::PathDistance>(std::move(distance));
 }
 

@@ -17,7 +17,7 @@ inline constexpr unsigned kPathDistancePixels = 64 * 64;
 
 /// Returns the limit of time in seconds if the user gave none: 10, or 0 for a picture of at most
 /// kPathDistancePixels, whose rows would take less time than the paths.
-int choose_path_distance_seconds(const uvec2& size);
+int choose_path_seconds(const uvec2& size);
 
 /// Returns how far the reference is from path tracing, in a picture of the shape of `base` with at
 /// most 64x64 pixels, at the last instant of `base`. Nothing if the reference traces paths itself.

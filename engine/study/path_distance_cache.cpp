@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kPathDistanceSchema = "catoptric/path-distance/1";
 
-report::Json make_key_json(const ReferenceKey& key) {
+report::Json key_json(const ReferenceKey& key) {
     report::Json json = report::Json::object();
     for (const auto& [name, value] : key) json[name] = value;
     return json;
@@ -31,7 +31,7 @@ double read_number_or_nan(const report::Json& json, const char* name) {
 std::filesystem::path find_path_distance_file(const std::filesystem::path& folder,
                                               const ReferenceKey& key) {
     return folder / "paths" /
-           fmt::format("{:016x}.json", std::hash<std::string>()(make_key_json(key).dump()));
+           fmt::format("{:016x}.json", std::hash<std::string>()(key_json(key).dump()));
 }
 
 std::optional<measure::PathDistance>
@@ -41,7 +41,7 @@ read_path_distance(const std::filesystem::path& file, const ReferenceKey& key,
     if (!std::filesystem::exists(file, ignored)) return std::nullopt;
     try {
         const report::Json json = report::Json::parse(read_file(file));
-        if (json.at("schema") != kPathDistanceSchema || json.at("key") != make_key_json(key))
+        if (json.at("schema") != kPathDistanceSchema || json.at("key") != key_json(key))
             return std::nullopt;
         measure::PathDistance distance{.flip = read_number_or_nan(json, "flip"),
                                        .noise = read_number_or_nan(json, "noise"),
@@ -70,7 +70,7 @@ void keep_path_distance(const std::filesystem::path& file, const ReferenceKey& k
                         const measure::PathDistance& distance,
                         const std::function<void(const std::string&)>& warn) {
     const report::Json json{{"schema", kPathDistanceSchema},
-                            {"key", make_key_json(key)},
+                            {"key", key_json(key)},
                             {"flip", report::number_json(distance.flip)},
                             {"noise", report::number_json(distance.noise)},
                             {"flip_all", report::number_json(distance.flip_all)},

@@ -24,14 +24,14 @@ namespace catoptric::study {
 
 namespace {
 
-measure::SampleSummary make_unknown_time() {
+measure::SampleSummary unknown_time() {
     measure::SampleSummary time;
     time.median = time.p05 = time.p95 = time.mad = NAN;
     return time;
 }
 
 /// Returns the picture with its rows in reverse order.
-measure::Picture flip_picture_vertically(const measure::Picture& picture) {
+measure::Picture flip_vertically(const measure::Picture& picture) {
     measure::Picture turned(picture.width, picture.height);
     for (int y = 0; y < picture.height; ++y)
         std::copy_n(&picture.at(0, y), picture.width, &turned.at(0, picture.height - 1 - y));
@@ -39,11 +39,10 @@ measure::Picture flip_picture_vertically(const measure::Picture& picture) {
 }
 
 /// Returns the difference over the pixels of the mask, without FLIP, after exposure and clamping.
-measure::Difference compute_plain_error(const measure::Picture& picture,
-                                        const ComparedReference& truth, const measure::Mask& mask,
-                                        double exposure) {
+measure::Difference plain_error(const measure::Picture& picture, const ComparedReference& truth,
+                                const measure::Mask& mask, double exposure) {
     const std::vector<float> no_flip(picture.pixels.size());
-    return compute_masked_error(picture, {truth.hdr}, mask, no_flip, exposure);
+    return masked_error(picture, {truth.hdr}, mask, no_flip, exposure);
 }
 
 /// Returns the picture with a function of each colour channel, clamped to [0,1] before.
@@ -64,7 +63,7 @@ std::string describe_wrong_curve(const measure::Picture& picture, bool is_png,
                                  const ComparedReference& truth, double exposure) {
     const measure::Mask all(picture.pixels.size(), 255);
     const auto find_rmse = [&](const measure::Picture& tried) {
-        return compute_plain_error(tried, truth, all, exposure).rmse;
+        return plain_error(tried, truth, all, exposure).rmse;
     };
     const double error = find_rmse(picture);
     if (error < 2 * measure::kEightBitStep) return "";
@@ -88,12 +87,12 @@ std::string describe_wrong_curve(const measure::Picture& picture, bool is_png,
 
 // Share of the pixels without reflections that must be off before their light is called different.
 // A rasteriser alone puts the outlines of surfaces and shadows on other pixels than rays do.
-constexpr double kMinShareOfOtherLight = 0.1;
+constexpr double kMinOtherLight = 0.1;
 
 /// Throws `bad_data` if a folder has a views.json with other views than the comparison's own view
 /// and the drawn views `drawn`.
-void check_folder_shows_views(const std::string& folder, const std::vector<measure::View>& drawn,
-                              const Request& base) {
+void check_folder(const std::string& folder, const std::vector<measure::View>& drawn,
+                  const Request& base) {
     const std::filesystem::path file = std::filesystem::path(folder) / "views.json";
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return;
@@ -134,7 +133,7 @@ void check_row_picture(const std::string& file, uvec2 size) {
 
 } // namespace
 
-std::string picture_row_image_name(const std::string& name, std::size_t index) {
+std::string picture_row_name(const std::string& name, std::size_t index) {
     std::string safe;
     for (const char c : name.substr(0, 40)) {
         const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
@@ -174,8 +173,7 @@ void check_picture_rows(const CompareRequest& request) {
         return std::filesystem::is_directory(measure::locate_picture(picture.second).file, error);
     });
     std::vector<measure::View> drawn_views;
-    if (has_folder && views > 0)
-        drawn_views = draw_random_views(request.base, static_cast<int>(views));
+    if (has_folder && views > 0) drawn_views = draw_views(request.base, static_cast<int>(views));
     for (const std::string& text : request.base.techniques)
         names.push_back(parse_technique(text).label);
     for (const auto& [name, file] : request.pictures) {
@@ -184,7 +182,7 @@ void check_picture_rows(const CompareRequest& request) {
         check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ", quote(name),
               ": wanted a name that no other row has");
         names.push_back(name);
-        check_folder_shows_views(file, drawn_views, request.base);
+        check_folder(file, drawn_views, request.base);
         for (std::size_t view = 0; view <= views; ++view)
             if (const std::optional<std::string> picture = find_view_picture(file, view))
                 check_row_picture(*picture, request.base.size);
@@ -203,11 +201,11 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
     report::Row row;
     row.technique = "picture";
     row.label = name;
-    row.image = picture_row_image_name(name, index);
+    row.image = picture_row_name(name, index);
     for (measure::SampleSummary report::Row::*time :
          {&report::Row::gpu_ms, &report::Row::frame_ms, &report::Row::cpu_record_ms,
           &report::Row::wall_ms, &report::Row::cpu_ms})
-        row.*time = make_unknown_time();
+        row.*time = unknown_time();
     TechniqueResult part;
     part.hdr = picture;
     part.display = measure::to_display(picture, exposure);
@@ -215,11 +213,11 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
     return row;
 }
 
-std::vector<std::string> list_picture_row_warnings(const std::string& name, const std::string& file,
-                                                   const measure::Picture& picture, double rmse,
-                                                   const ComparedReference& truth,
-                                                   const std::vector<std::uint32_t>& hits,
-                                                   double exposure) {
+std::vector<std::string> picture_row_warnings(const std::string& name, const std::string& file,
+                                              const measure::Picture& picture, double rmse,
+                                              const ComparedReference& truth,
+                                              const std::vector<std::uint32_t>& hits,
+                                              double exposure) {
     const std::string begin = "'" + name + "': ";
     const std::string curve = describe_wrong_curve(picture, measure::is_png(file), truth, exposure);
     if (!curve.empty()) return {begin + curve};
@@ -230,14 +228,14 @@ std::vector<std::string> list_picture_row_warnings(const std::string& name, cons
                            [](std::uint32_t hit) { return hit == 0 ? 255 : 0; });
     if (std::ranges::count(beside, 255) == 0) return {};
     std::vector<std::string> warnings;
-    const measure::Difference error = compute_plain_error(picture, truth, beside, exposure),
-                              turned = compute_plain_error(flip_picture_vertically(picture), truth,
-                                                           beside, exposure);
+    const measure::Difference error = plain_error(picture, truth, beside, exposure),
+                              turned = plain_error(flip_vertically(picture), truth, beside,
+                                                   exposure);
     if (turned.rmse < error.rmse / 2)
         warnings.push_back(begin + "its picture is upside down, as far as the pixels beside the "
                                    "mirrors tell");
     else if (error.rmse > std::max(std::abs(rmse), measure::kEightBitStep) &&
-             error.off > kMinShareOfOtherLight)
+             error.off > kMinOtherLight)
         warnings.push_back(begin +
                            fmt::format("its rmse is {:.3g} beside the mirrors and {:.3g} on them: "
                                        "its light, exposure or camera differs, not its reflections "

@@ -16,7 +16,7 @@ using namespace session;
 
 /// Returns the name, without folder and ending, under which the report stores the pictures of a row
 /// of files. `index`: number of the row among the rows of files, from 0.
-std::string picture_row_image_name(const std::string& name, std::size_t index);
+std::string picture_row_name(const std::string& name, std::size_t index);
 
 /// Returns the name, without ending, of a view's picture in the folder of such a row: "view-000" of
 /// the comparison's own camera, and "view-001" of the first drawn view.
@@ -50,10 +50,10 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
 /// most one is given: that values in `file` have the wrong curve, that the picture is upside down,
 /// or that it differs from the reference more where surfaces reflect nothing than on the mirrors.
 /// `rmse`: error on the mirrors.
-std::vector<std::string> list_picture_row_warnings(const std::string& name, const std::string& file,
-                                                   const measure::Picture& picture, double rmse,
-                                                   const ComparedReference& truth,
-                                                   const std::vector<std::uint32_t>& hits,
-                                                   double exposure);
+std::vector<std::string> picture_row_warnings(const std::string& name, const std::string& file,
+                                              const measure::Picture& picture, double rmse,
+                                              const ComparedReference& truth,
+                                              const std::vector<std::uint32_t>& hits,
+                                              double exposure);
 
 } // namespace catoptric::study

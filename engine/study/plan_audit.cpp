@@ -44,7 +44,7 @@ double read_number_member(const AuditJson& object, const char* member, double lo
 }
 
 /// Returns the texts of the proved plans, from the plan with the least error to the chosen plan.
-std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::string& file) {
+std::vector<std::string> proved_plans(const AuditJson& proofs, const std::string& file) {
     std::vector<std::string> plans;
     std::size_t chosen = 0;
     for (std::size_t i = 0; i < proofs.size(); ++i) {
@@ -72,27 +72,27 @@ std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::s
     return plans;
 }
 
-const PlanAuditRequest& check_plan_audit_request(const PlanAuditRequest& request) {
+const PlanAuditRequest& check_audit_request(const PlanAuditRequest& request) {
     check(!request.plans.empty(), Failure::usage, "audit: plans: wanted at least 1, found none");
     check(request.max_error >= 0 && request.max_error <= 1, Failure::usage,
           "audit: limit of error: wanted a number from 0 to 1, found ", request.max_error);
     return request;
 }
 
-bool do_frames_show_same_view(const FrameSpec& a, const FrameSpec& b) {
+bool show_same_view(const FrameSpec& a, const FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
            a.time == b.time && a.ambient == b.ambient && a.exposure == b.exposure &&
            a.model == b.model;
 }
 
-double milliseconds_between(std::chrono::steady_clock::time_point begin,
-                            std::chrono::steady_clock::time_point end) {
+double ms_between(std::chrono::steady_clock::time_point begin,
+                  std::chrono::steady_clock::time_point end) {
     return std::chrono::duration<double, std::milli>(end - begin).count();
 }
 
 /// Returns how many samples with this step fit into a row of pixels, with equal margins at both
 /// ends.
-std::uint32_t count_samples_of_step(std::uint32_t pixels, std::uint32_t step) {
+std::uint32_t samples_at_step(std::uint32_t pixels, std::uint32_t step) {
     const std::uint32_t samples = pixels / step;
     return samples - (pixels - samples) % 2; // both margins must be equal, so the rest must be even
 }
@@ -114,7 +114,7 @@ PlanAuditRequest read_plan_audit(const std::filesystem::path& file) {
     const AuditJson certificate = member("certificate", false);
     const std::string place = name + ": certificate";
     PlanAuditRequest request;
-    request.plans = list_proved_plans(member("proofs", true), name);
+    request.plans = proved_plans(member("proofs", true), name);
     const AuditJson quantity = certificate.value("quantity", AuditJson());
     check(quantity == "flip" || quantity == "rmse", Failure::bad_data, place,
           ".quantity: wanted \"flip\" or \"rmse\", found ",
@@ -136,7 +136,7 @@ PlanAuditRequest read_plan_audit(const std::filesystem::path& file) {
 SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::size_t most) {
     SampledView view;
     const auto samples = [&](std::uint32_t step) {
-        return uvec2(count_samples_of_step(size.x, step), count_samples_of_step(size.y, step));
+        return uvec2(samples_at_step(size.x, step), samples_at_step(size.y, step));
     };
     const auto is_possible = [&](std::uint32_t step) {
         return samples(step).x > 0 && samples(step).y > 0;
@@ -174,13 +174,13 @@ measure::Picture sample_picture(const measure::Picture& picture, const SampledVi
 }
 
 RunningPlanAudit::RunningPlanAudit(PlanAuditRequest request)
-    : request_(std::move(request)), audit_(check_plan_audit_request(request_).tested),
+    : request_(std::move(request)), audit_(check_audit_request(request_).tested),
       alarm_(request_.tested), schedule_(request_.pace), ladder_(request_.plans.size()) {}
 
 /// Returns whether the reference can show the scene: rough reflectors need a reference that draws
 /// rays from lobes.
 bool RunningPlanAudit::can_reference_show(const scene::Scene& scene) const {
-    return draws_rays_from_lobes(request_.reference) || !scene::has_rough_reflector(scene);
+    return draws_lobe_rays(request_.reference) || !scene::has_rough_reflector(scene);
 }
 
 /// Ray traces two halves of a reference with noise, and returns the difference over the mirrors.
@@ -190,7 +190,7 @@ bool RunningPlanAudit::can_reference_show(const scene::Scene& scene) const {
 measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
                                                           const measure::Picture& samples,
                                                           const FrameSpec& traced) {
-    const std::set<int> taken = list_row_seeds({plan()});
+    const std::set<int> taken = row_seeds({plan()});
     FrameSpec spec = traced;
     measure::PictureMean a, b;
     measure::Mask mirrors;
@@ -203,7 +203,7 @@ measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
             } while (taken.contains(lobe_seed_));
             spec.techniques = {set_lobe_seed(request_.reference, lobe_seed_)};
             const TechniqueResult truth = session.frame(spec).read();
-            check_reference_is_traced(truth);
+            check_is_traced(truth);
             half->add(truth.hdr);
             if (mirrors.empty()) mirrors = measure::mask_mirrors(truth.hits);
         }
@@ -219,18 +219,18 @@ measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
 
 /// Throws `usage` for a reference without first hits of camera rays, which would count all pixels
 /// as mirrors.
-void RunningPlanAudit::check_reference_is_traced(const TechniqueResult& truth) const {
+void RunningPlanAudit::check_is_traced(const TechniqueResult& truth) const {
     check(!truth.hits.empty(), Failure::usage, "audit: reference: wanted a ray-traced one, found ",
           request_.reference);
 }
 
 /// Ray traces the sampled pixels by a reference without noise. Returns the difference between the
 /// reference and `samples`, the shown colours of these pixels, over the mirrors.
-measure::Difference RunningPlanAudit::compare_with_one_picture(Session& session,
-                                                               const measure::Picture& samples,
-                                                               const FrameSpec& traced) {
+measure::Difference RunningPlanAudit::compare_with_picture(Session& session,
+                                                           const measure::Picture& samples,
+                                                           const FrameSpec& traced) {
     const TechniqueResult truth = session.frame(traced).read();
-    check_reference_is_traced(truth);
+    check_is_traced(truth);
     std::vector<float> map(samples.pixels.size(), 0.0f); // only FLIP needs the map
     if (request_.quantity == ErrorQuantity::flip)
         map = measure::flip(measure::to_unrounded_display(samples, traced.exposure),
@@ -242,9 +242,9 @@ measure::Difference RunningPlanAudit::compare_with_one_picture(Session& session,
 
 /// Ray traces the samples of a frame and returns the difference over the mirrors. The session's
 /// sequence of frames goes on afterwards, also after an exception.
-measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session,
-                                                                const measure::Picture& running,
-                                                                const FrameSpec& spec) {
+measure::Difference RunningPlanAudit::compare_with_trace(Session& session,
+                                                         const measure::Picture& running,
+                                                         const FrameSpec& spec) {
     const SampledView view = choose_sampled_view(spec.camera, spec.size, kMostSamples);
     FrameSpec traced = spec;
     traced.techniques = {request_.reference};
@@ -255,9 +255,9 @@ measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session
                                                        // such as those of `auto`
     measure::Difference difference;
     try {
-        difference = does_reference_have_noise(request_.reference, session.scene())
+        difference = is_noisy(request_.reference, session.scene())
                          ? compare_with_halves(session, samples, traced)
-                         : compare_with_one_picture(session, samples, traced);
+                         : compare_with_picture(session, samples, traced);
     } catch (...) {
         Access::resume(session, std::move(sequence));
         throw;
@@ -271,16 +271,16 @@ void RunningPlanAudit::prepare(Session& session, const FrameSpec& spec) {
           "audit: reference: wanted one with rays=N, because surfaces of '", session.scene().name,
           "' are rough, found ", request_.reference);
     const measure::Picture black(static_cast<int>(spec.size.x), static_cast<int>(spec.size.y));
-    compare_with_traced_frame(session, black, spec);
+    compare_with_trace(session, black, spec);
     const Clock::time_point begin = Clock::now();
-    compare_with_traced_frame(session, black, spec);
-    schedule_.expect_audit(milliseconds_between(begin, Clock::now()));
+    compare_with_trace(session, black, spec);
+    schedule_.expect_audit(ms_between(begin, Clock::now()));
     is_prepared_ = true;
     ended_ = Clock::now();
 }
 
 /// Returns whether the frame begins with the audited plan, however the plan's text is spelt.
-bool RunningPlanAudit::shows_audited_plan(const FrameSpec& spec) {
+bool RunningPlanAudit::shows_plan(const FrameSpec& spec) {
     if (spec.techniques.empty()) return false;
     const std::string& shown = spec.techniques.front();
     if (shown == plan()) return true;
@@ -291,7 +291,7 @@ bool RunningPlanAudit::shows_audited_plan(const FrameSpec& spec) {
 
 /// Returns whether the frame shows another camera, instant or scene than the last frame.
 bool RunningPlanAudit::shows_new_picture(const Session& session, const FrameSpec& spec) {
-    const bool is_new = !watched_ || !do_frames_show_same_view(*watched_, spec) ||
+    const bool is_new = !watched_ || !show_same_view(*watched_, spec) ||
                         Access::session_counters(session).updates != updates_;
     if (is_new) watched_ = spec;
     return is_new;
@@ -299,18 +299,18 @@ bool RunningPlanAudit::shows_new_picture(const Session& session, const FrameSpec
 
 void RunningPlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                                    AuditState& state) {
-    const measure::Difference difference = compare_with_traced_frame(session, frame.hdr(), spec);
+    const measure::Difference difference = compare_with_trace(session, frame.hdr(), spec);
     if (difference.pixels == 0) return; // frames that show no mirror do not count
-    state.error = mirror_error_of_view(request_.quantity, difference);
+    state.error = mirror_error(request_.quantity, difference);
     audit_.count_frame(*state.error <= request_.max_error);
-    const double least = lower_mirror_error_of_view(request_.quantity, difference);
+    const double least = lower_mirror_error(request_.quantity, difference);
     alarm_.count_frame(least <= request_.max_error);
     state.is_alarm = is_alarmed() && !was_alarmed_;
     was_alarmed_ = is_alarmed();
     assured_share_ = audit_.assured_share();
     // Noise hides a failure with a small probability, so somewhat more frames fail than were seen
     // to.
-    if (does_reference_have_noise(request_.reference, session.scene()))
+    if (is_noisy(request_.reference, session.scene()))
         assured_share_ = std::max(0.,
                                   1 - (1 - assured_share_) / (1 - measure::kNoiseMissProbability));
 }
@@ -320,7 +320,7 @@ void RunningPlanAudit::step(double seconds, AuditState& state) {
     state.has_new_plan = ladder_.step(seconds);
     if (state.is_alarm)
         state.message = fmt::format("audit: {} of {} frames break {} <= {:g}", alarm_.failures(),
-                                    alarm_.frame_count(), error_quantity_name(request_.quantity),
+                                    alarm_.frame_count(), quantity_name(request_.quantity),
                                     request_.max_error);
     if (state.has_new_plan) {
         state.message += (state.is_alarm ? "; " : "audit: ") +
@@ -335,7 +335,7 @@ void RunningPlanAudit::step(double seconds, AuditState& state) {
 AuditState RunningPlanAudit::watch_frame(Session& session, const Frame& frame,
                                          const FrameSpec& spec, double seconds) {
     AuditState state;
-    const bool is_of_plan = shows_audited_plan(spec);
+    const bool is_of_plan = shows_plan(spec);
     if (is_of_plan && !is_prepared_) {
         if (request_.before_audit) request_.before_audit();
         prepare(session, spec);
@@ -345,10 +345,10 @@ AuditState RunningPlanAudit::watch_frame(Session& session, const Frame& frame,
         is_paused_ = !can_reference_show(session.scene());
     const bool is_counted = shows_new_picture(session, spec) && is_of_plan && !is_paused_ &&
                             ++frames_of_plan_ > kUncountedFramesOfPlan;
-    if (is_counted && schedule_.count_frame(milliseconds_between(ended_, begin))) {
+    if (is_counted && schedule_.count_frame(ms_between(ended_, begin))) {
         if (request_.before_audit) request_.before_audit();
         audit_frame(session, frame, spec, state);
-        schedule_.add_audit(milliseconds_between(begin, Clock::now()));
+        schedule_.add_audit(ms_between(begin, Clock::now()));
     }
     if (is_of_plan && is_alarmed()) step(seconds, state);
     updates_ = Access::session_counters(session).updates;
@@ -356,11 +356,11 @@ AuditState RunningPlanAudit::watch_frame(Session& session, const Frame& frame,
     state.plan = ladder_.place();
     state.frames = audit_.frame_count(), state.failures = audit_.failures();
     state.assured_share = assured_share_;
-    state.time_share = share_of_audit_time();
+    state.time_share = time_share();
     return state;
 }
 
-double RunningPlanAudit::share_of_audit_time() const {
+double RunningPlanAudit::time_share() const {
     return schedule_.frames_ms() > 0 ? schedule_.audits_ms() / schedule_.frames_ms() : 0;
 }
 
@@ -368,8 +368,8 @@ std::string RunningPlanAudit::describe() const {
     const std::size_t frames = audit_.frame_count();
     return fmt::format("audit: {} of {} frames keep {} <= {:g}; assured share {:.3f}; {:.1f} % of "
                        "the frames' time{}{}",
-                       frames - audit_.failures(), frames, error_quantity_name(request_.quantity),
-                       request_.max_error, assured_share_, 100 * share_of_audit_time(),
+                       frames - audit_.failures(), frames, quantity_name(request_.quantity),
+                       request_.max_error, assured_share_, 100 * time_share(),
                        is_alarmed() ? "; alarm: too many frames fail" : "",
                        is_paused_ ? "; paused, because a surface is rough" : "");
 }

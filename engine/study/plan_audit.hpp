@@ -22,7 +22,7 @@ struct PlanAuditRequest {
     /// Plans from the one with the least error to the last, which runs first.
     std::vector<std::string> plans;
     ErrorQuantity quantity = ErrorQuantity::flip;
-    double max_error = 0;                        ///< limit of mirror_error_of_view in a frame, 0..1
+    double max_error = 0;                        ///< limit of mirror_error in a frame, 0..1
     std::string reference = "raytrace:depth=16"; ///< with rays=N if surfaces are rough
     std::string scene_hash; ///< hash of the scene that the plans were proved for; empty: not known
     measure::AuditedShare tested;
@@ -99,20 +99,20 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    bool shows_audited_plan(const FrameSpec& spec);
+    bool shows_plan(const FrameSpec& spec);
     bool shows_new_picture(const Session& session, const FrameSpec& spec);
     bool can_reference_show(const scene::Scene& scene) const;
-    measure::Difference compare_with_traced_frame(Session& session, const measure::Picture& running,
-                                                  const FrameSpec& spec);
-    void check_reference_is_traced(const TechniqueResult& truth) const;
-    measure::Difference compare_with_one_picture(Session& session, const measure::Picture& samples,
-                                                 const FrameSpec& traced);
+    measure::Difference compare_with_trace(Session& session, const measure::Picture& running,
+                                           const FrameSpec& spec);
+    void check_is_traced(const TechniqueResult& truth) const;
+    measure::Difference compare_with_picture(Session& session, const measure::Picture& samples,
+                                             const FrameSpec& traced);
     measure::Difference compare_with_halves(Session& session, const measure::Picture& samples,
                                             const FrameSpec& traced);
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                      AuditState& state);
     void step(double seconds, AuditState& state);
-    double share_of_audit_time() const;
+    double time_share() const;
 
     PlanAuditRequest request_;
     measure::Audit audit_; ///< counts frames as passed if their error is surely within the limit

@@ -66,7 +66,7 @@ const measure::MetricParts* find_certificate(const measure::MetricValue& value) 
     return list != nullptr && !list->empty() ? &list->front() : nullptr;
 }
 
-bool is_certificate_of_this_scene(const measure::MetricParts& certificate) {
+bool is_of_scene(const measure::MetricParts& certificate) {
     return std::get<bool>(certificate.values.front().second);
 }
 
@@ -82,8 +82,8 @@ std::vector<ReportTable> make_certificate_tables(const report::Comparison& compa
     for (const report::Row& row : comparison.rows) {
         const measure::MetricValue value = measure::study_metric(row, kCertificateMetricName);
         if (const auto* certificate = find_certificate(value))
-            table.rows.push_back({row.label, certificate->name,
-                                  is_certificate_of_this_scene(*certificate) ? "yes" : "no"});
+            table.rows.push_back(
+                {row.label, certificate->name, is_of_scene(*certificate) ? "yes" : "no"});
     }
     return {table};
 }
@@ -95,8 +95,8 @@ std::string quote_certificates(const report::Comparison& comparison) {
         const auto* certificate = find_certificate(value);
         if (certificate == nullptr) continue;
         sentences += (sentences.empty() ? "" : " ") + row.label + " was chosen" +
-                     (is_certificate_of_this_scene(*certificate) ? "" : " for another scene") +
-                     ": " + certificate->name + ".";
+                     (is_of_scene(*certificate) ? "" : " for another scene") + ": " +
+                     certificate->name + ".";
     }
     return sentences;
 }
@@ -115,7 +115,7 @@ const report::RegisteredPart kCertificatePart{{.name = kCertificateMetricName,
 } // namespace
 
 std::vector<std::optional<PlanCertificate>>
-read_plan_certificates(const std::vector<std::string>& texts) {
+read_certificates(const std::vector<std::string>& texts) {
     std::vector<std::optional<PlanCertificate>> certificates(texts.size());
     for (std::size_t i = 0; i < texts.size(); ++i) {
         if (!texts[i].starts_with(kPlanFilePrefix)) continue;
@@ -130,8 +130,8 @@ read_plan_certificates(const std::vector<std::string>& texts) {
     return certificates;
 }
 
-void add_plan_certificates(const std::vector<std::optional<PlanCertificate>>& certificates,
-                           measure::Comparison& comparison) {
+void add_certificates(const std::vector<std::optional<PlanCertificate>>& certificates,
+                      measure::Comparison& comparison) {
     for (std::size_t i = 0; i < std::min(certificates.size(), comparison.rows.size()); ++i) {
         if (!certificates[i]) continue;
         std::vector<measure::MetricParts> list{

@@ -21,10 +21,10 @@ struct PlanCertificate {
 /// Returns the certificate of each row that is a plan from a file. Other rows, and files without a
 /// proved plan, get none. `texts`: the texts of the rows. Throws as read_plan does.
 std::vector<std::optional<PlanCertificate>>
-read_plan_certificates(const std::vector<std::string>& texts);
+read_certificates(const std::vector<std::string>& texts);
 
 /// Adds each certificate to the row with the same index. There may be fewer rows than certificates.
-void add_plan_certificates(const std::vector<std::optional<PlanCertificate>>& certificates,
-                           measure::Comparison& comparison);
+void add_certificates(const std::vector<std::optional<PlanCertificate>>& certificates,
+                      measure::Comparison& comparison);
 
 } // namespace catoptric::study

@@ -20,8 +20,8 @@ namespace {
 
 /// Returns the rmse between two halves of a reference, as predicted from the variance of their
 /// frames. Values are not clamped.
-double predict_rmse_between_halves(const NoisyReference& noisy, const measure::Mask& mask,
-                                   double exposure) {
+double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mask,
+                           double exposure) {
     const measure::Picture a = noisy.a.variance(), b = noisy.b.variance();
     double sum = 0, pixels = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -43,7 +43,7 @@ constexpr std::uint64_t kMostCoarseRays = std::uint64_t{1} << 18;
 int choose_coarse_rays(const std::string& reference, uvec2 size) {
     const int wanted = find_lobe_rays(reference);
     const std::uint64_t pixels = std::uint64_t{size.x} * size.y *
-                                 std::stoull(find_sample_count(parse_technique(reference)));
+                                 std::stoull(sample_count(parse_technique(reference)));
     if (pixels * static_cast<std::uint64_t>(wanted) <= kMostCoarseRays) return wanted;
     const auto most = static_cast<unsigned>(
         std::min<std::uint64_t>(kMostCoarseRays / pixels, static_cast<std::uint64_t>(wanted)));
@@ -71,55 +71,54 @@ std::string choose_reference(const std::string& asked, const scene::Scene& scene
     return is_rough ? kRoughReference : kReference;
 }
 
-std::string find_sample_count(const ParsedTechnique& choice) {
+std::string sample_count(const ParsedTechnique& choice) {
     for (const auto& setting : choice.settings)
         if (setting.name == choice.traits().samples) return setting.text;
     return "1";
 }
 
-std::string set_reference_samples(const std::string& reference, const std::string& samples) {
+std::string set_samples(const std::string& reference, const std::string& samples) {
     const ParsedTechnique choice = parse_technique(reference);
-    if (samples == "1" || choice.traits().samples.empty() || find_sample_count(choice) != "1")
+    if (samples == "1" || choice.traits().samples.empty() || sample_count(choice) != "1")
         return reference;
     return reference + (reference.find(':') == std::string::npos ? ":" : ",") +
            std::string(choice.traits().samples) + "=" + samples;
 }
 
-RunResult ReferenceCache::render_reference(const std::string& technique, int number) const {
+RunResult ReferenceCache::render(const std::string& technique, int number) const {
     Request request = base_;
     request.techniques = {technique};
     request.model = RenderedWork::everything;
     request.warmup = std::min(request.warmup, number - 1);
     request.frames = number - request.warmup;
-    if (find_sample_count(parse_technique(technique)) != "1") {
+    if (sample_count(parse_technique(technique)) != "1") {
         // One frame is rendered, because a frame with many samples takes long, and ray-traced
         // frames do not depend on earlier frames.
         request.time = base_.instant(number);
         request.animate = false;
         request.warmup = 0, request.frames = 1;
     }
-    return run(reference_session_, request, watcher_);
+    return run(session_, request, watcher_);
 }
 
-bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene) {
-    return traces_paths(reference) || draws_rays_to_environment(reference, scene) ||
-           (draws_rays_from_lobes(reference) && scene::has_rough_reflector(scene));
+bool is_noisy(const std::string& reference, const scene::Scene& scene) {
+    return traces_paths(reference) || draws_environment_rays(reference, scene) ||
+           (draws_lobe_rays(reference) && scene::has_rough_reflector(scene));
 }
 
 void check_reference_has_file(const std::string& reference, const scene::Scene& scene,
                               const std::filesystem::path& file) {
-    check(does_reference_have_noise(reference, scene), Failure::usage, "--reference ",
-          file.string(),
+    check(is_noisy(reference, scene), Failure::usage, "--reference ", file.string(),
           ": wanted a reference with noise, which draws rays from the lobes of rough surfaces; "
           "found one without");
 }
 
-bool ReferenceCache::has_reference_noise() const {
-    if (!noisy_) noisy_ = does_reference_have_noise(reference_, base_.scene);
+bool ReferenceCache::has_noise() const {
+    if (!noisy_) noisy_ = is_noisy(reference_, base_.scene);
     return *noisy_;
 }
 
-bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int number, double seconds) {
+bool ReferenceCache::add_frames(ReferencePicture& reference, int number, double seconds) {
     NoisyReference& noisy = *reference.noisy;
     Request request = base_;
     request.model = RenderedWork::everything;
@@ -139,7 +138,7 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
         for (const int seed : seeds) {
             const SteadyClock::time_point frame = SteadyClock::now();
             request.techniques = {set_lobe_seed(noisy.technique, seed)};
-            results.push_back(run(reference_session_, request, watcher));
+            results.push_back(run(session_, request, watcher));
             noisy.frame_seconds = 1e-3 * ms_since(frame);
         }
     } catch (const OutOfTime&) {
@@ -159,7 +158,7 @@ bool ReferenceCache::add_reference_frames(ReferencePicture& reference, int numbe
     return true;
 }
 
-bool ReferenceCache::refine_reference(ReferencePicture& reference, int wanted, double seconds) {
+bool ReferenceCache::refine(ReferencePicture& reference, int wanted, double seconds) {
     constexpr int kLeastGain = 4;  // for less, the frames so far are worth more
     constexpr double kMargin = .8; // the machine may become slower
     NoisyReference& noisy = *reference.noisy;
@@ -170,7 +169,7 @@ bool ReferenceCache::refine_reference(ReferencePicture& reference, int wanted, d
     finer.part = reference.part;
     finer.noisy = std::make_shared<NoisyReference>(noisy.seeds);
     finer.noisy->technique = set_lobe_rays(noisy.technique, refined);
-    const bool is_made = add_reference_frames(finer, base_.total(), seconds);
+    const bool is_made = add_frames(finer, base_.total(), seconds);
     noisy.seconds += finer.noisy->seconds;
     if (!is_made) return false;
     finer.noisy->seconds = noisy.seconds;
@@ -189,13 +188,12 @@ void ReferenceCache::update_picture(ReferencePicture& reference) const {
     reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
 }
 
-void ReferenceCache::read_stored_reference_frames(ReferencePicture& reference) const {
+void ReferenceCache::read_stored(ReferencePicture& reference) const {
     StoredReference stored = read_reference_file(make_reference_key(base_, reference_), file_);
     NoisyReference& noisy = *reference.noisy;
     for (const int seed : stored.seeds)
-        check(noisy.seeds.reserve_lobe_seed(seed), Failure::usage, file_.string(),
-              ": a frame has the seed ", seed,
-              ", which a row has as well; choose another seed for the row");
+        check(noisy.seeds.reserve(seed), Failure::usage, file_.string(), ": a frame has the seed ",
+              seed, ", which a row has as well; choose another seed for the row");
     noisy.used = std::move(stored.seeds);
     if (stored.rays > 0 && stored.rays != find_lobe_rays(noisy.technique))
         noisy.technique = set_lobe_rays(noisy.technique, stored.rays);
@@ -205,14 +203,14 @@ void ReferenceCache::read_stored_reference_frames(ReferencePicture& reference) c
     update_picture(reference);
 }
 
-void ReferenceCache::keep_reference_in_file(const std::filesystem::path& file) {
+void ReferenceCache::keep_in_file(const std::filesystem::path& file) {
     check_reference_has_file(reference_, base_.scene, file);
     file_ = file;
 }
 
 void ReferenceCache::write_file() {
     if (file_.empty()) return;
-    const ReferencePicture& reference = get_reference("1");
+    const ReferencePicture& reference = get("1");
     const NoisyReference& noisy = *reference.noisy;
     write_reference_file({.a = noisy.a,
                           .b = noisy.b,
@@ -222,13 +220,13 @@ void ReferenceCache::write_file() {
                          make_reference_key(base_, reference_), file_);
 }
 
-ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& samples, int number) {
-    const std::pair key(samples, choose_frame_to_render(number));
+ReferencePicture& ReferenceCache::find_reference(const std::string& samples, int number) {
+    const std::pair key(samples, frame_to_render(number));
     const auto found = truths_.find(key);
     if (found != truths_.end()) return found->second;
-    const std::string technique = set_reference_samples(reference_, samples);
+    const std::string technique = set_samples(reference_, samples);
     ReferencePicture made;
-    if (has_reference_noise()) {
+    if (has_noise()) {
         std::vector<std::string> rows = base_.techniques;
         rows.push_back(reference_);
         const bool is_kept = !file_.empty() && samples == "1" && key.second == base_.total();
@@ -236,25 +234,25 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
         made.noisy->technique = begins_coarse_ ? choose_coarse_technique(technique, base_.size)
                                                : technique;
         if (is_kept && std::filesystem::exists(file_))
-            read_stored_reference_frames(made);
+            read_stored(made);
         else
-            add_reference_frames(made, key.second);
+            add_frames(made, key.second);
         made.part.hits.clear(); // with random rays, the second mirror of a pixel is random as well
     } else {
-        RunResult result = render_reference(technique, key.second);
+        RunResult result = render(technique, key.second);
         made.part = std::move(result.parts.front());
         for (const FrameTimes& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
     }
     return truths_.emplace(key, std::move(made)).first->second;
 }
 
-const ReferencePicture& ReferenceCache::get_reference(const std::string& samples, int number) {
-    return find_reference_to_change(samples, number);
+const ReferencePicture& ReferenceCache::get(const std::string& samples, int number) {
+    return find_reference(samples, number);
 }
 
 double ReferenceCache::measure_noise_floor(const std::string& samples, ErrorQuantity quantity) {
-    const measure::Mask mirrors = measure::mask_mirrors(find_mirror_hits());
-    const ReferencePicture& reference = get_reference(samples);
+    const measure::Mask mirrors = measure::mask_mirrors(hits());
+    const ReferencePicture& reference = get(samples);
     check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
     const measure::NoisyHalves& halves = reference.noisy->halves;
     return quantity == ErrorQuantity::flip
@@ -262,17 +260,17 @@ double ReferenceCache::measure_noise_floor(const std::string& samples, ErrorQuan
                : measure::difference(halves.a, halves.b, mirrors, halves.floor_map).rmse;
 }
 
-double ReferenceCache::seconds_of_noisy_references() const {
+double ReferenceCache::noisy_seconds() const {
     double seconds = 0;
     for (const auto& [key, reference] : truths_)
         if (reference.noisy) seconds += reference.noisy->seconds;
     return seconds;
 }
 
-bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
-                                    const NoiseFloorTarget& target) {
-    if (!has_reference_noise()) return false;
-    ReferencePicture& reference = find_reference_to_change(samples, base_.total());
+bool ReferenceCache::grow(const std::string& samples, double seconds,
+                          const NoiseFloorTarget& target) {
+    if (!has_noise()) return false;
+    ReferencePicture& reference = find_reference(samples, base_.total());
     const auto whole = static_cast<std::size_t>(std::max(std::ceil(seconds), 1.0));
     const int wanted = find_lobe_rays(reference_);
     const auto is_done = [&] { // a floor of NaN, without a mirror pixel, is done, too
@@ -293,19 +291,19 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
     for (; !is_done(); has_grown = true) {
         const double left = seconds - reference.noisy->seconds;
         report(has_grown);
-        if (refine_reference(reference, wanted, left)) continue;
+        if (refine(reference, wanted, left)) continue;
         if (reference.noisy->seconds + 2 * reference.noisy->frame_seconds >= seconds ||
-            !add_reference_frames(reference, base_.total(), seconds - reference.noisy->seconds))
+            !add_frames(reference, base_.total(), seconds - reference.noisy->seconds))
             break;
     }
     return has_grown;
 }
 
 measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples) {
-    const ReferencePicture& reference = get_reference(samples);
+    const ReferencePicture& reference = get(samples);
     check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
     const NoisyReference& noisy = *reference.noisy;
-    const measure::Mask mirrors = measure::mask_mirrors(find_mirror_hits());
+    const measure::Mask mirrors = measure::mask_mirrors(hits());
     const measure::NoiseFreeError between = measure::estimate_noise_free(
         noisy.halves.a, noisy.halves, mirrors, noisy.halves.floor_map);
     return {.frames = noisy.a.count(),
@@ -314,19 +312,17 @@ measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples
             .seconds = noisy.seconds,
             .flip_floor = between.flip_floor,
             .halves_rmse = between.halves_rmse,
-            .predicted_rmse = predict_rmse_between_halves(noisy, mirrors, base_.exposure)};
+            .predicted_rmse = predict_halves_rmse(noisy, mirrors, base_.exposure)};
 }
 
-const std::vector<std::uint32_t>& ReferenceCache::find_mirror_hits(int number) {
-    const std::vector<std::uint32_t>& known = get_reference("1", number).part.hits;
+const std::vector<std::uint32_t>& ReferenceCache::hits(int number) {
+    const std::vector<std::uint32_t>& known = get("1", number).part.hits;
     if (!known.empty()) return known;
     // If the reference is not ray traced, or has random rays, a separate ray-traced picture
     // provides the first hits.
-    std::vector<std::uint32_t>& traced = hits_[choose_frame_to_render(number)];
+    std::vector<std::uint32_t>& traced = hits_[frame_to_render(number)];
     if (traced.empty())
-        traced = std::move(render_reference("raytrace:depth=1", choose_frame_to_render(number))
-                               .parts.front()
-                               .hits);
+        traced = std::move(render("raytrace:depth=1", frame_to_render(number)).parts.front().hits);
     return traced;
 }
 

@@ -43,7 +43,7 @@ std::string choose_reference(const std::string& asked, const scene::Scene& scene
 
 /// Returns whether a reference of this scene has noise: it traces paths, or draws rays to the
 /// environment or from the lobes of rough surfaces.
-bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene);
+bool is_noisy(const std::string& reference, const scene::Scene& scene);
 /// Throws `usage` for a reference without noise, which cannot be kept in a file.
 void check_reference_has_file(const std::string& reference, const scene::Scene& scene,
                               const std::filesystem::path& file);
@@ -68,16 +68,14 @@ struct ReferencePicture {
     std::vector<double> gpu_ms;
     std::shared_ptr<NoisyReference> noisy; ///< null: the reference has no noise
 
-    ComparedReference compared_reference() const {
-        return {part.hdr, noisy ? &noisy->halves : nullptr};
-    }
+    ComparedReference compared() const { return {part.hdr, noisy ? &noisy->halves : nullptr}; }
 };
 
 /// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
-std::string find_sample_count(const ParsedTechnique& choice);
+std::string sample_count(const ParsedTechnique& choice);
 /// Returns the text of the reference with `samples` set. Returns the text unchanged if it has no
 /// such knob, or if it states more than one sample, because it is then the reference of all rows.
-std::string set_reference_samples(const std::string& reference, const std::string& samples);
+std::string set_samples(const std::string& reference, const std::string& samples);
 
 /// Returns the most rays of a lobe for each pixel in the first frames of a noisy reference: a power
 /// of two, with which a frame has at most 2^18 rays, or all rays that the reference asks for. At
@@ -102,39 +100,37 @@ public:
     /// the pictures do not depend on the speed of the machine.
     ReferenceCache(Session& session, const Request& base, const std::string& reference,
                    const Watcher& watcher, double seconds)
-        : reference_session_(session), base_(base), reference_(reference), watcher_(watcher),
+        : session_(session), base_(base), reference_(reference), watcher_(watcher),
           begins_coarse_(seconds > 0) {}
 
     /// Returns the reference of a row's last frame. Valid as long as the cache. Throws as the
     /// watcher does.
-    const ReferencePicture& get_reference(const std::string& samples) {
-        return get_reference(samples, base_.total());
-    }
+    const ReferencePicture& get(const std::string& samples) { return get(samples, base_.total()); }
     /// Returns the reference of a row's frame `number`, from 1.
-    const ReferencePicture& get_reference(const std::string& samples, int number);
+    const ReferencePicture& get(const std::string& samples, int number);
     /// Returns what one ray through each pixel centre meets: first mirror | second mirror << 16.
     /// Valid as long as the cache.
-    const std::vector<std::uint32_t>& find_mirror_hits() { return find_mirror_hits(base_.total()); }
-    const std::vector<std::uint32_t>& find_mirror_hits(int number);
+    const std::vector<std::uint32_t>& hits() { return hits(base_.total()); }
+    const std::vector<std::uint32_t>& hits(int number);
 
     /// Returns whether the reference has noise.
-    bool has_reference_noise() const;
+    bool has_noise() const;
     /// Adds frames to both halves of the reference of a row's last frame, until each half has the
     /// rays that the reference asks for, and the error between the halves over the mirrors is at
     /// most that of the target; or until further frames would take longer than `seconds` in all.
     /// If frames of more rays fit into the time, they replace those of few rays. Reports progress
     /// to the watcher. Returns whether the reference changed. Does nothing for a reference without
     /// noise, and if no pixel shows a mirror.
-    bool grow_reference(const std::string& samples, double seconds, const NoiseFloorTarget& target);
+    bool grow(const std::string& samples, double seconds, const NoiseFloorTarget& target);
     /// Returns the error between the halves of the reference of a row's last frame, over the
     /// mirrors; NaN if no pixel shows a mirror. Only for noisy references.
     double measure_noise_floor(const std::string& samples, ErrorQuantity quantity);
     /// Returns the time in which the frames of all references with noise were rendered, seconds.
-    double seconds_of_noisy_references() const;
+    double noisy_seconds() const;
     /// Keeps the reference of a row's last frame at one sample a pixel in a file, and begins with
     /// the content of the file if it exists. Call it before the reference is needed. Throws `usage`
     /// for a reference without noise.
-    void keep_reference_in_file(const std::filesystem::path& file);
+    void keep_in_file(const std::filesystem::path& file);
     /// Writes the file, if the reference is kept in one.
     void write_file();
     /// Returns the noise of the reference for this sample count, over the mirrors. Only for noisy
@@ -144,20 +140,20 @@ public:
 private:
     /// Returns the number of the frame that is rendered to get the picture of frame `number`. All
     /// frames of a still scene are equal, so the last frame is rendered for each of them.
-    int choose_frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
-    RunResult render_reference(const std::string& technique, int number) const;
+    int frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
+    RunResult render(const std::string& technique, int number) const;
     /// Adds a frame of each half, and updates the picture. Returns false, and changes nothing, if
     /// the frames took longer than `seconds`.
-    bool add_reference_frames(ReferencePicture& reference, int number,
-                              double seconds = std::numeric_limits<double>::infinity());
+    bool add_frames(ReferencePicture& reference, int number,
+                    double seconds = std::numeric_limits<double>::infinity());
     /// Replaces the frames by those of as many rays as fit into `seconds`. Returns whether it did.
-    bool refine_reference(ReferencePicture& reference, int wanted, double seconds);
+    bool refine(ReferencePicture& reference, int wanted, double seconds);
     /// Sets the picture to the mean of the halves.
     void update_picture(ReferencePicture& reference) const;
-    void read_stored_reference_frames(ReferencePicture& reference) const;
-    ReferencePicture& find_reference_to_change(const std::string& samples, int number);
+    void read_stored(ReferencePicture& reference) const;
+    ReferencePicture& find_reference(const std::string& samples, int number);
 
-    Session& reference_session_;
+    Session& session_;
     const Request& base_;
     const std::string& reference_;
     const Watcher& watcher_;
@@ -167,7 +163,7 @@ private:
     /// First hits of the reference's camera rays, by frame number.
     std::map<int, std::vector<std::uint32_t>> hits_;
     mutable std::optional<bool> noisy_;
-    std::filesystem::path file_; ///< file of the reference, see keep_reference_in_file; empty: none
+    std::filesystem::path file_; ///< file of the reference, see keep_in_file; empty: none
 };
 
 } // namespace catoptric::study

@@ -16,14 +16,14 @@ namespace {
 using report::Json;
 
 constexpr const char* kReferenceSchema = "catoptric/reference/1";
-const std::array<std::string, 4> kReferenceFileLayerNames{"A", "B", "variance_A", "variance_B"};
+const std::array<std::string, 4> kLayerNames{"A", "B", "variance_A", "variance_B"};
 
 std::string format_point(const dvec3& point) {
     return fmt::format("{},{},{}", point.x, point.y, point.z);
 }
 
 /// Returns the file's description. Throws `bad_data` if it is not one of a reference.
-Json parse_reference_description(const std::string& text, const std::string& file) {
+Json parse_description(const std::string& text, const std::string& file) {
     Json json = Json::parse(text, nullptr, false);
     const bool is_ours = json.is_object() && json.contains("schema") &&
                          json["schema"] == kReferenceSchema && json.contains("key") &&
@@ -67,18 +67,18 @@ void write_reference_file(const StoredReference& reference, const ReferenceKey& 
     json["seeds"] = reference.seeds;
     json["gpu_ms"] = reference.gpu_ms;
     json["rays"] = reference.rays;
-    measure::write_layers({{{kReferenceFileLayerNames[0], reference.a.mean()},
-                            {kReferenceFileLayerNames[1], reference.b.mean()},
-                            {kReferenceFileLayerNames[2], reference.a.variance()},
-                            {kReferenceFileLayerNames[3], reference.b.variance()}},
+    measure::write_layers({{{kLayerNames[0], reference.a.mean()},
+                            {kLayerNames[1], reference.b.mean()},
+                            {kLayerNames[2], reference.a.variance()},
+                            {kLayerNames[3], reference.b.variance()}},
                            json.dump()},
                           path);
 }
 
 StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const measure::LayeredFile stored = measure::read_layers(path, kReferenceFileLayerNames);
-    const Json json = parse_reference_description(stored.description, file);
+    const measure::LayeredFile stored = measure::read_layers(path, kLayerNames);
+    const Json json = parse_description(stored.description, file);
     for (const auto& [name, value] : key) {
         const Json found = json["key"].contains(name) ? json["key"][name] : Json();
         check(found == Json(value), Failure::bad_data, file, ": wanted a reference for the ", name,

@@ -34,7 +34,7 @@ std::string set_knob_number(const ParsedTechnique& choice, std::string_view knob
 
 } // namespace
 
-std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
+std::set<int> row_seeds(const std::vector<std::string>& rows) {
     std::set<int> seeds{0};
     for (const std::string& row : rows)
         for (const reflect::PlanRule& rule : read_plan(row).rules)
@@ -56,13 +56,13 @@ bool traces_paths(const std::string& technique) {
     return has_choice(choice, choice.traits().paths);
 }
 
-bool draws_rays_from_lobes(const std::string& technique) {
+bool draws_lobe_rays(const std::string& technique) {
     const ParsedTechnique choice = parse_technique(technique);
     return choice.traits().has_drawable_noise() &&
            (find_number(choice, choice.traits().rays) > 0 || traces_paths(technique));
 }
 
-bool draws_rays_to_environment(const std::string& technique, const scene::Scene& scene) {
+bool draws_environment_rays(const std::string& technique, const scene::Scene& scene) {
     if (scene.environment_shadows == 0 || !scene.environment) return false;
     const ParsedTechnique choice = parse_technique(technique);
     return choice.traits().has_drawable_noise() && !has_choice(choice, choice.traits().unshadowed);

@@ -24,7 +24,7 @@ bool has_knob_value(const report::Row& row, std::string_view knob, std::string_v
 } // namespace
 
 /// Returns a request for a still picture of the scene at the instant of frame `number`.
-Request RowErrorJudge::make_still_request(int number) const {
+Request RowErrorJudge::still_request(int number) const {
     Request request = base_;
     request.time = base_.instant(number);
     request.animate = false;
@@ -35,45 +35,41 @@ Request RowErrorJudge::make_still_request(int number) const {
 /// clamped. This frame is rendered separately, because recording takes time. The result has no
 /// look-ups for rows that do not look into captures.
 TechniqueResult RowErrorJudge::render_lookups(const std::string& text, int number) {
-    Request request = make_still_request(number);
+    Request request = still_request(number);
     request.techniques = {text};
     request.frames = 1;
     request.warmup = 1;
     request.with_lookup = true;
-    TechniqueResult part = std::move(run(judge_session_, request, watcher_).parts.front());
+    TechniqueResult part = std::move(run(session_, request, watcher_).parts.front());
     const bool looks = std::ranges::any_of(part.lookup,
                                            [](const vec4& pixel) { return pixel.w > 0; });
     if (!looks) part.lookup.clear();
     return part;
 }
 
-const TrueHitFinder& RowErrorJudge::find_true_hit_finder(int number) {
+const TrueHitFinder& RowErrorJudge::hit_finder(int number) {
     if (!oracle_ || (base_.animate && number != oracle_frame_))
-        oracle_.emplace(make_still_request(number));
+        oracle_.emplace(still_request(number));
     oracle_frame_ = number;
     return *oracle_;
 }
 
-std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row& row,
-                                                                    const std::string& text,
-                                                                    const TechniqueResult& part,
-                                                                    int number) {
-    const ComparedReference truth = truths_
-                                        .get_reference(find_sample_count(parse_technique(text)),
-                                                       number)
-                                        .compared_reference();
-    const std::vector<std::uint32_t>& hits = truths_.find_mirror_hits(number);
+std::vector<std::string> RowErrorJudge::fill(report::Row& row, const std::string& text,
+                                             const TechniqueResult& part, int number) {
+    const ComparedReference truth =
+        truths_.get(sample_count(parse_technique(text)), number).compared();
+    const std::vector<std::uint32_t>& hits = truths_.hits(number);
     row.pictured = number;
     fill_row_errors(row, part, truth, hits, scene::mirrors(base_.scene).size(), base_.exposure);
     const TechniqueResult looked = !part.rays || part.traced_fraction ? render_lookups(text, number)
                                                                       : TechniqueResult();
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
-        const TrueHitFinder& oracle = find_true_hit_finder(number);
+        const TrueHitFinder& oracle = hit_finder(number);
         row.lookup = std::make_shared<measure::LookupSummary>(measure::summarise_lookups(
             oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out"))));
         row.light_edges = std::make_shared<measure::LightEdgeErrors>(
-            split_error_at_light_edges(row, truth, hits, looked.lookup, oracle, base_.exposure));
+            split_at_light_edges(row, truth, hits, looked.lookup, oracle, base_.exposure));
     }
     std::vector<std::string> warnings;
     if (looked.saturated.value_or(0) > 0)

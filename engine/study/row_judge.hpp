@@ -19,20 +19,20 @@ public:
     /// `truths` uses the same session and base.
     RowErrorJudge(Session& session, ReferenceCache& truths, const Request& base,
                   const Watcher& watcher)
-        : judge_session_(session), truths_(truths), base_(base), watcher_(watcher) {}
+        : session_(session), truths_(truths), base_(base), watcher_(watcher) {}
 
     /// Fills the row's picture and all its figures from `part`, the row's frame `number`. Returns
     /// warnings for the user. The session begins another sequence. Costs a frame that records where
     /// mirrors looked, and nine rays per mirror pixel.
-    std::vector<std::string> fill_row_errors_and_picture(report::Row& row, const std::string& text,
-                                                         const TechniqueResult& part, int number);
+    std::vector<std::string> fill(report::Row& row, const std::string& text,
+                                  const TechniqueResult& part, int number);
 
 private:
-    Request make_still_request(int number) const;
+    Request still_request(int number) const;
     TechniqueResult render_lookups(const std::string& text, int number);
-    const TrueHitFinder& find_true_hit_finder(int number);
+    const TrueHitFinder& hit_finder(int number);
 
-    Session& judge_session_;
+    Session& session_;
     ReferenceCache& truths_;
     const Request& base_;
     const Watcher& watcher_;

@@ -23,8 +23,8 @@ constexpr const char* kRowTimesMetricName = "row_times";
 
 /// Throws `usage` if a file of times names a row that is no row of pictures, or if two files state
 /// a time for the same row and device.
-void check_rows_of_times(const CompareRequest& request, int /*count*/,
-                         report::Comparison& /*comparison*/) {
+void check_time_rows(const CompareRequest& request, int /*count*/,
+                     report::Comparison& /*comparison*/) {
     std::set<std::pair<std::string, std::string>> seen;
     for (const StudyChoice& choice : request.studies) {
         if (choice.name != "row-times") continue;
@@ -83,7 +83,7 @@ void add_row_times(const StudyInput& input) {
     input.tell();
 }
 
-std::vector<measure::MetricParts> list_row_times(const measure::Row& row) {
+std::vector<measure::MetricParts> row_times(const measure::Row& row) {
     const measure::MetricValue value = measure::study_metric(row, kRowTimesMetricName);
     const auto* list = std::get_if<std::vector<measure::MetricParts>>(&value);
     return list != nullptr ? *list : std::vector<measure::MetricParts>();
@@ -102,7 +102,7 @@ std::vector<ReportTable> make_row_time_tables(const report::Comparison& comparis
         {},
         {}};
     for (const report::Row& row : comparison.rows)
-        for (const measure::MetricParts& time : list_row_times(row)) {
+        for (const measure::MetricParts& time : row_times(row)) {
             const double low = read_time_part(time, 1), high = read_time_part(time, 2);
             table.rows.push_back(
                 {row.label, time.name, report::format_ms(read_time_part(time, 0)),
@@ -122,7 +122,7 @@ const RegisteredStudy kRowTimesStudy{
          [](const std::vector<std::string>& files) {
              for (const std::string& file : files) report::read_row_times(file);
          },
-     .prepare = check_rows_of_times,
+     .prepare = check_time_rows,
      .run = add_row_times,
      .metrics = {{.name = kRowTimesMetricName,
                   .unit = "ms",
@@ -135,10 +135,10 @@ const RegisteredStudy kRowTimesStudy{
 } // namespace
 
 std::vector<std::optional<measure::PredictedTime>>
-find_row_times_on_device(const std::vector<measure::Row>& rows, const std::string& device) {
+find_row_times(const std::vector<measure::Row>& rows, const std::string& device) {
     std::vector<std::optional<measure::PredictedTime>> times(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const measure::MetricParts& time : list_row_times(rows[i])) {
+        for (const measure::MetricParts& time : row_times(rows[i])) {
             if (time.name != device) continue;
             const double ms = read_time_part(time, 0), low = read_time_part(time, 1),
                          high = read_time_part(time, 2);

@@ -15,6 +15,6 @@ using namespace session;
 /// Returns, for each row, the time on this device that a file of stated times gives; empty for rows
 /// without such a time.
 std::vector<std::optional<measure::PredictedTime>>
-find_row_times_on_device(const std::vector<measure::Row>& rows, const std::string& device);
+find_row_times(const std::vector<measure::Row>& rows, const std::string& device);
 
 } // namespace catoptric::study

@@ -19,14 +19,14 @@ RegisteredStudy::RegisteredStudy(Study study) {
     table_rows<Study>().push_back(std::move(study));
 }
 
-const std::vector<Study>& list_studies() {
+const std::vector<Study>& studies() {
     static const std::vector<Study> kSortedStudies = sorted_rows<Study>();
     return kSortedStudies;
 }
 
 const Study& find_study(std::string_view name) {
     std::vector<std::string> names;
-    for (const Study& study : list_studies()) {
+    for (const Study& study : studies()) {
         if (study.name == name) return study;
         names.emplace_back(study.name);
     }

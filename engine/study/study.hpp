@@ -77,7 +77,7 @@ struct RegisteredStudy {
 };
 
 /// Returns all studies by `order`, then name.
-const std::vector<Study>& list_studies();
+const std::vector<Study>& studies();
 /// Throws `usage` for an unknown name, with the nearest.
 const Study& find_study(std::string_view name);
 /// Throws `usage` for an unknown study, and for a reference that it cannot use.

@@ -39,7 +39,7 @@ constexpr int kRaysToEnvironment = 64;
 /// A squared error below this number of standard deviations of its noise counts as 0.
 constexpr double kDeviationsOfNoError = 3;
 /// A squared error below this number is due to rounding in means of many equal rays.
-constexpr double kSquaredErrorOfRounding = 1e-10;
+constexpr double kRoundingError = 1e-10;
 
 /// A reference of the chain: the scene with settings of its light, and the technique.
 struct ChainReference {
@@ -55,7 +55,7 @@ bool has_glass(const scene::Scene& scene) {
 }
 
 /// Returns how many points each lamp gets; 1 if no lamp has an area, or no more points fit.
-int choose_points_of_lamp(const scene::Scene& scene) {
+int choose_lamp_points(const scene::Scene& scene) {
     const std::size_t others = scene.punctual.size(), all = scene::list_lights(scene).size(),
                       limit = has_glass(scene) ? kMostLightsBesideGlass
                                                : std::size_t{shared::kMaxLights};
@@ -65,7 +65,7 @@ int choose_points_of_lamp(const scene::Scene& scene) {
 }
 
 /// Returns the scene with diffuse surfaces in place of glass. They have the glass's base colour.
-scene::Scene replace_glass_by_diffuse_surfaces(scene::Scene scene) {
+scene::Scene replace_glass(scene::Scene scene) {
     for (scene::Object& object : scene.objects)
         if (scene::is_glass(scene.materials[object.material])) object.mirror = false;
     for (scene::Material& material : scene.materials)
@@ -80,11 +80,11 @@ std::vector<ChainReference> make_reference_chain(scene::Scene scene) {
     const std::string usual = choose_reference("", scene);
     std::vector<ChainReference> chain;
     const bool shows_glass = has_glass(scene);
-    if (shows_glass) chain.push_back({"", replace_glass_by_diffuse_surfaces(scene), kReference});
+    if (shows_glass) chain.push_back({"", replace_glass(scene), kReference});
     chain.push_back({shows_glass ? "glass" : "", scene, kReference});
     if (usual != kReference) chain.push_back({"rough lobes", scene, usual});
     scene::Scene refined = scene;
-    if (const int points = choose_points_of_lamp(scene); points > 1) {
+    if (const int points = choose_lamp_points(scene); points > 1) {
         refined.light_samples = points;
         chain.push_back({"light as a point", refined, usual});
     }
@@ -104,8 +104,8 @@ public:
                          ? choose_coarse_technique(reference.technique, input.request.base.size)
                          : reference.technique),
           request_(input.request.base), watcher_(input.request.watcher),
-          has_noise_(does_reference_have_noise(technique_, reference.scene)),
-          chain_session_(input.engine, reference.scene) {
+          has_noise_(is_noisy(technique_, reference.scene)),
+          session_(input.engine, reference.scene) {
         request_.scene = std::move(reference.scene);
         request_.model = RenderedWork::everything;
         request_.time = input.request.base.instant(input.request.base.total());
@@ -119,7 +119,7 @@ public:
         for (measure::PictureMean& half : halves_) {
             request_.techniques = {has_noise_ ? set_lobe_seed(technique_, seeds.next())
                                               : technique_};
-            half.add(run(chain_session_, request_, watcher_).parts.front().hdr);
+            half.add(run(session_, request_, watcher_).parts.front().hdr);
             if (!has_noise_) return;
         }
     }
@@ -135,7 +135,7 @@ private:
     Request request_;
     const Watcher& watcher_;
     bool has_noise_;
-    Session chain_session_;
+    Session session_;
     std::array<measure::PictureMean, 2> halves_;
 };
 
@@ -162,8 +162,8 @@ ShownHalves show_halves(const ChainPictures& pictures, double exposure) {
     return shown;
 }
 
-ChainDistance measure_chain_distance(const ShownHalves& x, const ShownHalves& truth,
-                                     const measure::Mask& mask) {
+ChainDistance chain_distance(const ShownHalves& x, const ShownHalves& truth,
+                             const measure::Mask& mask) {
     double sum = 0, squares = 0, values = 0;
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (mask[i] == 0) continue;
@@ -198,14 +198,14 @@ std::vector<CausePart> split_chain_distance(const std::vector<ShownHalves>& chai
                                             const measure::Mask& mask) {
     std::vector<ChainDistance> distances;
     for (const ShownHalves& shown : chain)
-        distances.push_back(measure_chain_distance(shown, chain.back(), mask));
+        distances.push_back(chain_distance(shown, chain.back(), mask));
     distances.back().squared_error = distances.back().deviation = 0; // to itself
     // The FLIP between the halves of path tracing is the noise floor.
     distances.back().flip = measure::flip_mean(
         measure::flip(chain.back().display[0], chain.back().display[1]), mask);
     const ChainDistance& whole = distances.front();
     const bool differs = whole.squared_error >
-                         std::max(kDeviationsOfNoError * whole.deviation, kSquaredErrorOfRounding);
+                         std::max(kDeviationsOfNoError * whole.deviation, kRoundingError);
     std::vector<CausePart> parts;
     for (std::size_t i = 1; i < distances.size(); ++i)
         parts.push_back({distances[i - 1], distances[i],
@@ -215,8 +215,8 @@ std::vector<CausePart> split_chain_distance(const std::vector<ShownHalves>& chai
     return parts;
 }
 
-measure::MetricParts list_part_values(const std::string& cause, const CausePart& all,
-                                      const CausePart& mirrors) {
+measure::MetricParts part_values(const std::string& cause, const CausePart& all,
+                                 const CausePart& mirrors) {
     return {"cause",
             cause,
             {{"share", all.share},
@@ -238,17 +238,17 @@ void set_truth_causes(const StudyInput& input, const std::vector<std::string>& c
     std::vector<ShownHalves> shown;
     for (const std::unique_ptr<ChainPictures>& pictures : chain)
         shown.push_back(show_halves(*pictures, input.request.base.exposure));
-    const std::vector<std::uint32_t>& hits = input.truth.find_mirror_hits();
+    const std::vector<std::uint32_t>& hits = input.truth.hits();
     const std::vector<CausePart> all = split_chain_distance(shown, measure::mask_all(hits)),
                                  mirrors = split_chain_distance(shown, measure::mask_mirrors(hits));
     std::vector<measure::MetricParts> list;
     for (std::size_t i = 0; i < causes.size(); ++i)
-        list.push_back(list_part_values(causes[i], all[i], mirrors[i]));
+        list.push_back(part_values(causes[i], all[i], mirrors[i]));
     for (report::Row& row : input.comparison.rows)
         measure::set_study_metric(row, kTruthCausesMetricName, list);
 }
 
-void split_distance_to_path_tracing(const StudyInput& input) {
+void split_path_distance(const StudyInput& input) {
     std::vector<std::string> causes, rows = input.request.base.techniques;
     rows.push_back(input.request.reference);
     ReferenceSeeds seeds(rows);
@@ -333,7 +333,7 @@ const RegisteredStudy kTruthCausesStudy{
              "lobes, lamps as points, occlusion of the environment, and light between surfaces; "
              "takes --reference-seconds",
      .order = 60,
-     .run = split_distance_to_path_tracing,
+     .run = split_path_distance,
      .metrics = {{.name = kTruthCausesMetricName,
                   .help = "distance of simple ray tracing to path tracing, by cause; the same "
                           "in each row",

@@ -31,12 +31,12 @@ constexpr int kPictureGapColumns = 4; // columns between two pictures
 
 /// Returns the instant at `share` of the period after `start`, rounded to about a thousandth of the
 /// period.
-double compute_view_instant(double start, double period, double share) {
+double view_instant(double start, double period, double share) {
     const double parts = std::pow(10, 3 - std::floor(std::log10(period))); // steps per second
     return std::floor((start + period * share) * parts) / parts;
 }
 
-scene::Camera make_camera_from_facts(const measure::CameraFacts& facts) {
+scene::Camera make_camera(const measure::CameraFacts& facts) {
     return {facts.name,
             facts.eye,
             facts.target,
@@ -48,7 +48,7 @@ scene::Camera make_camera_from_facts(const measure::CameraFacts& facts) {
 /// Returns a request for the picture from a view, as `render` takes it.
 Request make_view_request(const Request& base, const measure::View& view) {
     Request request = base;
-    request.camera = make_camera_from_facts(view.camera);
+    request.camera = make_camera(view.camera);
     request.time = view.time;
     request.animate = false;
     request.warmup = 0;
@@ -57,8 +57,7 @@ Request make_view_request(const Request& base, const measure::View& view) {
     return request;
 }
 
-measure::Picture place_pictures_side_by_side(const measure::Picture& left,
-                                             const measure::Picture& right) {
+measure::Picture side_by_side(const measure::Picture& left, const measure::Picture& right) {
     measure::Picture both(left.width + kPictureGapColumns + right.width, left.height);
     std::ranges::fill(both.pixels, vec3(1));
     for (int y = 0; y < left.height; ++y) {
@@ -72,27 +71,26 @@ measure::Picture place_pictures_side_by_side(const measure::Picture& left,
 /// Adds the errors of a row's picture in a view. Only `part.hdr` and `part.display` are used.
 void add_view_errors(report::Row& row, const TechniqueResult& part, const ReferencePicture& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
-    const std::vector<float> flip_map = compute_flip_map(part.hdr, truth.compared_reference(),
-                                                         exposure);
-    row.views.push_back(compute_masked_errors(part.hdr, truth.compared_reference(), flip_map, hits,
-                                              mirrors, exposure));
+    const std::vector<float> flip_map = compute_flip_map(part.hdr, truth.compared(), exposure);
+    row.views.push_back(
+        masked_errors(part.hdr, truth.compared(), flip_map, hits, mirrors, exposure));
     const double flip = row.views.back().error.flip;
     // A view that shows no mirror pixel has no error, and is never the worst view.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
         row.worst = std::make_shared<measure::WorstView>(measure::WorstView{
-            row.views.size() - 1, place_pictures_side_by_side(part.display, truth.part.display)});
+            row.views.size() - 1, side_by_side(part.display, truth.part.display)});
 }
 
 /// The reference picture of a view, and the first hits of its camera rays.
-struct ViewReferencePicture {
+struct ViewReference {
     Request at_view;
     ReferenceCache cache;
     std::vector<std::uint32_t> hits;
 
-    ViewReferencePicture(Session& session, const ViewsRequest& request, const measure::View& view)
+    ViewReference(Session& session, const ViewsRequest& request, const measure::View& view)
         : at_view(make_view_request(request.base, view)),
           cache(session, at_view, request.reference, request.watcher, request.reference_seconds),
-          hits(cache.find_mirror_hits()) {}
+          hits(cache.hits()) {}
     /// Renders the reference pictures of the view for all rows. Reduces their noise for at most
     /// `seconds` in all, until the noise reaches the target. Returns the largest noise floor of the
     /// pictures, by the target's quantity; NaN for references without noise.
@@ -100,17 +98,16 @@ struct ViewReferencePicture {
                   const NoiseFloorTarget& target) {
         std::set<std::string> sample_counts;
         for (const std::string& text : rows)
-            sample_counts.insert(find_sample_count(parse_technique(text)));
+            sample_counts.insert(sample_count(parse_technique(text)));
         double floor = NAN;
         for (const std::string& samples : sample_counts) {
-            cache.grow_reference(samples, seconds / static_cast<double>(sample_counts.size()),
-                                 target);
-            if (cache.has_reference_noise())
+            cache.grow(samples, seconds / static_cast<double>(sample_counts.size()), target);
+            if (cache.has_noise())
                 floor = std::fmax(floor, cache.measure_noise_floor(samples, target.quantity));
         }
         // All references are rendered now, because rendering a reference later would interrupt
         // frames that share captures.
-        for (const std::string& samples : sample_counts) cache.get_reference(samples);
+        for (const std::string& samples : sample_counts) cache.get(samples);
         return floor;
     }
 };
@@ -118,8 +115,8 @@ struct ViewReferencePicture {
 /// Returns the index after the last view that shares the instant of view `first`, for at most
 /// `most` views. Captures of these views settle once, and the reference of each view is kept until
 /// then.
-std::size_t find_end_of_views_at_same_instant(const std::vector<measure::View>& views,
-                                              std::size_t first, std::size_t most) {
+std::size_t end_of_instant(const std::vector<measure::View>& views, std::size_t first,
+                           std::size_t most) {
     std::size_t end = first + 1;
     while (end < views.size() && end - first < most && views[end].time == views[first].time) ++end;
     return end;
@@ -129,10 +126,9 @@ constexpr int kMaxViewWarnings = 3; // most warnings of all rows of files
 
 /// Adds the errors of a row of files in view `view` (from 1), if the row has a picture of this
 /// view. `warned` counts the warnings of all rows.
-void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, std::size_t view,
-                                const ReferencePicture& truth,
-                                const std::vector<std::uint32_t>& hits, std::size_t mirrors,
-                                report::Row& row, int& warned) {
+void add_picture_error(const ViewsRequest& request, std::size_t index, std::size_t view,
+                       const ReferencePicture& truth, const std::vector<std::uint32_t>& hits,
+                       std::size_t mirrors, report::Row& row, int& warned) {
     const auto& [name, path] = request.pictures[index];
     const std::optional<std::string> file = find_view_picture(path, view);
     if (!file) return;
@@ -141,9 +137,9 @@ void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, 
     part.hdr = read_row_picture(*file, exposure);
     part.display = measure::to_display(part.hdr, exposure);
     add_view_errors(row, part, truth, hits, mirrors, exposure);
-    for (const std::string& warning : list_picture_row_warnings(
-             name + "', '" + view_picture_name(view), *file, part.hdr, row.views.back().error.rmse,
-             truth.compared_reference(), hits, exposure))
+    for (const std::string& warning :
+         picture_row_warnings(name + "', '" + view_picture_name(view), *file, part.hdr,
+                              row.views.back().error.rmse, truth.compared(), hits, exposure))
         if (request.on_warning && ++warned <= kMaxViewWarnings) request.on_warning(warning);
 }
 
@@ -179,14 +175,13 @@ const RegisteredStudy kViewsStudy{
      .check_count = check_view_count,
      .prepare =
          [](const CompareRequest& request, int count, report::Comparison& comparison) {
-             comparison.views = draw_random_views(request.base, count, request.cameras_per_instant);
+             comparison.views = draw_views(request.base, count, request.cameras_per_instant);
          },
      .run = measure_drawn_views}};
 
 } // namespace
 
-std::vector<measure::View> draw_random_views(const Request& request, int count,
-                                             int cameras_per_instant) {
+std::vector<measure::View> draw_views(const Request& request, int count, int cameras_per_instant) {
     check_view_count("views", count);
     check(cameras_per_instant >= 1, Failure::usage,
           "cameras per instant: wanted at least 1, found ", cameras_per_instant);
@@ -199,7 +194,7 @@ std::vector<measure::View> draw_random_views(const Request& request, int count,
         view.seed = random() >> 32; // a short seed is easy to type, and exact in every JSON reader
         seeds.push_back(view.seed);
         const double share = static_cast<double>(random() >> 32) * 0x1p-32;
-        view.time = period > 0 ? compute_view_instant(request.time, period, share) : request.time;
+        view.time = period > 0 ? view_instant(request.time, period, share) : request.time;
         const auto index = &view - views.data();
         if (index % cameras_per_instant != 0) view.time = views[index - 1].time;
     }
@@ -226,13 +221,11 @@ void check_views_request(const ViewsRequest& request, const report::Comparison& 
 }
 
 /// Adds the errors of the picture files of a view, from 1.
-void add_errors_of_view_pictures(const ViewsRequest& request, std::size_t view,
-                                 ViewReferencePicture& truth, std::size_t mirrors,
-                                 report::Comparison& comparison, int& warned) {
+void add_picture_errors(const ViewsRequest& request, std::size_t view, ViewReference& truth,
+                        std::size_t mirrors, report::Comparison& comparison, int& warned) {
     for (std::size_t k = 0; k < request.pictures.size(); ++k)
-        add_errors_of_view_picture(request, k, view, truth.cache.get_reference("1"), truth.hits,
-                                   mirrors, comparison.rows[request.base.techniques.size() + k],
-                                   warned);
+        add_picture_error(request, k, view, truth.cache.get("1"), truth.hits, mirrors,
+                          comparison.rows[request.base.techniques.size() + k], warned);
 }
 
 } // namespace
@@ -254,25 +247,24 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
     for (std::size_t first = 0, end = 0; first < count; first = end) {
-        end = find_end_of_views_at_same_instant(
-            comparison.views, first, static_cast<std::size_t>(request.cameras_per_instant));
-        std::vector<std::unique_ptr<ViewReferencePicture>> truths;
+        end = end_of_instant(comparison.views, first,
+                             static_cast<std::size_t>(request.cameras_per_instant));
+        std::vector<std::unique_ptr<ViewReference>> truths;
         for (std::size_t i = first; i < end; ++i) {
             report_picture(i, "reference");
             truths.push_back(
-                std::make_unique<ViewReferencePicture>(session, request, comparison.views[i]));
+                std::make_unique<ViewReference>(session, request, comparison.views[i]));
             const double floor = truths.back()->render(
                 texts, seconds_left / static_cast<double>(count - i),
                 request.noise_target.value_or(
                     NoiseFloorTarget{.floor = measure::target_noise_floor(rows)}));
             if (comparison.noise) comparison.noise->view_floors.push_back(floor);
-            seconds_left = std::max(0.0, seconds_left -
-                                             truths.back()->cache.seconds_of_noisy_references());
+            seconds_left = std::max(0.0, seconds_left - truths.back()->cache.noisy_seconds());
         }
         for (std::size_t k = 0; k < texts.size(); ++k)
             for (std::size_t i = first; i < end; ++i) {
                 report_picture(i, comparison.rows[k].label);
-                ViewReferencePicture& truth = *truths[i - first];
+                ViewReference& truth = *truths[i - first];
                 Request one = truth.at_view;
                 one.techniques = {texts[k]};
                 // Both models draw the same picture. The model `required` keeps captures that do
@@ -282,14 +274,12 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                 const RunResult result = run_with_history(
                     request.row_sessions.empty() ? session : *request.row_sessions[k], one,
                     request.watcher, continues ? StartHistory::of_last_frame : StartHistory::none);
-                add_view_errors(
-                    comparison.rows[k], result.parts.front(),
-                    truth.cache.get_reference(find_sample_count(parse_technique(texts[k]))),
-                    truth.hits, mirrors, request.base.exposure);
+                add_view_errors(comparison.rows[k], result.parts.front(),
+                                truth.cache.get(sample_count(parse_technique(texts[k]))),
+                                truth.hits, mirrors, request.base.exposure);
             }
         for (std::size_t i = first; i < end; ++i)
-            add_errors_of_view_pictures(request, i + 1, *truths[i - first], mirrors, comparison,
-                                        warned);
+            add_picture_errors(request, i + 1, *truths[i - first], mirrors, comparison, warned);
         if (request.on_finished_view) request.on_finished_view();
     }
     if (warned > kMaxViewWarnings && request.on_warning)

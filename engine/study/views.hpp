@@ -23,8 +23,8 @@ using namespace session;
 /// `cameras_per_instant`, at least 1: as many neighbouring views share an instant, the first one's.
 /// Such views depend on each other: intervals and proofs that take them for independent are too
 /// narrow.
-std::vector<measure::View> draw_random_views(const Request& request, int count,
-                                             int cameras_per_instant = 1);
+std::vector<measure::View> draw_views(const Request& request, int count,
+                                      int cameras_per_instant = 1);
 
 struct ViewsRequest {
     const Request&

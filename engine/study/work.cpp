@@ -45,13 +45,13 @@ const RegisteredStudy kWorkStudy{
      .help = "also count the work of one frame of each row: rays, BVH nodes, look-ups, fragments, "
              "vertices, draws, bytes",
      .order = 40,
-     .run = count_row_work,
+     .run = count_work,
      .metrics = measure::work_metrics(),
      .part = {.order = 600, .tables = make_work_tables}}};
 
 } // namespace
 
-void count_row_work(const StudyInput& input) {
+void count_work(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
     for (std::size_t i = 0; i < input.request.base.techniques.size(); ++i) {
         if (measure::has_counted_work(rows[i])) continue;

@@ -49,7 +49,7 @@ public:
     BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
                     const BenchOptions& options)
         : benchmark_subjects_(subjects), meter_(meter), options_(options),
-          rounds_(study::choose_round_count(options.iterations, options.rounds)) {
+          rounds_(study::round_count(options.iterations, options.rounds)) {
         std::set<std::string> names;
         for (const BenchmarkSubject& subject : subjects) {
             check(names.insert(subject.name).second, Failure::usage, "benchmark '", subject.name,
@@ -100,8 +100,7 @@ private:
         const BenchmarkSubject& subject = benchmark_subjects_[index];
         report_progress(index,
                         ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
-        const int iterations = study::choose_frame_count_of_round(options_.iterations, rounds_,
-                                                                  round);
+        const int iterations = study::frames_of_round(options_.iterations, rounds_, round);
         BenchmarkRoundSums sums;
         const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
         {

@@ -37,7 +37,7 @@ BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> 
                                         int warmup = 1);
 
 struct BenchOptions {
-    /// Iterations of each subject over all rounds; choose_frame_count_of_round distributes them.
+    /// Iterations of each subject over all rounds; frames_of_round distributes them.
     int iterations = 20;
     int rounds = 6; ///< number of rounds, at most one per iteration
     Watcher watcher;

@@ -45,10 +45,9 @@ double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& ro
 void measure_cost_rows(Session& session, const Request& request, const DeviceInfo& device,
                        const BenchOptions& options, std::vector<measure::TimedWork>& samples) {
     const std::vector<Request> rows = split_request_by_technique(request);
-    const int rounds = study::choose_round_count(options.iterations, options.rounds);
+    const int rounds = study::round_count(options.iterations, options.rounds);
     const int repeated_frames = must_repeat_first_round(device.type)
-                                    ? study::choose_frame_count_of_round(options.iterations, rounds,
-                                                                         0)
+                                    ? study::frames_of_round(options.iterations, rounds, 0)
                                     : 0;
     std::vector<std::unique_ptr<RowMeasurement>> runs;
     for (int round = 0; round < rounds; ++round)
@@ -62,20 +61,19 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
             report_row(options.watcher, make_cost_sample_name(rows[i]),
                        static_cast<std::size_t>(round) * rows.size() + place,
                        static_cast<std::size_t>(rounds) * rows.size());
-            runs[i]->measure_one_round_of_frames(
-                study::choose_frame_count_of_round(options.iterations, rounds, round));
+            runs[i]->measure_round(study::frames_of_round(options.iterations, rounds, round));
             runs[i]->suspend_frames();
         }
     if (repeated_frames > 0)
         for (const std::unique_ptr<RowMeasurement>& run : runs) {
-            run->measure_first_round_again();
+            run->repeat_first_round();
             run->replace_first_round();
             run->suspend_frames();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)
         samples.push_back({make_cost_sample_name(rows[i]),
                            sum_work(count_frame_work(session, rows[i], options.watcher)),
-                           compute_median_device_time(runs[i]->list_rounds(), device.threads)});
+                           compute_median_device_time(runs[i]->rounds(), device.threads)});
 }
 
 } // namespace

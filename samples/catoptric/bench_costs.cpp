@@ -34,7 +34,7 @@ std::vector<session::Request> make_cost_requests(const CostsArguments& arguments
         session::Request request = make_render_request_of_options(common, study::check_has_mirror);
         request.frames = common.frames.value_or(kCostFitFrames);
         request.warmup = common.warmup.value_or(kCostWarmupFrames);
-        request.techniques = arguments.techniques.empty() ? study::list_default_techniques(request)
+        request.techniques = arguments.techniques.empty() ? study::default_techniques(request)
                                                           : arguments.techniques;
         requests.push_back(std::move(request));
     }

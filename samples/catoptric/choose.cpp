@@ -148,11 +148,10 @@ std::string make_candidate_table(const study::ChooseRequest& request,
                                  const study::PlanChoice& choice) {
     std::vector<std::vector<std::string>> rows{
         {"candidate", request.costs.empty() ? "ms [95 %]" : "ms [range]",
-         fmt::format("largest {}", study::error_quantity_name(request.quantity)), "views",
-         "result"}};
+         fmt::format("largest {}", study::quantity_name(request.quantity)), "views", "result"}};
     for (const study::JudgedPlan& plan : choice.candidates)
         rows.push_back(
-            {plan.text, study::format_milliseconds_with_range(plan),
+            {plan.text, study::format_time_range(plan),
              std::isnan(plan.largest_error) ? "-" : fmt::format("{:.5f}", plan.largest_error),
              fmt::format("{}", std::max<std::size_t>(1, plan.errors.size())), plan.why});
     return align_columns(rows, rows.front().size() - 1);
@@ -177,7 +176,7 @@ study::ChooseRequest make_choose_request_from_options(const ChooseOptions& optio
     request.reference = study::choose_reference(options.common.reference, request.base.scene,
                                                 study::ReferencePixelKind::centre);
     if (!options.certified.empty()) {
-        study::check_row_techniques({"plan:" + options.certified});
+        study::check_techniques({"plan:" + options.certified});
         read_certificate(options, request);
     }
     if (!request.costs.empty()) report::read_costs_file(request.costs); // before any work
@@ -199,7 +198,7 @@ measure_distance_of_reference(const ChooseOptions& options, const study::ChooseR
     session::resolve_exposure(session, base);
     auto distance = study::measure_path_distance(
         engine, session, base, request.reference,
-        options.path_distance_seconds.value_or(study::choose_path_distance_seconds(base.size)),
+        options.path_distance_seconds.value_or(study::choose_path_seconds(base.size)),
         request.watcher, [&](const std::string& warning) {
             progress.clear();
             print_warning(warning);
@@ -224,8 +223,7 @@ int certify_plan_and_print_result(const ChooseOptions& options, const study::Cho
     const auto distance = measure_distance_of_reference(options, request, engine, progress);
     const study::PlanProof proof = study::prove_plan(engine, request, plan);
     progress.clear();
-    report::Json document = study::make_proved_plan_json(request, plan, proof,
-                                                         options.common.scene);
+    report::Json document = study::proved_plan_json(request, plan, proof, options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
     if (!options.output.empty() && proof.may_hold())
@@ -279,7 +277,7 @@ int run_choose(const ChooseOptions& options) {
     const auto distance = measure_distance_of_reference(options, request, engine, progress);
     const study::PlanChoice choice = study::choose_plan(engine, request);
     progress.clear();
-    report::Json document = study::make_choice_json(request, choice, options.common.scene);
+    report::Json document = study::choice_json(request, choice, options.common.scene);
     add_path_distance(document, distance);
     document["command"] = options.command;
     write_file(options.output, report::serialise(document));

@@ -129,7 +129,7 @@ study::CompareRequest make_compare_request(const CompareOptions& options,
 
 std::vector<std::string> list_requested_rows(const study::CompareRequest& request) {
     const session::Request& base = request.base;
-    return base.techniques.empty() ? study::list_default_techniques(base) : base.techniques;
+    return base.techniques.empty() ? study::default_techniques(base) : base.techniques;
 }
 
 /// Returns the requests for all scenes. All requests are made before any scene is measured, so that
@@ -159,7 +159,7 @@ std::vector<study::CompareRequest> make_compare_requests(const CompareOptions& o
             request.base.techniques = expand_techniques_along_axes(list_requested_rows(request),
                                                                    options.axes);
         request.base.techniques = list_requested_rows(request);
-        study::check_compare_inputs(request);
+        study::check_inputs(request);
         requests.push_back(std::move(request));
     }
     return requests;
@@ -177,7 +177,7 @@ void check_output_places(const CompareOptions& options,
             if (request.both_models) images.push_back(images.back() + "-required");
         }
         for (std::size_t i = 0; i < request.pictures.size(); ++i) {
-            images.push_back(study::picture_row_image_name(request.pictures[i].first, i));
+            images.push_back(study::picture_row_name(request.pictures[i].first, i));
             inputs.emplace_back(request.pictures[i].second);
         }
         const bool is_first = &request == &requests.front();
@@ -276,7 +276,7 @@ void ask_for_path_distance(study::CompareRequest& request) {
                           &study::StudyChoice::name) != request.studies.end())
         return;
     request.studies.push_back(
-        {study::kPathDistanceStudyName, study::choose_path_distance_seconds(request.base.size)});
+        {study::kPathDistanceStudyName, study::choose_path_seconds(request.base.size)});
 }
 
 /// Measures one scene and writes the report on all scenes so far.
@@ -321,7 +321,7 @@ int run_compare(const CompareOptions& options) {
     for (const study::CompareRequest& request : requests) {
         if (options.baseline.baseline.empty()) break;
         report::Comparison settings;
-        study::fill_comparison_settings(request, settings);
+        study::fill_settings(request, settings);
         gate.check_baseline_scene(settings);
     }
     session::Engine engine(make_engine_options(options.common.device));
@@ -383,7 +383,7 @@ StudyOptionKind find_study_option_kind(const study::Study& study) {
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
 void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKind kind) {
-    for (const study::Study& study : study::list_studies()) {
+    for (const study::Study& study : study::studies()) {
         const std::string option = "--" + std::string(study.name), help(study.help);
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});

@@ -229,7 +229,7 @@ void check_technique_list(const std::vector<std::string>& techniques) {
         check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
               "'; SCENE comes before --techniques");
     }
-    parse_option("--techniques", [&] { study::check_row_techniques(techniques); });
+    parse_option("--techniques", [&] { study::check_techniques(techniques); });
 }
 
 ResolvedRequest make_resolved_request(const CommonOptions& common,

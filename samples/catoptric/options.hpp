@@ -92,7 +92,7 @@ void throw_unless_option_given(bool given, const std::string& verb, const std::s
                                const std::string& what);
 
 /// Throws `usage` if the list of --techniques contains a scene, because the option takes all words
-/// that follow it. Also throws as study::check_row_techniques does.
+/// that follow it. Also throws as study::check_techniques does.
 void check_technique_list(const std::vector<std::string>& techniques);
 
 /// Returns the request to the engine, without techniques: scene, camera and numbers. Prints

@@ -151,8 +151,8 @@ void check_option_name(const std::string& name, const CompletionOption*& option,
     const auto found = std::ranges::find(known, "--" + name, &CompletionOption::name);
     place.check(found != known.end(), "'compare' has no option '--", name, "'");
     const bool is_refused = std::ranges::find(kRefusedOptions, name) != std::end(kRefusedOptions) ||
-                            std::ranges::find(study::list_studies(), name, &study::Study::name) !=
-                                study::list_studies().end();
+                            std::ranges::find(study::studies(), name, &study::Study::name) !=
+                                study::studies().end();
     place.check(!is_refused, "a sweep cannot set this option of compare",
                 name == "reference-seconds"
                     ? ": the reference has as many rays as its knob 'rays', so that results repeat"
@@ -320,7 +320,7 @@ void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
     if (!sweep.knobs.empty())
         request.base.techniques = expand_techniques_along_axes(request.base.techniques,
                                                                sweep.knobs);
-    study::check_row_techniques(request.base.techniques);
+    study::check_techniques(request.base.techniques);
     study::check_compare_request(request);
     content["techniques"] = request.base.techniques;
     content["scene_hash"] = scene::hash_scene(request.base.scene);
@@ -331,8 +331,8 @@ void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
     } else {
         std::size_t index = 0;
         for (const measure::View& view :
-             study::draw_random_views(request.base, static_cast<int>(sweep.view_count),
-                                      static_cast<int>(sweep.cameras_per_instant))) {
+             study::draw_views(request.base, static_cast<int>(sweep.view_count),
+                               static_cast<int>(sweep.cameras_per_instant))) {
             content["view"] = {{"index", ++index}, {"seed", view.seed}, {"time", view.time}};
             pieces.push_back(make_piece(content));
         }

@@ -44,7 +44,7 @@ struct ViewsOptions {
 std::vector<measure::View> list_views(const session::Request& request, int count) {
     std::vector<measure::View> views{
         {session::make_camera_facts(request.camera, request.time), request.time, request.seed}};
-    for (measure::View& view : study::draw_random_views(request, count)) views.push_back(view);
+    for (measure::View& view : study::draw_views(request, count)) views.push_back(view);
     return views;
 }
 

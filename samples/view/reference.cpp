@@ -51,7 +51,7 @@ bool ProgressiveReference::render_one_pass(session::Session& session,
         add_pass(render_ray_traced(session, spec, technique, pass).hdr, spec.exposure);
         return true;
     }
-    has_noise_ = study::does_reference_have_noise("raytrace:depth=16,rays=16", session.scene());
+    has_noise_ = study::is_noisy("raytrace:depth=16,rays=16", session.scene());
     session::TechniqueResult part = render_ray_traced(session, spec, "raytrace:depth=16",
                                                       spec.seed);
     hits_ = std::move(part.hits);

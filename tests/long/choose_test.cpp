@@ -136,7 +136,7 @@ ViewBank record_view_bank(const char* name) {
         EXPECT_EQ(bank.views[i].size(), std::size_t(views)) << row.label;
         std::vector<double>& flips = bank.flips.emplace_back();
         for (const measure::Errors& view : bank.views[i])
-            flips.push_back(study::mirror_error_of_view(study::ErrorQuantity::flip, view.error));
+            flips.push_back(study::mirror_error(study::ErrorQuantity::flip, view.error));
         row.hdr = {}, row.display = {}, row.flip_map = {}; // not used, and large to copy
     }
     return bank;

@@ -17,7 +17,7 @@ std::vector<measure::Picture> render_with_ablation_masks(const session::Request&
                                                          const std::vector<std::uint32_t>& masks) {
     std::vector<measure::Picture> pictures;
     session::Session session(test::get_test_engine(), request.scene);
-    study::render_ablated_pictures(
+    study::render_ablated(
         session, request, masks,
         [&](std::size_t, const measure::Picture& picture) { pictures.push_back(picture); });
     return pictures;

@@ -47,7 +47,7 @@ ErrorCauseSplit split_error_by_causes(const session::Request& request,
     const session::TechniqueResult truth = std::move(
         session::run(test::get_test_engine(), reference).parts.front());
     session::Session session(test::get_test_engine(), request.scene);
-    return {study::ErrorCauseFinder(session, request, truth.hdr, truth.hits).find(technique),
+    return {study::CauseFinder(session, request, truth.hdr, truth.hits).find(technique),
             truth.hits};
 }
 

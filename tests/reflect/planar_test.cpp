@@ -373,7 +373,7 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
 TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
     const auto rows_of = [](const char* name) {
         const scene::Scene scene = scene::load(name);
-        return study::list_default_techniques(
+        return study::default_techniques(
             test::make_test_request(scene, {}, kSmallPlanarPictureSize));
     };
     for (const char* name : {"flat", "room", "gallery"})

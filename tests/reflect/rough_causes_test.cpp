@@ -44,7 +44,7 @@ public:
         session::Request request = base_;
         request.techniques = {technique};
         const report::Causes found =
-            study::ErrorCauseFinder(session_, request, truth_, hits_, {}, &halves_).find(technique);
+            study::CauseFinder(session_, request, truth_, hits_, {}, &halves_).find(technique);
         std::cout << "[ MEASURED ] " << technique << ": " << found.squared_error;
         double sum = 0;
         for (const report::CauseShare& cause : found.list) {

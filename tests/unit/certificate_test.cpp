@@ -98,15 +98,15 @@ TEST(Certificate, ToleranceLimitCoversTheQuantile) {
 /// If half of a mirror's pixels are NaN, a view must not be judged by the other half alone.
 TEST(Certificate, ViewFailsIfAPixelIsNotFiniteAndKeepsIfItShowsNoMirror) {
     using catoptric::study::ErrorQuantity;
-    using catoptric::study::mirror_error_of_view;
+    using catoptric::study::mirror_error;
     Difference view;
     view.pixels = 100, view.flip = .01, view.rmse = .02;
-    EXPECT_EQ(mirror_error_of_view(ErrorQuantity::flip, view), .01);
-    EXPECT_EQ(mirror_error_of_view(ErrorQuantity::rmse, view), .02);
+    EXPECT_EQ(mirror_error(ErrorQuantity::flip, view), .01);
+    EXPECT_EQ(mirror_error(ErrorQuantity::rmse, view), .02);
     view.nonfinite = 1;
-    EXPECT_TRUE(std::isinf(mirror_error_of_view(ErrorQuantity::flip, view)));
+    EXPECT_TRUE(std::isinf(mirror_error(ErrorQuantity::flip, view)));
     view = Difference();
-    EXPECT_EQ(mirror_error_of_view(ErrorQuantity::flip, view), 0);
+    EXPECT_EQ(mirror_error(ErrorQuantity::flip, view), 0);
 }
 
 } // namespace

@@ -205,7 +205,7 @@ TEST(ChoosePlan, NearestPlanIsProvedIfNoPlanKeepsTheLimits) {
 
     study::ChooseRequest request;
     request.max_error = .0005;
-    const report::Json document = study::make_choice_json(request, choice, "made up");
+    const report::Json document = study::choice_json(request, choice, "made up");
     EXPECT_EQ(document["plan"][0]["technique"], "raytrace:depth=8");
     EXPECT_EQ(document["nearest"]["max_error"], .0005);
     EXPECT_EQ(document["nearest"]["why"], choice.failure);

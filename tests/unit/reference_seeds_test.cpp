@@ -17,7 +17,7 @@ TEST(ReferenceSeeds, DifferFromEachOtherAndFromTheRows) {
     const std::vector<std::string> rows{
         "raytrace:rays=4,seed=1",   "reuse", "raytrace:rays=4",
         "*=raytrace:rays=2,seed=3", "auto",  "raytrace:rays=8,seed=17"};
-    const std::set<int> taken = study::list_row_seeds(rows);
+    const std::set<int> taken = study::row_seeds(rows);
     EXPECT_EQ(taken, (std::set<int>{0, 1, 3, 17}));
     study::ReferenceSeeds seeds(rows);
     std::set<int> given;
@@ -39,10 +39,10 @@ TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
     for (std::size_t i = 0; i < before.settings.size(); ++i)
         EXPECT_EQ(after.settings[i].text,
                   before.settings[i].name == "seed" ? "9" : before.settings[i].text);
-    EXPECT_TRUE(study::draws_rays_from_lobes("raytrace:rays=1"));
-    EXPECT_TRUE(study::draws_rays_from_lobes("raytrace:indirect=paths"));
-    EXPECT_FALSE(study::draws_rays_from_lobes("raytrace:depth=16"));
-    EXPECT_FALSE(study::draws_rays_from_lobes("reuse"));
+    EXPECT_TRUE(study::draws_lobe_rays("raytrace:rays=1"));
+    EXPECT_TRUE(study::draws_lobe_rays("raytrace:indirect=paths"));
+    EXPECT_FALSE(study::draws_lobe_rays("raytrace:depth=16"));
+    EXPECT_FALSE(study::draws_lobe_rays("reuse"));
 }
 
 /// Returns a scene of one triangle of a metal with this roughness. The metal is a mirror if its
@@ -87,13 +87,13 @@ TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
 TEST(EnvironmentShadows, MakeNoiseInTracedReferencesWithAnEnvironment) {
     scene::Scene scene = make_metal_triangle_scene(0, .3f);
     scene.environment_shadows = 4;
-    EXPECT_FALSE(study::does_reference_have_noise(study::kReference, scene)) << "no environment";
+    EXPECT_FALSE(study::is_noisy(study::kReference, scene)) << "no environment";
     scene.environment = std::make_shared<scene::Environment>();
-    EXPECT_TRUE(study::does_reference_have_noise(study::kReference, scene));
-    EXPECT_FALSE(study::does_reference_have_noise("raytrace:shadow=none", scene));
-    EXPECT_FALSE(study::does_reference_have_noise("reuse", scene));
+    EXPECT_TRUE(study::is_noisy(study::kReference, scene));
+    EXPECT_FALSE(study::is_noisy("raytrace:shadow=none", scene));
+    EXPECT_FALSE(study::is_noisy("reuse", scene));
     scene.environment_shadows = 0;
-    EXPECT_FALSE(study::does_reference_have_noise(study::kReference, scene));
+    EXPECT_FALSE(study::is_noisy(study::kReference, scene));
 }
 
 /// The green channel of the texture multiplies the roughness. The whole range of the texture must
@@ -116,10 +116,9 @@ TEST(PixelTruth, ConvergedReferencesAreThoseOfAllRows) {
     EXPECT_EQ(study::choose_reference("", make_metal_triangle_scene(.3f, .3f),
                                       study::ReferencePixelKind::converged),
               study::kConvergedRoughReference);
-    EXPECT_EQ(study::set_reference_samples("raytrace:depth=16", "4"),
-              "raytrace:depth=16,samples=4");
+    EXPECT_EQ(study::set_samples("raytrace:depth=16", "4"), "raytrace:depth=16,samples=4");
     for (const char* reference : {study::kConvergedReference, study::kConvergedRoughReference})
-        EXPECT_EQ(study::set_reference_samples(reference, "4"), reference);
+        EXPECT_EQ(study::set_samples(reference, "4"), reference);
 }
 
 TEST(PixelTruth, PathsAreTheReferenceOfEachScene) {
@@ -129,7 +128,7 @@ TEST(PixelTruth, PathsAreTheReferenceOfEachScene) {
                   study::kPathReference);
     EXPECT_TRUE(study::traces_paths(study::kPathReference));
     EXPECT_FALSE(study::traces_paths(study::kRoughReference));
-    EXPECT_TRUE(study::draws_rays_from_lobes(study::kPathReference));
+    EXPECT_TRUE(study::draws_lobe_rays(study::kPathReference));
 }
 
 TEST(RoughReflectors, BuiltInScenesOfPerfectMirrorsKeepTheirReference) {

@@ -51,7 +51,7 @@ TEST(Search, AddedSearchIsInTheTableOfTechniques) {
     EXPECT_EQ(choice.settings.front().number, 1.5);
     EXPECT_EQ(choice.settings.size(), session::parse_technique("secant").settings.size());
     const scene::Scene room = scene::make_cornell();
-    EXPECT_THAT(study::list_default_techniques({.scene = room}), Contains("test_search:much=2"));
+    EXPECT_THAT(study::default_techniques({.scene = room}), Contains("test_search:much=2"));
     try {
         session::parse_technique("test_search:much=some");
         FAIL();

@@ -127,7 +127,7 @@ TEST(Tables, MetricsAndStudiesSayWhatTheyAre) {
             EXPECT_FALSE(column.title.empty()) << metric.name;
     }
     EXPECT_GT(units, 5);
-    for (const study::Study& study : study::list_studies())
+    for (const study::Study& study : study::studies())
         EXPECT_FALSE(study.help.empty()) << study.name;
 }
 
@@ -174,7 +174,7 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
 
 TEST(Tables, RegisteredStudyIsFoundAndAskedForItsReference) {
     std::vector<std::string_view> names;
-    for (const study::Study& study : study::list_studies()) names.push_back(study.name);
+    for (const study::Study& study : study::studies()) names.push_back(study.name);
     EXPECT_THAT(names, testing::ElementsAre("path-distance", "views", "causes", "lag", "row-times",
                                             "work", "costs", "truth-causes", "test-only"));
     EXPECT_NO_THROW(study::check_study({"test-only", 2}, study::kReference));
@@ -272,7 +272,7 @@ TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
     EXPECT_EQ(session::parse_technique("testonly:much=3").settings[0].number, 3.0);
     EXPECT_EQ(session::techniques().back().name, "testonly");
-    const std::vector<std::string> rows = study::list_default_techniques(
+    const std::vector<std::string> rows = study::default_techniques(
         {.scene = scene::make_cornell()});
     EXPECT_THAT(rows, Contains("testonly:much=2"));
     EXPECT_THAT(rows, Contains("naive:bounces=0"));

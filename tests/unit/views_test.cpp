@@ -285,23 +285,22 @@ std::vector<std::string> list_camera_texts(const std::vector<measure::View>& vie
 
 TEST(DrawnViews, DrawnViewsAreDeterminedByTheirSeed) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    const std::vector<measure::View> views = study::draw_random_views(
-        make_request_of_scene(scene, 1), 12);
+    const std::vector<measure::View> views = study::draw_views(make_request_of_scene(scene, 1), 12);
     ASSERT_EQ(views.size(), 12u);
     std::set<std::string> all;
     for (const measure::View& view : views) {
         all.insert(view.camera.name);
         EXPECT_EQ(view.time, .5) << "nothing moves";
     }
-    EXPECT_EQ(list_camera_texts(study::draw_random_views(make_request_of_scene(scene, 1), 12)),
+    EXPECT_EQ(list_camera_texts(study::draw_views(make_request_of_scene(scene, 1), 12)),
               list_camera_texts(views));
     // Neighbouring seeds share no view. If fewer views are drawn, they are the first ones of the
     // longer list.
     for (const std::string& name :
-         list_camera_texts(study::draw_random_views(make_request_of_scene(scene, 2), 12)))
+         list_camera_texts(study::draw_views(make_request_of_scene(scene, 2), 12)))
         all.insert(name);
     EXPECT_EQ(all.size(), 24u);
-    EXPECT_EQ(study::draw_random_views(make_request_of_scene(scene, 1), 6).back().camera.name,
+    EXPECT_EQ(study::draw_views(make_request_of_scene(scene, 1), 6).back().camera.name,
               views[5].camera.name);
 }
 
@@ -309,8 +308,7 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
     scene::Scene scene = test::make_lit_room(2, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}, .period = 1.6};
     std::set<double> times;
-    for (const measure::View& view :
-         study::draw_random_views(make_request_of_scene(scene, 1), 12)) {
+    for (const measure::View& view : study::draw_views(make_request_of_scene(scene, 1), 12)) {
         EXPECT_GE(view.time, .5);
         EXPECT_LT(view.time, 2.1);
         EXPECT_EQ(view.time, std::round(view.time * 1000) / 1000) << "it can be typed";
@@ -319,8 +317,8 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
     EXPECT_EQ(times.size(), 12u);
     EXPECT_LT(*times.begin(), .9);
     EXPECT_GT(*times.rbegin(), 1.7);
-    const std::vector<measure::View> shared = study::draw_random_views(
-        make_request_of_scene(scene, 1), 12, 4);
+    const std::vector<measure::View> shared = study::draw_views(make_request_of_scene(scene, 1), 12,
+                                                                4);
     std::set<std::string> cameras;
     for (std::size_t i = 0; i < shared.size(); ++i) {
         EXPECT_EQ(shared[i].time, shared[i / 4 * 4].time) << i;
@@ -332,11 +330,10 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
 
 TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
     const session::Request request = make_request_of_scene(test::make_lit_room(1, 1), 1);
-    EXPECT_TRUE(study::draw_random_views(request, 1).empty());
+    EXPECT_TRUE(study::draw_views(request, 1).empty());
     for (const int count : {-1, 0, 2, 5})
         EXPECT_THAT(
-            test::catch_error_text(Failure::usage,
-                                   [&] { study::draw_random_views(request, count); }),
+            test::catch_error_text(Failure::usage, [&] { study::draw_views(request, count); }),
             HasSubstr("views: wanted 1 or at least 6, because fewer give no 95 % interval of "
                       "the median, found " +
                       std::to_string(count)));
