@@ -33,7 +33,7 @@ constexpr int kSettlingFrames = 14; // frames until mirrors seen in mirrors no l
 /// prototypes that trace rays equal ours.
 bool compare_prototype_and_engine_pictures(session::Session& session, session::Request request,
                                            PrototypeFrameRenderer& prototypes) {
-    for (benchmark::BenchmarkSubject& subject : prototypes.subjects(0))
+    for (benchmark::Subject& subject : prototypes.subjects(0))
         for (int i = 0; i < kSettlingFrames; ++i) subject.work();
     request.techniques = {kTracedPicturePairs[0].technique};
     const measure::Picture traced = session.frame(request).read().hdr;
@@ -70,7 +70,7 @@ bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench) {
     session::Request request = make_request_of_scene(scene::make_cornell());
     const auto session = std::make_shared<session::Session>(bench.engine, request.scene);
     const int frames = bench.rounds * kFramesPerRound;
-    std::vector<benchmark::BenchmarkSubject> subjects;
+    std::vector<benchmark::Subject> subjects;
     bool same = true;
     double rays = 0;
     for (const EnginePeerPicturePair& pair : kTracedPicturePairs) {
@@ -93,10 +93,10 @@ bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench) {
     for (const auto& [technique, face] : kCaptureRowsAndFaceEdges) other_rows.push_back(technique);
     for (const char* technique : other_rows) {
         request.techniques = {technique};
-        subjects.push_back(benchmark::make_frame_benchmark_subject(session, request, frames));
+        subjects.push_back(benchmark::make_frame_subject(session, request, frames));
         subjects.back().name = technique, subjects.back().caller.clear();
     }
-    const std::vector<BenchmarkResult> list = benchmark::measure_benchmarks_in_rounds(
+    const std::vector<BenchmarkResult> list = benchmark::measure_rounds(
         subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
     for (const BenchmarkResult& benchmark : list) {

@@ -45,8 +45,7 @@ EngineAndEmbreeBenchmarks trace_pair_and_print_differences(
     std::printf("%-23s %llu rays\n", engine_benchmark_name(pair.name).c_str(),
                 static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
     EngineAndEmbreeBenchmarks shown{.same = true};
-    shown.subjects.push_back(
-        benchmark::make_frame_benchmark_subject(std::move(session), request, frames));
+    shown.subjects.push_back(benchmark::make_frame_subject(std::move(session), request, frames));
     shown.subjects.back().name = engine_benchmark_name(pair.name),
     shown.subjects.back().caller.clear();
     const auto peer = std::make_shared<EmbreeWhittedTracer>(device, request, kMirrorBounces,
@@ -60,7 +59,7 @@ EngineAndEmbreeBenchmarks trace_pair_and_print_differences(
                     static_cast<double>(kMaxEqualPixelDifference));
         shown.same = shown.same && other <= kMaxDifferingPixels;
         shown.rays = static_cast<double>(theirs.rays.total_ray_count());
-        shown.subjects.push_back(benchmark::make_benchmark_subject(
+        shown.subjects.push_back(benchmark::make_subject(
             name, [peer, width, threads] { peer->trace_picture(width, threads); },
             kWarmupFrameCount));
     }

@@ -34,7 +34,7 @@ std::size_t count_differing_pixels(const catoptric::measure::Picture& ours,
 
 /// The benchmarks of a pair: ours first, then Embree with each width of kEmbreePacketWidths.
 struct EngineAndEmbreeBenchmarks {
-    std::vector<catoptric::benchmark::BenchmarkSubject> subjects;
+    std::vector<catoptric::benchmark::Subject> subjects;
     double rays = 0;   ///< rays that Embree traces for one picture
     bool same = false; ///< whether at most kMaxDifferingPixels pixels differ
 };

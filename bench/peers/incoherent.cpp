@@ -104,7 +104,7 @@ bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std:
     EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     tree.add_geometry_and_release(make_triangle_geometry(bench.device, triangles));
     tree.build_tree();
-    std::vector<benchmark::BenchmarkSubject> subjects{benchmark::make_benchmark_subject(
+    std::vector<benchmark::Subject> subjects{benchmark::make_subject(
         engine_benchmark_name(name), [&] { list.trace_all_rays(); }, kWarmupFrameCount)};
     for (const int width : kEmbreePacketWidths) {
         const auto theirs = [&, width] {
@@ -114,10 +114,10 @@ bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std:
         same = print_and_check_ray_hit_differences(embree_benchmark_name(name, width), ours,
                                                    theirs()) &&
                same;
-        subjects.push_back(benchmark::make_benchmark_subject(embree_benchmark_name(name, width),
-                                                             theirs, kWarmupFrameCount));
+        subjects.push_back(
+            benchmark::make_subject(embree_benchmark_name(name, width), theirs, kWarmupFrameCount));
     }
-    const std::vector<BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
+    const std::vector<BenchmarkResult> found = benchmark::measure_rounds(
         subjects, bench.meter,
         {.iterations = bench.rounds * kFramesPerRound, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");

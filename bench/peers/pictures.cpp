@@ -16,7 +16,7 @@ bool compare_whitted_pictures_with_embree(const EmbreeComparisonBench& bench,
     const EngineAndEmbreeBenchmarks shown = trace_pair_and_print_differences(
         bench.device, std::make_shared<session::Session>(bench.engine, request.scene), request,
         {of.name, "raytrace:depth=4"}, bench.threads, frames);
-    const std::vector<BenchmarkResult> list = benchmark::measure_benchmarks_in_rounds(
+    const std::vector<BenchmarkResult> list = benchmark::measure_rounds(
         shown.subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
     for (const BenchmarkResult& benchmark : list)

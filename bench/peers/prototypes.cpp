@@ -47,13 +47,13 @@ std::vector<std::string> PrototypeFrameRenderer::tracers() {
     return names;
 }
 
-std::vector<benchmark::BenchmarkSubject> PrototypeFrameRenderer::subjects(int warmup) {
-    std::vector<benchmark::BenchmarkSubject> subjects;
+std::vector<benchmark::Subject> PrototypeFrameRenderer::subjects(int warmup) {
+    std::vector<benchmark::Subject> subjects;
     for (const auto& [name, tracer] : prototype_impl_->tracers)
-        subjects.push_back(benchmark::make_benchmark_subject(
+        subjects.push_back(benchmark::make_subject(
             name, [&one = *tracer] { one.trace_picture_with_prototype(); }, warmup));
     for (const auto& [name, capture] : prototype_impl_->captures)
-        subjects.push_back(benchmark::make_benchmark_subject(
+        subjects.push_back(benchmark::make_subject(
             name, [&one = *capture] { one.draw(); }, warmup));
     return subjects;
 }

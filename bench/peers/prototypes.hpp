@@ -32,7 +32,7 @@ public:
 
     /// Returns benchmarks that each draw a frame and wait for the device. They must not outlive the
     /// prototypes.
-    std::vector<catoptric::benchmark::BenchmarkSubject> subjects(int warmup);
+    std::vector<catoptric::benchmark::Subject> subjects(int warmup);
     /// Returns a prototype's picture of its last frame, linear. Throws if no prototype has the
     /// name.
     std::vector<PeerVector3> read(const std::string& name);

@@ -28,10 +28,10 @@ void compare_bvh_build_times_with_embree(const EmbreeComparisonBench& bench,
         return
             [&triangles, threads] { bvh::build(triangles, {}, bvh::kMaxLeafTriangles, threads); };
     };
-    const std::vector<BenchmarkResult> list = benchmark::measure_benchmarks_in_rounds(
-        {benchmark::make_benchmark_subject("ours/build", ours(0)),
-         benchmark::make_benchmark_subject("ours/build/1", ours(1)),
-         benchmark::make_benchmark_subject("embree/build", theirs)},
+    const std::vector<BenchmarkResult> list = benchmark::measure_rounds(
+        {benchmark::make_subject("ours/build", ours(0)),
+         benchmark::make_subject("ours/build/1", ours(1)),
+         benchmark::make_subject("embree/build", theirs)},
         bench.meter, {.iterations = bench.rounds, .rounds = bench.rounds, .watcher = {}});
     rtcReleaseGeometry(geometry);
     std::printf("\n%zu triangles\n", triangles.size());

@@ -218,9 +218,9 @@ void bind_frame(nb::module_& module) {
 /// Defines a method with the arguments of make_frame_spec, and with further arguments. `more_text`
 /// documents the further arguments.
 template <typename Function, typename... Argument>
-void define_frame_function(nb::class_<PythonSession>& session, const char* name, Function function,
-                           const std::string& summary, const std::string& more_text,
-                           const Argument&... more) {
+void define_frame(nb::class_<PythonSession>& session, const char* name, Function function,
+                  const std::string& summary, const std::string& more_text,
+                  const Argument&... more) {
     const std::string text =
         summary +
         "Args:\n"
@@ -275,7 +275,7 @@ void bind_frames(nb::module_& module) {
     session.def_prop_ro(
         "scene", [](const PythonSession& self) { return self.scene(); }, "A copy of the scene.");
     session.def("forget", &PythonSession::forget, "Makes a cut: the next frame has no history.");
-    define_frame_function(
+    define_frame(
         session, "frame",
         [](PythonSession& self, const std::string& technique, const Size& size,
            const OptionalCamera& camera, double time, OptionalNumber exposure,
@@ -288,7 +288,7 @@ void bind_frames(nb::module_& module) {
         "A frame continues the history of the frame before. Frames with other techniques or\n"
         "another model than the frame before begin without history.\n\n",
         "    frames: The number of frames.\n", nb::arg("frames") = 1);
-    define_frame_function(
+    define_frame(
         session, "render",
         [](PythonSession& self, const std::string& technique, const Size& size,
            const OptionalCamera& camera, double time, OptionalNumber exposure,

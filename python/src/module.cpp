@@ -25,7 +25,7 @@ const char* find_exception_name(Failure failure) {
     }
 }
 
-void raise_python_exception(const std::exception_ptr& thrown, void*) {
+void raise_exception(const std::exception_ptr& thrown, void*) {
     try {
         std::rethrow_exception(thrown);
     } catch (const Error& error) {
@@ -65,7 +65,7 @@ void bind_techniques(nb::module_& module) {
 
 NB_MODULE(_catoptric, module) {
     module.doc() = "Binds the C++ library. Use the package `catoptric` instead.";
-    nb::register_exception_translator(raise_python_exception);
+    nb::register_exception_translator(raise_exception);
     bind_techniques(module);
     bind_scenes(module);
     bind_pictures(module);

@@ -20,7 +20,7 @@ using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 
 /// Sums of measured costs over the iterations of one round.
-struct BenchmarkRoundSums {
+struct RoundSums {
     double real_ms = 0, host_ms = 0;
     ProcessorUsage process, caller;
     std::map<std::string, double> counters;
@@ -46,12 +46,12 @@ BenchmarkRound divide_by_iterations(int iterations, double real_ms, const Proces
 
 class BenchmarkRunner {
 public:
-    BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
+    BenchmarkRunner(const std::vector<Subject>& subjects, const UsageMeter& meter,
                     const BenchOptions& options)
-        : benchmark_subjects_(subjects), meter_(meter), options_(options),
+        : subjects_(subjects), meter_(meter), options_(options),
           rounds_(study::round_count(options.iterations, options.rounds)) {
         std::set<std::string> names;
-        for (const BenchmarkSubject& subject : subjects) {
+        for (const Subject& subject : subjects) {
             check(names.insert(subject.name).second, Failure::usage, "benchmark '", subject.name,
                   "' is asked for twice");
             list_.push_back({subject.name, {}});
@@ -59,16 +59,15 @@ public:
         }
     }
 
-    std::vector<BenchmarkResult> run_all_rounds() {
-        for (std::size_t i = 0; i < benchmark_subjects_.size(); ++i) warm_up_subject(i);
+    std::vector<BenchmarkResult> run() {
+        for (std::size_t i = 0; i < subjects_.size(); ++i) warm_up(i);
         const PinnedThreads held;
         for (int round = 0; round < rounds_; ++round)
-            for (std::size_t place = 0; place < benchmark_subjects_.size(); ++place)
+            for (std::size_t place = 0; place < subjects_.size(); ++place)
                 // Every second round visits the subjects in reverse order. The same subject then
                 // never always comes before another, whose measurement its remaining work could
                 // disturb.
-                measure_subject_round(
-                    round % 2 == 0 ? place : benchmark_subjects_.size() - 1 - place, round);
+                measure_round(round % 2 == 0 ? place : subjects_.size() - 1 - place, round);
         for (BenchmarkResult& caller : callers_)
             if (!caller.name.empty()) list_.push_back(std::move(caller));
         return std::move(list_);
@@ -76,44 +75,43 @@ public:
 
 private:
     void report_progress(std::size_t index, const std::string& doing) const {
-        const std::size_t steps = benchmark_subjects_.size() *
-                                  (static_cast<std::size_t>(rounds_) + 1);
-        report_row(options_.watcher, benchmark_subjects_[index].name + doing, done_, steps);
+        const std::size_t steps = subjects_.size() * (static_cast<std::size_t>(rounds_) + 1);
+        report_row(options_.watcher, subjects_[index].name + doing, done_, steps);
     }
 
-    void report_finished_subject(const BenchmarkSubject& subject) {
+    void report_finished(const Subject& subject) {
         if (subject.leave) subject.leave();
         ++done_;
     }
 
-    void warm_up_subject(std::size_t index) {
-        const BenchmarkSubject& subject = benchmark_subjects_[index];
+    void warm_up(std::size_t index) {
+        const Subject& subject = subjects_[index];
         report_progress(index, ", warm-up");
         for (int k = 1; k <= subject.warmup; ++k) {
             subject.work();
             report_frame(options_.watcher, k, subject.warmup);
         }
-        report_finished_subject(subject);
+        report_finished(subject);
     }
 
-    void measure_subject_round(std::size_t index, int round) {
-        const BenchmarkSubject& subject = benchmark_subjects_[index];
+    void measure_round(std::size_t index, int round) {
+        const Subject& subject = subjects_[index];
         report_progress(index,
                         ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
         const int iterations = study::frames_of_round(options_.iterations, rounds_, round);
-        BenchmarkRoundSums sums;
+        RoundSums sums;
         const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
         {
             const Stopwatch watch(sums.real_ms);
             for (int k = 0; k < iterations; ++k) sums.add_iteration(subject.work());
         }
         sums.caller = caller_meter_.read() - caller, sums.process = meter_.read() - process;
-        store_round_of_subject(index, iterations, sums);
-        report_finished_subject(subject);
+        store_round(index, iterations, sums);
+        report_finished(subject);
         report_frame(options_.watcher, iterations, iterations);
     }
 
-    void store_round_of_subject(std::size_t index, int iterations, const BenchmarkRoundSums& sums) {
+    void store_round(std::size_t index, int iterations, const RoundSums& sums) {
         BenchmarkRound round = divide_by_iterations(iterations, sums.real_ms, sums.process);
         for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
         list_[index].rounds.push_back(std::move(round));
@@ -121,7 +119,7 @@ private:
             divide_by_iterations(iterations, sums.host_ms, sums.caller));
     }
 
-    const std::vector<BenchmarkSubject>& benchmark_subjects_;
+    const std::vector<Subject>& subjects_;
     const UsageMeter& meter_;
     const UsageMeter caller_meter_{UsageMeter::Threads::caller};
     const BenchOptions& options_;
@@ -140,7 +138,7 @@ std::string format_current_date() {
 
 } // namespace
 
-BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> work, int warmup) {
+Subject make_subject(std::string name, std::function<void()> work, int warmup) {
     return {.name = std::move(name),
             .work =
                 [work = std::move(work)] {
@@ -152,14 +150,14 @@ BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> 
             .caller = {}};
 }
 
-std::vector<measure::BenchmarkResult>
-measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
-                             const BenchOptions& options) {
-    return BenchmarkRunner(subjects, meter, options).run_all_rounds();
+std::vector<measure::BenchmarkResult> measure_rounds(const std::vector<Subject>& subjects,
+                                                     const UsageMeter& meter,
+                                                     const BenchOptions& options) {
+    return BenchmarkRunner(subjects, meter, options).run();
 }
 
-measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
-                                     const UsageMeter& meter, const BenchOptions& options,
+measure::BenchmarkRun run_benchmarks(const std::vector<Subject>& subjects, const UsageMeter& meter,
+                                     const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command) {
     const WatchedWork watched(options.watcher);
@@ -171,7 +169,7 @@ measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjec
     run.uncounted = meter.why_uncounted();
     run.load = read_machine_load();
     const std::optional<ProcessorTimes> before = read_processor_times();
-    run.benchmarks = measure_benchmarks_in_rounds(subjects, meter, options);
+    run.benchmarks = measure_rounds(subjects, meter, options);
     if (const std::optional<ProcessorTimes> after = read_processor_times(); before && after)
         run.noisy = is_timing_noisy(waiting_share(waiting_times(*before, *after)));
     return run;

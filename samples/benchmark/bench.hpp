@@ -17,12 +17,12 @@ using namespace session;
 
 /// Figures that one iteration reports. A round stores their mean.
 struct IterationMeasurements {
-    double host_ms = 0; ///< wall-clock time of the work that BenchmarkSubject::caller names
+    double host_ms = 0; ///< wall-clock time of the work that Subject::caller names
     std::map<std::string, double> counters;
 };
 
 /// Work that a benchmark repeats.
-struct BenchmarkSubject {
+struct Subject {
     std::string name;
     std::function<IterationMeasurements()> work; ///< runs one iteration; its costs are measured
     int warmup = 1; ///< iterations before the first round, not measured
@@ -33,8 +33,7 @@ struct BenchmarkSubject {
 };
 
 /// Makes a subject of work that reports no figures of its own.
-BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> work,
-                                        int warmup = 1);
+Subject make_subject(std::string name, std::function<void()> work, int warmup = 1);
 
 struct BenchOptions {
     /// Iterations of each subject over all rounds; frames_of_round distributes them.
@@ -46,14 +45,14 @@ struct BenchOptions {
 /// Measures every subject in rounds, after all subjects have warmed up. Every second round visits
 /// the subjects in reverse order. Takes as long as all iterations of the work. `meter`: counts the
 /// whole process.
-std::vector<measure::BenchmarkResult>
-measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
-                             const BenchOptions& options);
+std::vector<measure::BenchmarkResult> measure_rounds(const std::vector<Subject>& subjects,
+                                                     const UsageMeter& meter,
+                                                     const BenchOptions& options);
 
-/// Measures as measure_benchmarks_in_rounds does and adds the program's version, the device and the
+/// Measures as measure_rounds does and adds the program's version, the device and the
 /// circumstances. `command`: the program's command line.
-measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
-                                     const UsageMeter& meter, const BenchOptions& options,
+measure::BenchmarkRun run_benchmarks(const std::vector<Subject>& subjects, const UsageMeter& meter,
+                                     const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command);
 

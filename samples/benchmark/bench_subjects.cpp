@@ -20,11 +20,11 @@ namespace {
 class FrameBenchmark {
 public:
     FrameBenchmark(std::shared_ptr<Session> session, Request request)
-        : benchmark_session_(std::move(session)), request_(std::move(request)) {}
+        : session_(std::move(session)), request_(std::move(request)) {}
 
-    IterationMeasurements render_next_frames() {
+    IterationMeasurements render_frames() {
         // Created here and not earlier, because a FrameLoop begins with a cut.
-        if (!frames_) frames_.emplace(*benchmark_session_, request_);
+        if (!frames_) frames_.emplace(*session_, request_);
         check(frames_->render_next(), Failure::internal,
               "a benchmark went on after its last frame");
         const FrameTimes& times = frames_->frame().times();
@@ -41,20 +41,20 @@ public:
             if (const auto rays = frames_->frame().read().rays)
                 rays_ = static_cast<double>(rays->primary + rays->mirror + rays->shadow);
         frames_->suspend();
-        if (!is_read_) count_work_of_frames();
+        if (!is_read_) count_work();
         is_read_ = true;
     }
 
 private:
-    void count_work_of_frames() {
-        const WorkCounts work = sum_work(count_frame_work(*benchmark_session_, request_));
+    void count_work() {
+        const WorkCounts work = sum_work(count_frame_work(*session_, request_));
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (work.values[i])
                 work_[measure::kWorkPrefix + std::string(kWorkKinds[i].name)] = static_cast<double>(
                     *work.values[i]);
     }
 
-    std::shared_ptr<Session> benchmark_session_;
+    std::shared_ptr<Session> session_;
     Request request_;
     std::optional<FrameLoop> frames_;
     bool is_read_ = false;
@@ -64,12 +64,12 @@ private:
 
 } // namespace
 
-BenchmarkSubject make_session_benchmark_subject(Engine& engine, const scene::Scene& scene) {
-    return make_benchmark_subject("session/" + scene.name,
-                                  [&engine, scene] { const Session session(engine, scene); });
+Subject make_session_subject(Engine& engine, const scene::Scene& scene) {
+    return make_subject("session/" + scene.name,
+                        [&engine, scene] { const Session session(engine, scene); });
 }
 
-BenchmarkSubject make_bvh_benchmark_subject(const scene::Scene& scene) {
+Subject make_bvh_subject(const scene::Scene& scene) {
     const auto geometry = std::make_shared<render::FrameGeometry>(
         render::make_geometry(scene::scene_at(scene, 0), render::make_scene_units(scene)));
     const auto triangles = static_cast<double>(geometry->indices.size() / 3);
@@ -84,8 +84,7 @@ BenchmarkSubject make_bvh_benchmark_subject(const scene::Scene& scene) {
             .caller = {}};
 }
 
-BenchmarkSubject make_frame_benchmark_subject(std::shared_ptr<Session> session, Request request,
-                                              int iterations) {
+Subject make_frame_subject(std::shared_ptr<Session> session, Request request, int iterations) {
     const std::string place = request.scene.name + "/" + std::to_string(request.size.x) + "x" +
                               std::to_string(request.size.y) + "/" +
                               parse_technique(request.techniques.front()).label;
@@ -94,7 +93,7 @@ BenchmarkSubject make_frame_benchmark_subject(std::shared_ptr<Session> session, 
     request.scene = scene::Scene(); // the session has its own copy of the scene
     const auto work = std::make_shared<FrameBenchmark>(std::move(session), std::move(request));
     return {.name = "frame/" + place,
-            .work = [work] { return work->render_next_frames(); },
+            .work = [work] { return work->render_frames(); },
             .warmup = warmup,
             .leave = [work] { work->suspend_frames(); },
             .caller = "host/" + place};

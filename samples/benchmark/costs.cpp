@@ -12,14 +12,14 @@ namespace catoptric::benchmark {
 
 namespace {
 
-std::string make_cost_sample_name(const Request& request) {
+std::string sample_name(const Request& request) {
     return request.scene.name + "/" + std::to_string(request.size.x) + "x" +
            std::to_string(request.size.y) + "/" + work_name(request.model) + "/" +
            parse_technique(request.techniques.front()).label;
 }
 
 /// Returns one request for each technique.
-std::vector<Request> split_request_by_technique(const Request& request) {
+std::vector<Request> split_request(const Request& request) {
     std::vector<Request> rows;
     for (const std::string& technique : request.techniques) {
         rows.push_back(request);
@@ -30,7 +30,7 @@ std::vector<Request> split_request_by_technique(const Request& request) {
 
 /// Returns the median time of the frames on the device. `threads`: those of a device that is a
 /// processor; 0 for other devices.
-double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& rounds, int threads) {
+double median_time(const std::vector<std::vector<FrameTimes>>& rounds, int threads) {
     std::vector<std::vector<double>> samples;
     for (const std::vector<FrameTimes>& round : rounds) {
         samples.emplace_back();
@@ -44,7 +44,7 @@ double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& ro
 /// Engine::device returns it.
 void measure_cost_rows(Session& session, const Request& request, const DeviceInfo& device,
                        const BenchOptions& options, std::vector<measure::TimedWork>& samples) {
-    const std::vector<Request> rows = split_request_by_technique(request);
+    const std::vector<Request> rows = split_request(request);
     const int rounds = study::round_count(options.iterations, options.rounds);
     const int repeated_frames = must_repeat_first_round(device.type)
                                     ? study::frames_of_round(options.iterations, rounds, 0)
@@ -58,7 +58,7 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
             if (round == 0)
                 runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher,
                                                                 repeated_frames));
-            report_row(options.watcher, make_cost_sample_name(rows[i]),
+            report_row(options.watcher, sample_name(rows[i]),
                        static_cast<std::size_t>(round) * rows.size() + place,
                        static_cast<std::size_t>(rounds) * rows.size());
             runs[i]->measure_round(study::frames_of_round(options.iterations, rounds, round));
@@ -71,9 +71,9 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
             run->suspend_frames();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        samples.push_back({make_cost_sample_name(rows[i]),
+        samples.push_back({sample_name(rows[i]),
                            sum_work(count_frame_work(session, rows[i], options.watcher)),
-                           compute_median_device_time(runs[i]->rounds(), device.threads)});
+                           median_time(runs[i]->rounds(), device.threads)});
 }
 
 } // namespace
@@ -97,13 +97,12 @@ std::vector<measure::TimedWork> count_work_samples(Engine& engine, const Request
                                                    const Watcher& watcher) {
     Session session(engine, request.scene);
     std::vector<measure::TimedWork> samples;
-    for (const Request& row : split_request_by_technique(request))
-        samples.push_back(
-            {make_cost_sample_name(row), sum_work(count_frame_work(session, row, watcher)), 0});
+    for (const Request& row : split_request(request))
+        samples.push_back({sample_name(row), sum_work(count_frame_work(session, row, watcher)), 0});
     return samples;
 }
 
-std::vector<WorkKind> list_fitted_kinds() {
+std::vector<WorkKind> fitted_kinds() {
     std::vector<WorkKind> kinds;
     for (std::size_t i = 0; i < kWorkKindCount; ++i) kinds.push_back(static_cast<WorkKind>(i));
     return kinds;

@@ -29,6 +29,6 @@ std::vector<measure::TimedWork> count_work_samples(Engine& engine, const Request
 /// Returns the kinds of work whose unit costs are fitted to measured times: all kinds. The counts
 /// of lanes depend on the number of lanes in a subgroup, and their costs hold only on devices with
 /// subgroups of the same size.
-std::vector<WorkKind> list_fitted_kinds();
+std::vector<WorkKind> fitted_kinds();
 
 } // namespace catoptric::benchmark

@@ -10,28 +10,26 @@ namespace catoptric::benchmark {
 
 namespace {
 
-std::vector<double> list_device_times(const measure::BenchmarkResult& benchmark) {
+std::vector<double> device_times(const measure::BenchmarkResult& benchmark) {
     std::vector<double> ms;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         ms.push_back(round.counters.at("gpu_ms"));
     return ms;
 }
 
-std::string make_tuning_benchmark_name(const Request& request) {
+std::string tuning_name(const Request& request) {
     return "frame/" + request.scene.name + "/" + std::to_string(request.size.x) + "x" +
            std::to_string(request.size.y) + "/" + kTuningTechnique;
 }
 
 } // namespace
 
-TuningResult tune_shader_variants(Engine& engine, const Request& request,
-                                  const BenchOptions& options) {
+TuningResult tune_shaders(Engine& engine, const Request& request, const BenchOptions& options) {
     const UsageMeter meter(UsageMeter::Threads::process);
     const auto session = std::make_shared<Session>(engine, request.scene);
-    std::vector<BenchmarkSubject> subjects;
+    std::vector<Subject> subjects;
     const auto add = [&](const std::string& name, const gpu::VariantChoices& choices) {
-        BenchmarkSubject subject = make_frame_benchmark_subject(session, request,
-                                                                options.iterations);
+        Subject subject = make_frame_subject(session, request, options.iterations);
         subject.work = [&engine, choices, work = std::move(subject.work)] {
             EmbedAccess::choose_variants(engine, choices);
             return work();
@@ -55,9 +53,9 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
         tuned.tried.push_back({.variant = std::string(variant.name),
                                .choice = std::string(variant.choices[1 - defaults[i]]),
                                .standard = std::string(variant.choices[defaults[i]]),
-                               .benchmark = make_tuning_benchmark_name(request),
-                               .ms = list_device_times(run.benchmarks[i + 1]),
-                               .standard_ms = list_device_times(run.benchmarks.front())});
+                               .benchmark = tuning_name(request),
+                               .ms = device_times(run.benchmarks[i + 1]),
+                               .standard_ms = device_times(run.benchmarks.front())});
     }
     return tuned;
 }

@@ -24,7 +24,6 @@ struct TuningResult {
 /// technique is kTuningTechnique. Every round has some frames of each variant. All variants share
 /// one session, because the threads of several software devices would disturb each other. Leaves
 /// the engine with the default choices.
-TuningResult tune_shader_variants(Engine& engine, const Request& request,
-                                  const BenchOptions& options);
+TuningResult tune_shaders(Engine& engine, const Request& request, const BenchOptions& options);
 
 } // namespace catoptric::benchmark

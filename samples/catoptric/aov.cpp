@@ -21,7 +21,7 @@ struct AovRow {
 
 /// Returns a row for each layer, in the order of PictureAov. Names of channels have one letter
 /// after the layer's name, because Blender reads no others.
-const std::vector<AovRow>& list_aov_rows() {
+const std::vector<AovRow>& aov_rows() {
     static const std::vector<AovRow> kRows{
         {"distance", {"distance.Z"}, "way along the ray, in the file's units; inf: no surface"},
         {"normal",
@@ -37,7 +37,7 @@ const std::vector<AovRow>& list_aov_rows() {
 /// Floats hold all integers up to this one exactly.
 constexpr std::uint32_t kMaxExactInteger = 1U << 24U;
 
-std::vector<float> integers_to_floats(const std::vector<std::uint32_t>& numbers) {
+std::vector<float> to_floats(const std::vector<std::uint32_t>& numbers) {
     std::vector<float> values;
     values.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
@@ -49,17 +49,16 @@ std::vector<float> integers_to_floats(const std::vector<std::uint32_t>& numbers)
 }
 
 /// Returns the values of a layer's channel.
-std::vector<float> list_aov_values(PictureAov aov, int channel,
-                                   const session::FirstSurfaces& surfaces,
-                                   const std::optional<session::ReflectionTiers>& tiers) {
+std::vector<float> aov_values(PictureAov aov, int channel, const session::FirstSurfaces& surfaces,
+                              const std::optional<session::ReflectionTiers>& tiers) {
     std::vector<float> values;
     switch (aov) {
     case PictureAov::distance: return surfaces.distance;
     case PictureAov::normal:
         for (const vec3& normal : surfaces.normal) values.push_back(normal[channel]);
         return values;
-    case PictureAov::object: return integers_to_floats(surfaces.object);
-    case PictureAov::mirror: return integers_to_floats(surfaces.mirror);
+    case PictureAov::object: return to_floats(surfaces.object);
+    case PictureAov::mirror: return to_floats(surfaces.mirror);
     case PictureAov::tier:
         for (std::size_t i = 0; i < surfaces.mirror.size(); ++i)
             values.push_back(static_cast<float>(tiers.value().tier_at(i, surfaces.mirror[i])));
@@ -71,23 +70,22 @@ std::vector<float> list_aov_values(PictureAov aov, int channel,
 
 } // namespace
 
-std::vector<PictureAov> parse_aov_list(const std::string& text) {
+std::vector<PictureAov> parse_aovs(const std::string& text) {
     std::vector<std::string> names;
-    for (const AovRow& row : list_aov_rows()) names.emplace_back(row.name);
+    for (const AovRow& row : aov_rows()) names.emplace_back(row.name);
     names.emplace_back("all");
     std::vector<bool> is_wanted(names.size());
     for (const std::string& word : split(text, ","))
-        is_wanted[parse_choice_index("--aov", word, names)] = true;
+        is_wanted[parse_choice("--aov", word, names)] = true;
     std::vector<PictureAov> aovs;
-    for (std::size_t i = 0; i < list_aov_rows().size(); ++i)
+    for (std::size_t i = 0; i < aov_rows().size(); ++i)
         if (is_wanted[i] || is_wanted.back()) aovs.push_back(static_cast<PictureAov>(i));
     return aovs;
 }
 
 std::string describe_aovs() {
     std::string text;
-    for (const AovRow& row : list_aov_rows())
-        text += fmt::format("  {:<13} {}\n", row.name, row.help);
+    for (const AovRow& row : aov_rows()) text += fmt::format("  {:<13} {}\n", row.name, row.help);
     const std::vector<session::TierInfo>& tiers = session::reflection_tiers();
     for (std::size_t i = 0; i < tiers.size(); ++i)
         text += fmt::format("  {} {:<11} {}\n", i, tiers[i].name, tiers[i].help);
@@ -95,14 +93,14 @@ std::string describe_aovs() {
 }
 
 std::vector<measure::ExtraChannel>
-make_aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
-                  const std::optional<session::ReflectionTiers>& tiers) {
+aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
+             const std::optional<session::ReflectionTiers>& tiers) {
     std::vector<measure::ExtraChannel> channels;
     for (const PictureAov aov : aovs) {
-        const AovRow& row = list_aov_rows()[static_cast<std::size_t>(aov)];
+        const AovRow& row = aov_rows()[static_cast<std::size_t>(aov)];
         for (std::size_t i = 0; i < row.channels.size(); ++i)
             channels.push_back(
-                {row.channels[i], list_aov_values(aov, static_cast<int>(i), surfaces, tiers)});
+                {row.channels[i], aov_values(aov, static_cast<int>(i), surfaces, tiers)});
     }
     return channels;
 }

@@ -14,14 +14,14 @@ enum class PictureAov { distance, normal, object, mirror, tier, roughness };
 
 /// Returns the layers of a list such as "distance,normal", or of "all", each once and in the order
 /// of PictureAov. Throws `usage` for another name.
-std::vector<PictureAov> parse_aov_list(const std::string& text);
+std::vector<PictureAov> parse_aovs(const std::string& text);
 
 /// Returns a line for the help about each layer, with its channels.
 std::string describe_aovs();
 
 /// Returns the channels of the layers. `tiers`: set if `aovs` has PictureAov::tier.
 std::vector<measure::ExtraChannel>
-make_aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
-                  const std::optional<session::ReflectionTiers>& tiers);
+aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
+             const std::optional<session::ReflectionTiers>& tiers);
 
 } // namespace catoptric::cli

@@ -14,7 +14,7 @@ namespace catoptric::cli {
 
 namespace {
 
-bool has_knob_of_axis(const std::string& technique, const std::string& knob) {
+bool has_knob(const std::string& technique, const std::string& knob) {
     for (const session::TechniqueInfo& info : session::techniques())
         if (info.name == technique)
             return std::ranges::find(info.knobs, knob, &session::KnobInfo::name) !=
@@ -37,28 +37,28 @@ std::string format_setting(const Setting& setting) {
 
 /// Returns the technique as text with the values of all its knobs. Two texts that mean the same
 /// technique give the same result.
-std::string format_technique_with_all_knobs(const std::string& text) {
+std::string format_all_knobs(const std::string& text) {
     const session::ParsedTechnique choice = session::parse_technique(text);
     std::string all = choice.technique;
     for (const Setting& setting : choice.settings) all += " " + format_setting(setting);
     return all;
 }
 
-std::vector<std::string> expand_along_axis(const std::vector<std::string>& techniques,
-                                           const KnobAxis& axis) {
+std::vector<std::string> expand_axis(const std::vector<std::string>& techniques,
+                                     const KnobAxis& axis) {
     std::vector<std::string> rows;
     bool is_known = false;
     const auto varies = [&](const std::string& text) {
-        return has_knob_of_axis(session::parse_technique(text).technique, axis.knob) &&
+        return has_knob(session::parse_technique(text).technique, axis.knob) &&
                !sets_knob(text, axis.knob);
     };
     // A new row may equal an existing row, if the value is the knob's default. Such a row is left
     // out.
     std::vector<std::string> known;
     for (const std::string& text : techniques)
-        if (!varies(text)) known.push_back(format_technique_with_all_knobs(text));
+        if (!varies(text)) known.push_back(format_all_knobs(text));
     for (const std::string& text : techniques) {
-        is_known |= has_knob_of_axis(session::parse_technique(text).technique, axis.knob);
+        is_known |= has_knob(session::parse_technique(text).technique, axis.knob);
         if (!varies(text)) {
             rows.push_back(text);
             continue;
@@ -67,8 +67,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
         for (const std::string& value : axis.values) {
             std::string row = text + separator;
             row += axis.knob + "=" + value;
-            const std::string whole = parse_option(
-                "--axis", [&] { return format_technique_with_all_knobs(row); });
+            const std::string whole = parse_option("--axis", [&] { return format_all_knobs(row); });
             if (std::ranges::find(known, whole) != known.end()) continue;
             known.push_back(whole);
             rows.push_back(std::move(row));
@@ -90,7 +89,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
 
 } // namespace
 
-KnobAxis parse_knob_axis(const std::string& text) {
+KnobAxis parse_axis(const std::string& text) {
     const std::size_t end = text.find('=');
     KnobAxis axis;
     if (end != std::string::npos) axis = {text.substr(0, end), split(text.substr(end + 1), ",")};
@@ -103,14 +102,14 @@ KnobAxis parse_knob_axis(const std::string& text) {
     return axis;
 }
 
-std::vector<std::string> expand_techniques_along_axes(std::vector<std::string> techniques,
-                                                      const std::vector<KnobAxis>& axes) {
-    for (const KnobAxis& axis : axes) techniques = expand_along_axis(techniques, axis);
+std::vector<std::string> expand_axes(std::vector<std::string> techniques,
+                                     const std::vector<KnobAxis>& axes) {
+    for (const KnobAxis& axis : axes) techniques = expand_axis(techniques, axis);
     return techniques;
 }
 
-std::vector<std::string> list_axes_without_effect(const measure::Comparison& comparison,
-                                                  const std::vector<KnobAxis>& axes) {
+std::vector<std::string> axes_without_effect(const measure::Comparison& comparison,
+                                             const std::vector<KnobAxis>& axes) {
     std::vector<std::string> sentences;
     for (const KnobAxis& axis : axes) {
         // Rows that differ in this knob alone, by technique, model and the other knobs.
@@ -119,7 +118,7 @@ std::vector<std::string> list_axes_without_effect(const measure::Comparison& com
             std::string key = row.technique + " " + row.model;
             for (const Setting& setting : row.settings)
                 if (setting.name != axis.knob) key += " " + format_setting(setting);
-            if (has_knob_of_axis(row.technique, axis.knob)) groups[key].push_back(&row);
+            if (has_knob(row.technique, axis.knob)) groups[key].push_back(&row);
         }
         for (const auto& [key, rows] : groups)
             if (rows.size() > 1 && std::ranges::all_of(rows, [&](const measure::Row* row) {

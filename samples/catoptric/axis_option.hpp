@@ -16,16 +16,16 @@ struct KnobAxis {
 
 /// Reads the text "KNOB=VALUE,VALUE[,...]". Throws `usage` unless the text gives a name and at
 /// least two different values.
-KnobAxis parse_knob_axis(const std::string& text);
+KnobAxis parse_axis(const std::string& text);
 
 /// Returns the rows to compare: each technique that has the knob of an axis, once for each value.
 /// Plans, techniques without the knob and those that set it themselves stay as they are. Several
 /// axes multiply. Throws `usage` if no technique has the knob of an axis.
-std::vector<std::string> expand_techniques_along_axes(std::vector<std::string> techniques,
-                                                      const std::vector<KnobAxis>& axes);
+std::vector<std::string> expand_axes(std::vector<std::string> techniques,
+                                     const std::vector<KnobAxis>& axes);
 
 /// Returns a sentence for each technique whose pictures are equal with all values of an axis.
-std::vector<std::string> list_axes_without_effect(const measure::Comparison& comparison,
-                                                  const std::vector<KnobAxis>& axes);
+std::vector<std::string> axes_without_effect(const measure::Comparison& comparison,
+                                             const std::vector<KnobAxis>& axes);
 
 } // namespace catoptric::cli

@@ -10,7 +10,7 @@
 
 namespace catoptric::cli {
 
-void add_baseline_options(CommandVerb& verb, BaselineOptions& options) {
+void add_baseline_options(Verb& verb, BaselineOptions& options) {
     verb.option(
         "--baseline", "FILE",
         "report.json of an earlier run: say which rows err more or take longer now; exit code "
@@ -40,24 +40,24 @@ void check_baseline_options(const BaselineOptions& options) {
         !options.baseline.empty() || !has_others, Failure::usage,
         "--max-flip-rise, --max-time-ratio, --summary and --junit: wanted --baseline beside them");
     for (const std::string& file : {options.summary, options.junit})
-        if (!file.empty()) check_file_can_be_made(file);
+        if (!file.empty()) check_output_file(file);
 }
 
-BaselineGate::BaselineGate(const BaselineOptions& options) : baseline_options_(options) {
+BaselineGate::BaselineGate(const BaselineOptions& options) : options_(options) {
     if (options.baseline.empty()) return;
     json_ = read_file(options.baseline);
     check_json(options.baseline, json_);
 }
 
-void BaselineGate::check_baseline_scene(const report::Comparison& comparison) const {
+void BaselineGate::check_scene(const report::Comparison& comparison) const {
     if (json_.empty()) return;
-    report::check_baseline(comparison, json_, baseline_options_.baseline);
+    report::check_baseline(comparison, json_, options_.baseline);
 }
 
-void BaselineGate::judge_scene_against_baseline(const report::Comparison& comparison) {
+void BaselineGate::judge(const report::Comparison& comparison) {
     if (json_.empty()) return;
     const std::vector<report::BaselineFinding> findings = report::judge_comparison(
-        comparison, json_, baseline_options_.baseline, baseline_options_.limits);
+        comparison, json_, options_.baseline, options_.limits);
     text_ += comparison.scene.name + "\n" + report::format_findings(findings);
     summary_ += (summary_.empty() ? "" : "\n") +
                 report::to_markdown(findings, comparison.scene.name);
@@ -66,11 +66,10 @@ void BaselineGate::judge_scene_against_baseline(const report::Comparison& compar
 }
 
 std::string BaselineGate::finish() {
-    if (!baseline_options_.summary.empty()) write_file(baseline_options_.summary, summary_);
-    if (!baseline_options_.junit.empty())
-        write_file(baseline_options_.junit,
-                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + junit_ +
-                       "</testsuites>\n");
+    if (!options_.summary.empty()) write_file(options_.summary, summary_);
+    if (!options_.junit.empty())
+        write_file(options_.junit, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" +
+                                       junit_ + "</testsuites>\n");
     return text_;
 }
 

@@ -18,7 +18,7 @@ struct BaselineOptions {
 
 /// Adds --baseline, --max-flip-rise, --max-time-ratio, --summary and --junit. `options` must
 /// outlive the parsing.
-void add_baseline_options(CommandVerb& verb, BaselineOptions& options);
+void add_baseline_options(Verb& verb, BaselineOptions& options);
 
 /// Throws `usage` if options of the baseline are given without --baseline. Also throws the errors
 /// of reading the baseline's file. Call it before measuring.
@@ -31,17 +31,17 @@ public:
     explicit BaselineGate(const BaselineOptions& options);
     /// Throws `bad_data` if the baseline shows another scene or other settings than the comparison,
     /// which may have no row yet.
-    void check_baseline_scene(const report::Comparison& comparison) const;
+    void check_scene(const report::Comparison& comparison) const;
     /// Judges the finished comparison of one scene. Throws `bad_data` if the baseline shows another
     /// scene or other settings.
-    void judge_scene_against_baseline(const report::Comparison& comparison);
+    void judge(const report::Comparison& comparison);
     /// Writes the files and returns the text for the terminal; empty without a baseline.
     std::string finish();
     /// Returns whether no row is worse than in the baseline.
     bool passes() const { return passes_; }
 
 private:
-    const BaselineOptions& baseline_options_;
+    const BaselineOptions& options_;
     std::string json_, text_, summary_, junit_;
     bool passes_ = true;
 };

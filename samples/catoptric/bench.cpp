@@ -43,20 +43,20 @@ Exit code 1 if --compare or --against finds a slower benchmark (the interval of 
 benchmark whose counted work has grown by more than a hundredth.)";
 
 /// Techniques that are measured by default.
-const std::vector<std::string> kDefaultBenchTechniques{"raytrace:depth=4",
-                                                       "raytrace:depth=4,sphere=exact",
-                                                       "parallax:face=64",
-                                                       "parallax",
-                                                       "parallax:face=512",
-                                                       "secant",
-                                                       "march",
-                                                       "pyramid",
-                                                       "layered",
-                                                       "hybrid"};
-constexpr const char* kOnlyOneModelMessage =
+const std::vector<std::string> kBenchTechniques{"raytrace:depth=4",
+                                                "raytrace:depth=4,sphere=exact",
+                                                "parallax:face=64",
+                                                "parallax",
+                                                "parallax:face=512",
+                                                "secant",
+                                                "march",
+                                                "pyramid",
+                                                "layered",
+                                                "hybrid"};
+constexpr const char* kOneModelMessage =
     "--model both: wanted everything or required, of which a benchmark has one";
 constexpr const char* kFlatMirrorScene = "flat"; // `planar` needs a flat mirror
-constexpr const char* kFlatMirrorBenchTechnique = "planar";
+constexpr const char* kFlatTechnique = "planar";
 
 struct BenchArguments {
     CommonOptions common; ///< options for all scenes
@@ -73,22 +73,22 @@ struct BenchArguments {
 };
 
 /// A scene and the techniques to measure.
-struct BenchSceneSelection {
+struct SceneSelection {
     CommonOptions common;
     std::vector<std::string> techniques;
 };
 
-std::vector<BenchSceneSelection> list_requested_scenes(const BenchArguments& options) {
-    std::vector<BenchSceneSelection> list;
+std::vector<SceneSelection> requested_scenes(const BenchArguments& options) {
+    std::vector<SceneSelection> list;
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.push_back(options.common.scene);
     for (const std::string& scene : scenes) {
-        list.push_back({options.common,
-                        options.techniques.empty() ? kDefaultBenchTechniques : options.techniques});
+        list.push_back(
+            {options.common, options.techniques.empty() ? kBenchTechniques : options.techniques});
         list.back().common.scene = scene;
     }
     if (options.scenes.empty() && options.techniques.empty()) {
-        list.push_back({options.common, {kFlatMirrorBenchTechnique}});
+        list.push_back({options.common, {kFlatTechnique}});
         list.back().common.scene = kFlatMirrorScene;
     }
     return list;
@@ -99,24 +99,23 @@ int choose_frame_count(const BenchArguments& options) {
 }
 
 void load_benchmark_scene(const CommonOptions& common) {
-    session::resolve_scene(common.scene, {.load = make_scene_file_options(common),
+    session::resolve_scene(common.scene, {.load = scene_file_options(common),
                                           .overrides = common.overrides,
                                           .use_scene_file = common.use_scene_file});
 }
 
 /// Adds the subjects to measure for one scene.
-void add_benchmark_subjects(session::Engine& engine, const BenchSceneSelection& asked,
-                            session::Request request, int iterations,
-                            std::vector<benchmark::BenchmarkSubject>& subjects) {
+void add_subjects(session::Engine& engine, const SceneSelection& asked, session::Request request,
+                  int iterations, std::vector<benchmark::Subject>& subjects) {
     const CommonOptions common = asked.common;
-    subjects.push_back(benchmark::make_benchmark_subject(
-        "load/" + request.scene.name, [common] { load_benchmark_scene(common); }));
-    subjects.push_back(benchmark::make_session_benchmark_subject(engine, request.scene));
-    subjects.push_back(benchmark::make_bvh_benchmark_subject(request.scene));
+    subjects.push_back(benchmark::make_subject("load/" + request.scene.name,
+                                               [common] { load_benchmark_scene(common); }));
+    subjects.push_back(benchmark::make_session_subject(engine, request.scene));
+    subjects.push_back(benchmark::make_bvh_subject(request.scene));
     const auto session = std::make_shared<session::Session>(engine, request.scene);
     for (const std::string& technique : asked.techniques) {
         request.techniques = {technique};
-        subjects.push_back(benchmark::make_frame_benchmark_subject(session, request, iterations));
+        subjects.push_back(benchmark::make_frame_subject(session, request, iterations));
     }
 }
 
@@ -124,56 +123,53 @@ void check_output_options(const BenchArguments& options,
                           const std::vector<std::filesystem::path>& inputs,
                           const std::string& read) {
     if (options.output.empty()) return;
-    check_file_can_be_made(options.output);
-    check_outputs_differ_from_inputs({kStdoutPath, options.output}, inputs, read);
+    check_output_file(options.output);
+    check_distinct({kStdoutPath, options.output}, inputs, read);
 }
 
 /// Writes the result to stdout, and also to a file if the user asks for one.
-void write_bench_result(const BenchArguments& options, const std::string& json,
-                        const std::string& table) {
+void write_result(const BenchArguments& options, const std::string& json,
+                  const std::string& table) {
     print_result(options.common.output_options.json ? json : table);
     if (options.output.empty()) return;
     write_file(options.output, json);
-    print_note_unless_quiet(options.common.output_options, "written: " + options.output);
+    print_note(options.common.output_options, "written: " + options.output);
 }
 
 int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
     const session::UsageMeter meter(session::UsageMeter::Threads::process);
-    check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
-    check_technique_list(options.techniques);
-    const std::vector<BenchSceneSelection> list = list_requested_scenes(options);
+    check(!options.common.both_models, Failure::usage, kOneModelMessage);
+    check_techniques(options.techniques);
+    const std::vector<SceneSelection> list = requested_scenes(options);
     std::vector<session::Request> requests;
     std::vector<std::filesystem::path> inputs;
-    for (const BenchSceneSelection& asked : list) {
-        requests.push_back(make_render_request_of_options(asked.common));
+    for (const SceneSelection& asked : list) {
+        requests.push_back(make_request(asked.common));
         const std::vector<std::filesystem::path>& files = requests.back().scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
     check_output_options(options, inputs, ", which the scene is read from");
-    session::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.output_options);
+    session::Engine engine(engine_options(options.common.device));
+    print_device(engine, options.common.output_options);
     const int iterations = choose_frame_count(options);
-    std::vector<benchmark::BenchmarkSubject> subjects;
+    std::vector<benchmark::Subject> subjects;
     for (std::size_t i = 0; i < list.size(); ++i)
-        add_benchmark_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
+        add_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
     ProgressPrinter progress(options.common.output_options);
     const measure::BenchmarkRun run = benchmark::run_benchmarks(
         subjects, meter,
-        {.iterations = iterations,
-         .rounds = options.rounds,
-         .watcher = make_progress_watcher(progress)},
+        {.iterations = iterations, .rounds = options.rounds, .watcher = make_watcher(progress)},
         session::make_device_facts(engine), options.command);
     progress.clear();
-    write_bench_result(options, report::to_json(run), make_bench_table(run));
+    write_result(options, report::to_json(run), bench_table(run));
     if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 
 /// Warns of circumstances other than the program, such as the device, that may cause different
 /// times.
-void warn_of_different_circumstances(const measure::BenchmarkRun& before,
-                                     const measure::BenchmarkRun& after) {
+void warn_of_differences(const measure::BenchmarkRun& before, const measure::BenchmarkRun& after) {
     if (before.device.name != after.device.name || before.device.driver != after.device.driver)
         print_warning("the devices differ: " + before.device.name + ", " + before.device.driver +
                       " and " + after.device.name + ", " + after.device.driver);
@@ -181,9 +177,9 @@ void warn_of_different_circumstances(const measure::BenchmarkRun& before,
         print_warning("others were at work beside what was measured; times are not to be trusted");
 }
 
-int report_benchmark_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
-                             const measure::BenchmarkRun& after) {
-    warn_of_different_circumstances(before, after);
+int report_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
+                   const measure::BenchmarkRun& after) {
+    warn_of_differences(before, after);
     const measure::BenchmarkChanges changes = measure::compare_runs(before, after);
     if (options.against.empty() &&
         std::ranges::any_of(changes.list, [](const measure::BenchmarkChange& change) {
@@ -193,8 +189,8 @@ int report_benchmark_changes(const BenchArguments& options, const measure::Bench
         print_warning(
             "the files hold times, not cycles: what the machine did otherwise when the second was "
             "measured is in the ratios; --against measures two programs in turn");
-    write_bench_result(options, report::to_json(changes), make_changes_table(changes));
-    const std::string slower = describe_slower_benchmarks(changes);
+    write_result(options, report::to_json(changes), changes_table(changes));
+    const std::string slower = describe_slower(changes);
     const std::string grown = describe_grown_work(changes);
     check(slower.empty() && grown.empty(), Failure::threshold,
           slower.empty() ? "" : "slower: ", slower, slower.empty() || grown.empty() ? "" : "; ",
@@ -202,7 +198,7 @@ int report_benchmark_changes(const BenchArguments& options, const measure::Bench
     return 0;
 }
 
-int compare_benchmark_files(const BenchArguments& options) {
+int compare_runs(const BenchArguments& options) {
     const std::vector<std::string>& files = options.before_and_after;
     check(files.size() == 2, Failure::usage, "--compare: wanted OLD and NEW, found ", files.size(),
           files.size() == 1 ? " file" : " files");
@@ -210,7 +206,7 @@ int compare_benchmark_files(const BenchArguments& options) {
     std::vector<measure::BenchmarkRun> runs;
     for (const std::string& file : files)
         runs.push_back(report::read_benchmarks(read_file(file), file));
-    return report_benchmark_changes(options, runs[0], runs[1]);
+    return report_changes(options, runs[0], runs[1]);
 }
 
 int run_against_program(const BenchArguments& options) {
@@ -221,22 +217,21 @@ int run_against_program(const BenchArguments& options) {
                                        options.rounds);
     const std::vector<std::string> words(options.command.begin() + 2, options.command.end());
     ProgressPrinter progress(options.common.output_options);
-    const std::array runs = bench_programs_in_turn({options.against, own},
-                                                   make_command_words_for_round(words, frames),
-                                                   options.rounds, make_progress_watcher(progress));
+    const std::array runs = bench_programs({options.against, own}, round_words(words, frames),
+                                           options.rounds, make_watcher(progress));
     progress.clear();
-    return report_benchmark_changes(options, runs[0], runs[1]);
+    return report_changes(options, runs[0], runs[1]);
 }
 
 int run_shader_tuning(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
           "--tune: wanted at most one SCENE and no --techniques, since ",
           benchmark::kTuningTechnique, " is what is measured");
-    check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
+    check(!options.common.both_models, Failure::usage, kOneModelMessage);
     CommonOptions common = options.common;
     if (!options.scenes.empty()) common.scene = options.scenes.front();
-    return run_device_tuning(common, std::min(options.rounds, choose_frame_count(options)),
-                             options.output);
+    return tune_device(common, std::min(options.rounds, choose_frame_count(options)),
+                       options.output);
 }
 
 int run_bench(const BenchArguments& options) {
@@ -258,7 +253,7 @@ int run_bench(const BenchArguments& options) {
                              .output = options.output,
                              .rounds = options.rounds});
     if (options.tunes) return run_shader_tuning(options);
-    return compares  ? compare_benchmark_files(options)
+    return compares  ? compare_runs(options)
            : in_turn ? run_against_program(options)
                      : run_measurement(options);
 }
@@ -268,7 +263,7 @@ int run_bench(const BenchArguments& options) {
 void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<BenchArguments>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_command_verb(
+    Verb& verb = program.add_verb(
         "bench", "measure times of frames and scenes; compare with another run or build");
     verb.examples(kBenchExamples);
     verb.arguments(
@@ -310,8 +305,8 @@ void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
     verb.option("--times", "FILE",
                 "with --costs: fit the costs of another device to its times in FILE",
                 options->times);
-    add_common_options_without_scene(verb, options->common);
-    verb.set_verb_action([options] { return run_bench(*options); });
+    add_sceneless_options(verb, options->common);
+    verb.action([options] { return run_bench(*options); });
 }
 
 } // namespace catoptric::cli

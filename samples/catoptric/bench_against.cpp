@@ -13,22 +13,22 @@ namespace catoptric::cli {
 
 namespace {
 
-struct BenchAgainstOption {
+struct AgainstOption {
     std::string_view name;
     bool has_value;
 };
 /// Options of `bench --against` that are not passed on to the rounds.
-constexpr std::array kOptionsOfBenchAgainst{
-    BenchAgainstOption{"--against", true}, BenchAgainstOption{"--rounds", true},
-    BenchAgainstOption{"--frames", true},  BenchAgainstOption{"--output", true},
-    BenchAgainstOption{"-o", true},        BenchAgainstOption{"--progress", true},
-    BenchAgainstOption{"--json", false},   BenchAgainstOption{"--quiet", false},
-    BenchAgainstOption{"-q", false},       BenchAgainstOption{"--verbose", false},
-    BenchAgainstOption{"-v", false}};
+constexpr std::array kAgainstOptions{
+    AgainstOption{"--against", true}, AgainstOption{"--rounds", true},
+    AgainstOption{"--frames", true},  AgainstOption{"--output", true},
+    AgainstOption{"-o", true},        AgainstOption{"--progress", true},
+    AgainstOption{"--json", false},   AgainstOption{"--quiet", false},
+    AgainstOption{"-q", false},       AgainstOption{"--verbose", false},
+    AgainstOption{"-v", false}};
 
 /// Returns how many words this option and its value take; 0 if the option is passed on.
 std::size_t count_option_words(const std::string& word) {
-    for (const BenchAgainstOption& own : kOptionsOfBenchAgainst) {
+    for (const AgainstOption& own : kAgainstOptions) {
         if (word == own.name) return own.has_value ? 2 : 1;
         const bool is_long = own.name.starts_with("--");
         // "--rounds=8", "-oFILE"
@@ -41,8 +41,7 @@ std::size_t count_option_words(const std::string& word) {
 
 } // namespace
 
-std::vector<std::string> make_command_words_for_round(const std::vector<std::string>& words,
-                                                      int frames) {
+std::vector<std::string> round_words(const std::vector<std::string>& words, int frames) {
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < words.size();) {
         const std::size_t taken = count_option_words(words[i]);
@@ -55,10 +54,9 @@ std::vector<std::string> make_command_words_for_round(const std::vector<std::str
     return kept;
 }
 
-std::array<measure::BenchmarkRun, 2>
-bench_programs_in_turn(const std::array<std::string, 2>& programs,
-                       const std::vector<std::string>& words, int rounds,
-                       const session::Watcher& watcher) {
+std::array<measure::BenchmarkRun, 2> bench_programs(const std::array<std::string, 2>& programs,
+                                                    const std::vector<std::string>& words,
+                                                    int rounds, const session::Watcher& watcher) {
     static const std::atomic<int> kNeverStop{0};
     std::array<measure::BenchmarkRun, 2> runs;
     for (int round = 0; round < rounds; ++round)
@@ -72,7 +70,7 @@ bench_programs_in_turn(const std::array<std::string, 2>& programs,
             std::vector<std::string> command{program, "bench"};
             command.insert(command.end(), words.begin(), words.end());
             const measure::BenchmarkRun found = report::read_benchmarks(
-                run_and_read_output(command, watcher.stop ? *watcher.stop : kNeverStop),
+                output_of(command, watcher.stop ? *watcher.stop : kNeverStop),
                 program + ": its stdout");
             runs[which] = round == 0 ? found : join_runs(runs[which], found);
             report_frame(watcher, 1, 1);

@@ -12,15 +12,13 @@ namespace catoptric::cli {
 /// Returns the command-line words for one round of one of the two programs. `words` are those after
 /// "bench" of a `bench --against` line. Words about output files and repetitions are removed, and
 /// "--json" and the number of frames are added.
-std::vector<std::string> make_command_words_for_round(const std::vector<std::string>& words,
-                                                      int frames);
+std::vector<std::string> round_words(const std::vector<std::string>& words, int frames);
 
 /// Runs `PROGRAM bench WORDS...` of both programs for this number of rounds, and returns the
 /// measurements of each over all rounds. The order of the two alternates between rounds. Throws as
-/// run_and_read_output and report::read_benchmarks do.
-std::array<measure::BenchmarkRun, 2>
-bench_programs_in_turn(const std::array<std::string, 2>& programs,
-                       const std::vector<std::string>& words, int rounds,
-                       const session::Watcher& watcher);
+/// output_of and report::read_benchmarks do.
+std::array<measure::BenchmarkRun, 2> bench_programs(const std::array<std::string, 2>& programs,
+                                                    const std::vector<std::string>& words,
+                                                    int rounds, const session::Watcher& watcher);
 
 } // namespace catoptric::cli

@@ -22,7 +22,7 @@ namespace {
 constexpr int kCostFitFrames = 12, kCostWarmupFrames = 14;
 
 /// Returns one request per scene.
-std::vector<session::Request> make_cost_requests(const CostsArguments& arguments) {
+std::vector<session::Request> cost_requests(const CostsArguments& arguments) {
     std::vector<std::string> scenes = arguments.scenes;
     if (scenes.empty())
         for (const scene::BuiltInScene& scene : scene::built_in_scenes())
@@ -31,7 +31,7 @@ std::vector<session::Request> make_cost_requests(const CostsArguments& arguments
     for (const std::string& scene : scenes) {
         CommonOptions common = arguments.common;
         common.scene = scene;
-        session::Request request = make_render_request_of_options(common, study::check_has_mirror);
+        session::Request request = make_request(common, study::check_has_mirror);
         request.frames = common.frames.value_or(kCostFitFrames);
         request.warmup = common.warmup.value_or(kCostWarmupFrames);
         request.techniques = arguments.techniques.empty() ? study::default_techniques(request)
@@ -41,10 +41,9 @@ std::vector<session::Request> make_cost_requests(const CostsArguments& arguments
     return requests;
 }
 
-measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments,
-                                              session::Engine& engine,
-                                              const std::vector<session::Request>& requests,
-                                              const session::Watcher& watcher) {
+measure::DeviceCosts fit_this_device(const CostsArguments& arguments, session::Engine& engine,
+                                     const std::vector<session::Request>& requests,
+                                     const session::Watcher& watcher) {
     std::vector<measure::TimedWork> samples;
     for (const session::Request& request : requests)
         for (measure::TimedWork& sample : benchmark::measure_cost_samples(
@@ -53,14 +52,13 @@ measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments,
             samples.push_back(std::move(sample));
     const measure::DeviceFacts device = session::make_device_facts(engine);
     return measure::fit_costs(device.name + ", " + device.driver, std::move(samples),
-                              benchmark::list_fitted_kinds());
+                              benchmark::fitted_kinds());
 }
 
 /// Fits unit costs of another device. The file gives the times of rows on that device, and the work
 /// of the rows is counted on this device.
-measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments,
-                                               session::Engine& engine, session::Request request,
-                                               const session::Watcher& watcher) {
+measure::DeviceCosts fit_other_device(const CostsArguments& arguments, session::Engine& engine,
+                                      session::Request request, const session::Watcher& watcher) {
     const report::OtherDeviceTimes times = report::read_times_file(arguments.times);
     request.techniques.clear();
     for (const report::OtherDeviceTimes::TimedRow& row : times.rows)
@@ -99,28 +97,28 @@ int run_cost_fit(const CostsArguments& arguments) {
     check(asked.times.empty() || asked.scenes.size() == 1, Failure::usage,
           "--times: wanted the one scene whose times were measured, found ", asked.scenes.size());
     if (!asked.times.empty()) report::read_times_file(asked.times); // refuses it before any work
-    std::vector<session::Request> requests = make_cost_requests(asked);
-    if (!asked.output.empty()) check_file_can_be_made(asked.output);
+    std::vector<session::Request> requests = cost_requests(asked);
+    if (!asked.output.empty()) check_output_file(asked.output);
     std::vector<std::filesystem::path> inputs;
     for (const session::Request& request : requests)
         inputs.insert(inputs.end(), request.scene.files.begin(), request.scene.files.end());
     if (!asked.times.empty()) inputs.emplace_back(asked.times);
-    if (!asked.output.empty()) check_outputs_differ_from_inputs({asked.output}, inputs);
-    session::Engine engine(make_engine_options(asked.common.device));
-    print_device_and_warnings(engine, asked.common.output_options);
+    if (!asked.output.empty()) check_distinct({asked.output}, inputs);
+    session::Engine engine(engine_options(asked.common.device));
+    print_device(engine, asked.common.output_options);
     ProgressPrinter progress(asked.common.output_options);
-    const session::Watcher watcher = make_progress_watcher(progress);
+    const session::Watcher watcher = make_watcher(progress);
     const session::WatchedWork watched(watcher);
-    const measure::DeviceCosts costs =
-        asked.times.empty()
-            ? fit_costs_of_this_device(asked, engine, requests, watcher)
-            : fit_costs_of_other_device(asked, engine, std::move(requests.front()), watcher);
+    const measure::DeviceCosts costs = asked.times.empty()
+                                           ? fit_this_device(asked, engine, requests, watcher)
+                                           : fit_other_device(asked, engine,
+                                                              std::move(requests.front()), watcher);
     progress.clear();
     const std::string json = report::to_json(costs);
     print_result(asked.common.output_options.json ? json : make_costs_text(costs));
     if (asked.output.empty()) return 0;
     write_file(asked.output, json);
-    print_note_unless_quiet(asked.common.output_options, "written: " + asked.output);
+    print_note(asked.common.output_options, "written: " + asked.output);
     return 0;
 }
 

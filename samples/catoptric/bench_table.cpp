@@ -20,16 +20,16 @@ using measure::CostKind;
 
 using BenchmarkTableCells = std::vector<std::vector<std::string>>;
 
-std::string format_benchmark_number(double value) { return fmt::format("{:.3f}", value); }
+std::string format_number(double value) { return fmt::format("{:.3f}", value); }
 
 /// Adds the median and its interval, in `unit`.
 void add_median_cells(std::vector<std::string>& cells, const std::vector<double>& values,
                       double unit = 1) {
-    cells.push_back(format_benchmark_number(measure::percentile(values, .5) / unit));
+    cells.push_back(format_number(measure::percentile(values, .5) / unit));
     cells.push_back(format_interval(measure::median_interval(values), unit));
 }
 
-std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, bool counted) {
+std::vector<std::string> benchmark_cells(const BenchmarkResult& benchmark, bool counted) {
     std::vector<std::string> cells{escape(benchmark.name)};
     add_median_cells(cells, round_costs(benchmark, CostKind::real_time));
     add_median_cells(cells, round_costs(benchmark, CostKind::cpu_time));
@@ -38,27 +38,27 @@ std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, 
     std::vector<double> instructions;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         instructions.push_back(round.instructions.value_or(0));
-    cells.push_back(format_benchmark_number(measure::percentile(instructions, .5) / 1e6));
+    cells.push_back(format_number(measure::percentile(instructions, .5) / 1e6));
     return cells;
 }
 
-bool is_cost_in_cycles_or_instructions(CostKind cost) {
+bool is_counted(CostKind cost) {
     return cost == CostKind::cycles || cost == CostKind::instructions;
 }
 
 /// Returns a cost as text, in millions of cycles or instructions, or in milliseconds.
 std::string format_cost(double cost, CostKind of) {
-    return format_benchmark_number(is_cost_in_cycles_or_instructions(of) ? cost / 1e6 : cost);
+    return format_number(is_counted(of) ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost (cycles, time) that a comparison of two measurements covers, as text.
-std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
+std::string cost_kinds(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const CostKind cost :
          {CostKind::cycles, CostKind::instructions, CostKind::cpu_time, CostKind::real_time})
         if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
             text += (text.empty() ? "" : " or ") + cost_kind_name(cost) +
-                    (is_cost_in_cycles_or_instructions(cost) ? " in user mode, millions" : ", ms");
+                    (is_counted(cost) ? " in user mode, millions" : ", ms");
     return text;
 }
 
@@ -92,7 +92,7 @@ std::string format_interval(const measure::Interval& interval, double unit) {
     return fmt::format("[{:.3f} - {:.3f}]", interval.low / unit, interval.high / unit);
 }
 
-std::string make_bench_table(const BenchmarkRun& run) {
+std::string bench_table(const BenchmarkRun& run) {
     const bool counted = run.uncounted.empty();
     BenchmarkTableCells cells{{"benchmark", "ms", "[95 %]", "cpu ms", "[95 %]"}};
     if (counted)
@@ -100,7 +100,7 @@ std::string make_bench_table(const BenchmarkRun& run) {
     std::size_t rounds = 0;
     for (const BenchmarkResult& benchmark : run.benchmarks) {
         rounds = std::max(rounds, benchmark.rounds.size());
-        cells.push_back(make_benchmark_cells(benchmark, counted));
+        cells.push_back(benchmark_cells(benchmark, counted));
     }
     const std::string caution =
         run.noisy.value_or(false)
@@ -115,19 +115,18 @@ std::string make_bench_table(const BenchmarkRun& run) {
            align_columns(cells);
 }
 
-std::string make_changes_table(const measure::BenchmarkChanges& changes) {
+std::string changes_table(const measure::BenchmarkChanges& changes) {
     BenchmarkTableCells cells{
         {"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
     for (const BenchmarkChange& change : changes.list)
         cells.push_back({escape(change.name), format_cost(change.medians[0], change.cost),
                          format_cost(change.medians[1], change.cost),
-                         format_benchmark_number(change.ratio.median),
-                         format_interval(change.ratio.ci95),
-                         format_benchmark_number(change.real_ratio.median),
+                         format_number(change.ratio.median), format_interval(change.ratio.ci95),
+                         format_number(change.real_ratio.median),
                          format_interval(change.real_ratio.ci95), outcome_name(change.outcome())});
     return (changes.list.empty()
                 ? "nothing is in both\n"
-                : "compared by " + list_cost_kinds(changes) + "\n" + align_columns(cells, 7)) +
+                : "compared by " + cost_kinds(changes) + "\n" + align_columns(cells, 7)) +
            format_count_changes(changes) + format_name_list("only before", changes.only_before) +
            format_name_list("only after", changes.only_after);
 }
@@ -142,7 +141,7 @@ std::string describe_grown_work(const measure::BenchmarkChanges& changes) {
     return text;
 }
 
-std::string describe_slower_benchmarks(const measure::BenchmarkChanges& changes) {
+std::string describe_slower(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const BenchmarkChange& change : changes.list)
         if (change.outcome() == BenchmarkChange::Outcome::slower)

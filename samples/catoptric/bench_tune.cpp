@@ -36,16 +36,16 @@ fs::path choose_profile_path(const std::string& output, const session::DeviceInf
         report::create_folder(folder); // fail before the measurement
         place = folder / session::profile_file_name(device);
     } else {
-        check_file_can_be_made(place);
+        check_output_file(place);
     }
-    check_outputs_differ_from_inputs({kStdoutPath, place}, inputs);
+    check_distinct({kStdoutPath, place}, inputs);
     return place;
 }
 
 } // namespace
 
-std::string make_tuning_table(const session::DeviceInfo& device,
-                              const std::vector<measure::VariantTrial>& tried) {
+std::string tuning_table(const session::DeviceInfo& device,
+                         const std::vector<measure::VariantTrial>& tried) {
     std::vector<std::vector<std::string>> cells{
         {"variant", "choice", "default", "ratio", "[95 %]", ""}};
     for (const measure::VariantTrial& one : tried) {
@@ -58,33 +58,31 @@ std::string make_tuning_table(const session::DeviceInfo& device,
            align_columns(cells, 5);
 }
 
-int run_device_tuning(const CommonOptions& common, int rounds, const std::string& output) {
+int tune_device(const CommonOptions& common, int rounds, const std::string& output) {
     study::check_round_limit(rounds);
     check(common.device.profile.empty(), Failure::usage,
           "--tune and --device-profile: wanted one of them, found both");
-    session::Request request = make_render_request_of_options(common);
+    session::Request request = make_request(common);
     request.techniques = {benchmark::kTuningTechnique};
-    session::EngineOptions opened = make_engine_options(common.device);
+    session::EngineOptions opened = engine_options(common.device);
     opened.profiles.clear(); // tuning starts from the defaults
     session::Engine engine(opened);
-    print_device_and_warnings(engine, common.output_options);
+    print_device(engine, common.output_options);
     const session::DeviceInfo& device = engine.device();
     const fs::path place = choose_profile_path(output, device, request.scene.files);
 
     ProgressPrinter progress(common.output_options);
-    const benchmark::TuningResult tuned = benchmark::tune_shader_variants(
+    const benchmark::TuningResult tuned = benchmark::tune_shaders(
         engine, request,
-        {.iterations = request.frames,
-         .rounds = rounds,
-         .watcher = make_progress_watcher(progress)});
+        {.iterations = request.frames, .rounds = rounds, .watcher = make_watcher(progress)});
     progress.clear();
     if (tuned.noisy)
         print_warning(
             "others were at work beside what was measured; what is taken may be their doing");
     const std::string text = session::profile_text(device, tuned.tried);
-    print_result(common.output_options.json ? text : make_tuning_table(device, tuned.tried));
+    print_result(common.output_options.json ? text : tuning_table(device, tuned.tried));
     write_file(place, text);
-    print_note_unless_quiet(common.output_options, "written: " + place.string());
+    print_note(common.output_options, "written: " + place.string());
     if (common.device.validate) engine.check_validation();
     return 0;
 }

@@ -23,7 +23,7 @@ constexpr std::uintmax_t kMaxPathFileBytes = 16U << 20U;
 constexpr const char* kViewsSchema = "catoptric/views/1";
 
 /// Throws `bad_data` if the camera stands at its target or looks along its up vector.
-void check_camera_has_direction(const scene::Camera& camera, const std::string& place) {
+void check_direction(const scene::Camera& camera, const std::string& place) {
     const dvec3 along = camera.target - camera.eye;
     const double sine = glm::length(glm::cross(along, camera.up)) /
                         (glm::length(along) * glm::length(camera.up));
@@ -33,7 +33,7 @@ void check_camera_has_direction(const scene::Camera& camera, const std::string& 
           fmt::format(" with the up axis {},{},{}", camera.up.x, camera.up.y, camera.up.z));
 }
 
-dvec3 read_json_point(const PathJson& point, const std::string& place) {
+dvec3 read_point(const PathJson& point, const std::string& place) {
     const bool is_point = point.is_array() && point.size() == 3 &&
                           std::ranges::all_of(point, &PathJson::is_number);
     check(is_point, Failure::bad_data, place, ": wanted a list of three numbers, found ",
@@ -54,15 +54,15 @@ scene::Camera read_view_camera(const PathJson& json, const std::string& place) {
           report::describe(json));
     const auto member = [&](const char* name) { return json.value(name, PathJson()); };
     scene::Camera camera;
-    camera.eye = read_json_point(member("eye"), place + ".eye");
-    camera.target = read_json_point(member("target"), place + ".target");
-    camera.up = read_json_point(member("up"), place + ".up");
+    camera.eye = read_point(member("eye"), place + ".eye");
+    camera.target = read_point(member("target"), place + ".target");
+    camera.up = read_point(member("up"), place + ".up");
     if (const PathJson height = member("orthographic_height"); !height.is_null())
         camera.orthographic_height = read_positive(height, 1e30, place + ".orthographic_height");
     else
         camera.vertical_fov_degrees = read_positive(member("vertical_fov_degrees"), 179,
                                                     place + ".vertical_fov_degrees");
-    check_camera_has_direction(camera, place);
+    check_direction(camera, place);
     return camera;
 }
 
@@ -168,7 +168,7 @@ void CameraPath::check_frames(int frames, const std::string& file) const {
         const double seconds = frame / kFramesPerSecond;
         std::ostringstream place;
         place << file << ": after " << seconds << " s";
-        check_camera_has_direction(camera_after(seconds), place.str());
+        check_direction(camera_after(seconds), place.str());
     }
 }
 
@@ -179,14 +179,13 @@ double FrameCameras::frame_count() const {
     return std::ceil(path_->duration() * kFramesPerSecond - 1e-6) + 1;
 }
 
-const CameraKey& FrameCameras::view_of_frame(int number) const {
+const CameraKey& FrameCameras::view_of(int number) const {
     const auto index = static_cast<std::size_t>(std::max(number, 1) - 1);
     return views_[std::min(index, views_.size() - 1)];
 }
 
-scene::Camera FrameCameras::camera_of_frame(int number) const {
-    return path_ ? path_->camera_after((number - 1) / kFramesPerSecond)
-                 : view_of_frame(number).camera;
+scene::Camera FrameCameras::camera_of(int number) const {
+    return path_ ? path_->camera_after((number - 1) / kFramesPerSecond) : view_of(number).camera;
 }
 
 void FrameCameras::check_frames(int last, const std::string& file) const {

@@ -54,15 +54,15 @@ public:
     /// Returns whether the file has an instant of the scene's motion for each frame.
     bool has_instants() const { return !path_; }
     /// Returns the camera of frame `number`.
-    scene::Camera camera_of_frame(int number) const;
+    scene::Camera camera_of(int number) const;
     /// Returns the instant of frame `number`, in seconds; only with `has_instants`.
-    double instant_of_frame(int number) const { return view_of_frame(number).seconds; }
+    double instant_of(int number) const { return view_of(number).seconds; }
     /// Checks frames 1 to `last`. Throws `bad_data`, with `file` as the place, if there are fewer
     /// views, and as CameraPath::check_frames does.
     void check_frames(int last, const std::string& file) const;
 
 private:
-    const CameraKey& view_of_frame(int number) const;
+    const CameraKey& view_of(int number) const;
 
     std::optional<CameraPath> path_;
     std::vector<CameraKey> views_; ///< instant and camera of each frame, if there is no path

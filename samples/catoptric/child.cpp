@@ -17,7 +17,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr int kStopCheckMilliseconds = 100; // milliseconds between two checks of `stop`
+constexpr int kStopCheckMs = 100; // milliseconds between two checks of `stop`
 
 std::string describe_errno(int error) { return std::generic_category().message(error); }
 
@@ -58,7 +58,7 @@ public:
         for (;;) {
             throw_if_stopped(watcher);
             pollfd ready{out_, POLLIN, 0};
-            if (::poll(&ready, 1, kStopCheckMilliseconds) <= 0) continue;
+            if (::poll(&ready, 1, kStopCheckMs) <= 0) continue;
             std::array<char, 1 << 16> block{};
             const ssize_t count = ::read(out_, block.data(), block.size());
             if (count < 0 && errno == EINTR) continue;
@@ -68,7 +68,7 @@ public:
             text.append(block.data(), static_cast<std::size_t>(count));
         }
     }
-    void check_exit_code_of_child() {
+    void check_exit() {
         const int status = wait_for_exit();
         if (WIFSIGNALED(status))
             fail(Failure::bad_data, name_, ": wanted exit code 0, found signal ", WTERMSIG(status));
@@ -92,13 +92,12 @@ private:
 
 } // namespace
 
-std::string run_and_read_output(const std::vector<std::string>& command,
-                                const std::atomic<int>& stop) {
+std::string output_of(const std::vector<std::string>& command, const std::atomic<int>& stop) {
     ChildProcess child(command);
     session::Watcher watcher;
     watcher.stop = &stop;
     std::string text = child.read_output(watcher);
-    child.check_exit_code_of_child();
+    child.check_exit();
     return text;
 }
 

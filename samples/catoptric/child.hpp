@@ -10,7 +10,6 @@ namespace catoptric::cli {
 /// set, it is ended by SIGTERM, and the function throws as session::throw_if_stopped does.
 /// Throws `missing_input` if the program cannot be started, and `bad_data` for an exit code other
 /// than 0.
-std::string run_and_read_output(const std::vector<std::string>& command,
-                                const std::atomic<int>& stop);
+std::string output_of(const std::vector<std::string>& command, const std::atomic<int>& stop);
 
 } // namespace catoptric::cli

@@ -72,7 +72,7 @@ void read_error_limit(const std::string& text, study::ChooseRequest& limits) {
 }
 
 /// Returns the certificate in a file of a plan; an empty object if the file has none.
-nlohmann::json read_certificate_of_plan(const std::string& file) {
+nlohmann::json read_certificate(const std::string& file) {
     const auto document = parse_json<nlohmann::json>(file, read_file(file));
     nlohmann::json certificate;
     if (document.is_object()) certificate = document.value("certificate", nlohmann::json());
@@ -83,7 +83,7 @@ nlohmann::json read_certificate_of_plan(const std::string& file) {
 /// where the options give none.
 void read_certificate(const ChooseOptions& options, study::ChooseRequest& request) {
     const std::string& file = options.certified;
-    const nlohmann::json certificate = read_certificate_of_plan(file);
+    const nlohmann::json certificate = read_certificate(file);
     const auto number = [&](const char* name, double low, double high) -> std::optional<double> {
         const nlohmann::json value = certificate.value(name, nlohmann::json());
         if (value.is_null()) return std::nullopt;
@@ -144,8 +144,7 @@ void read_certificate(const ChooseOptions& options, study::ChooseRequest& reques
           Failure::usage, file, ": its limit of time is for another device; wanted --costs of it");
 }
 
-std::string make_candidate_table(const study::ChooseRequest& request,
-                                 const study::PlanChoice& choice) {
+std::string candidate_table(const study::ChooseRequest& request, const study::PlanChoice& choice) {
     std::vector<std::vector<std::string>> rows{
         {"candidate", request.costs.empty() ? "ms [95 %]" : "ms [range]",
          fmt::format("largest {}", study::quantity_name(request.quantity)), "views", "result"}};
@@ -159,7 +158,7 @@ std::string make_candidate_table(const study::ChooseRequest& request,
 
 /// Returns the table of candidates, a line for each proof, and the choice or the nearest plan.
 std::string describe_choice(const study::ChooseRequest& request, const study::PlanChoice& choice) {
-    std::string text = make_candidate_table(request, choice);
+    std::string text = candidate_table(request, choice);
     for (const study::PlanProof& proof : choice.proofs)
         text += study::describe_verdict(request, proof) + ": " +
                 study::describe_proof(request, proof) + "\n";
@@ -168,10 +167,9 @@ std::string describe_choice(const study::ChooseRequest& request, const study::Pl
            study::describe_nearest_proof(request, choice.proofs.at(choice.nearest.value())) + "\n";
 }
 
-study::ChooseRequest make_choose_request_from_options(const ChooseOptions& options,
-                                                      ProgressPrinter& progress) {
+study::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPrinter& progress) {
     study::ChooseRequest request = options.limits;
-    request.base = make_render_request_of_options(options.common, study::check_has_mirror);
+    request.base = make_request(options.common, study::check_has_mirror);
     request.base.techniques = options.techniques;
     request.reference = study::choose_reference(options.common.reference, request.base.scene,
                                                 study::ReferencePixelKind::centre);
@@ -180,19 +178,20 @@ study::ChooseRequest make_choose_request_from_options(const ChooseOptions& optio
         read_certificate(options, request);
     }
     if (!request.costs.empty()) report::read_costs_file(request.costs); // before any work
-    request.watcher = make_progress_watcher(progress);
+    request.watcher = make_watcher(progress);
     request.tell = [&progress, &options](const std::string& step) {
         progress.clear();
-        print_note_unless_quiet(options.common.output_options, step);
+        print_note(options.common.output_options, step);
     };
     return request;
 }
 
 /// Measures how far the reference is from path tracing, in a session of its own. Called before the
 /// choice, so that a signal meanwhile loses no chosen plan.
-std::optional<measure::PathDistance>
-measure_distance_of_reference(const ChooseOptions& options, const study::ChooseRequest& request,
-                              session::Engine& engine, ProgressPrinter& progress) {
+std::optional<measure::PathDistance> measure_distance(const ChooseOptions& options,
+                                                      const study::ChooseRequest& request,
+                                                      session::Engine& engine,
+                                                      ProgressPrinter& progress) {
     session::Request base = request.base;
     session::Session session(engine, base.scene);
     session::resolve_exposure(session, base);
@@ -213,14 +212,14 @@ void add_path_distance(report::Json& document,
     if (distance) document["path_distance"] = report::path_distance_json(*distance);
 }
 
-std::string make_path_distance_line(const std::optional<measure::PathDistance>& distance) {
+std::string distance_line(const std::optional<measure::PathDistance>& distance) {
     return distance ? report::describe_path_distance(*distance, {}) + "\n" : "";
 }
 
-int certify_plan_and_print_result(const ChooseOptions& options, const study::ChooseRequest& request,
-                                  session::Engine& engine, ProgressPrinter& progress) {
+int certify_plan(const ChooseOptions& options, const study::ChooseRequest& request,
+                 session::Engine& engine, ProgressPrinter& progress) {
     const std::string plan = "plan:" + options.certified;
-    const auto distance = measure_distance_of_reference(options, request, engine, progress);
+    const auto distance = measure_distance(options, request, engine, progress);
     const study::PlanProof proof = study::prove_plan(engine, request, plan);
     progress.clear();
     report::Json document = study::proved_plan_json(request, plan, proof, options.common.scene);
@@ -232,49 +231,45 @@ int certify_plan_and_print_result(const ChooseOptions& options, const study::Cho
     print_result(options.common.output_options.json
                      ? report::serialise(document)
                      : study::describe_verdict(request, proof) + ": " +
-                           study::describe_proof(request, proof) + "\n" +
-                           make_path_distance_line(distance));
+                           study::describe_proof(request, proof) + "\n" + distance_line(distance));
     return proof.may_hold() ? 0 : 1;
 }
 
 /// Throws `usage` if the file of the chosen plan would replace a file that the program reads.
 void check_output_place(const ChooseOptions& options, const study::ChooseRequest& request) {
-    check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
+    check_distinct({options.output}, request.base.scene.files);
     std::vector<std::filesystem::path> read;
     for (const std::string& file : {options.certified, request.costs})
         if (!file.empty()) read.emplace_back(file);
     for (const std::string& text : options.techniques)
         if (text.starts_with("plan:")) read.emplace_back(text.substr(5));
-    check_outputs_differ_from_inputs({options.output}, read, ", which is read");
+    check_distinct({options.output}, read, ", which is read");
 }
 
 int run_choose(const ChooseOptions& options) {
     scene::check_exists(options.common.scene);
-    if (!options.certified.empty()) read_certificate_of_plan(options.certified);
+    if (!options.certified.empty()) read_certificate(options.certified);
     if (!options.limits.costs.empty()) report::read_costs_file(options.limits.costs);
     check(options.certified.empty() || options.techniques.empty(), Failure::usage,
           "--certify: wanted no --techniques beside it");
     if (options.certified.empty()) {
-        throw_unless_option_given(options.limits.max_error || options.limits.max_ms, "choose",
-                                  "--max-flip, --max-rmse or --max-ms", "the limit to keep");
-        throw_unless_option_given(!options.output.empty(), "choose", "-o PLAN.json",
-                                  "the file for the plan");
-        check_technique_list(options.techniques);
+        require_option(options.limits.max_error || options.limits.max_ms, "choose",
+                       "--max-flip, --max-rmse or --max-ms", "the limit to keep");
+        require_option(!options.output.empty(), "choose", "-o PLAN.json", "the file for the plan");
+        check_techniques(options.techniques);
     }
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     check(options.common.reference_file.empty(), Failure::usage,
           "--reference: wanted a technique, found a file");
-    if (!options.output.empty()) check_file_can_be_made(options.output);
-    ProgressPrinter progress(options.common.output_options,
-                             ProgressPrinter::ProgressOffTerminal::tenths);
-    const study::ChooseRequest request = make_choose_request_from_options(options, progress);
+    if (!options.output.empty()) check_output_file(options.output);
+    ProgressPrinter progress(options.common.output_options, ProgressPrinter::OffTerminal::tenths);
+    const study::ChooseRequest request = make_choose_request(options, progress);
     if (!options.output.empty()) check_output_place(options, request);
-    session::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.output_options);
-    if (!options.certified.empty())
-        return certify_plan_and_print_result(options, request, engine, progress);
-    const auto distance = measure_distance_of_reference(options, request, engine, progress);
+    session::Engine engine(engine_options(options.common.device));
+    print_device(engine, options.common.output_options);
+    if (!options.certified.empty()) return certify_plan(options, request, engine, progress);
+    const auto distance = measure_distance(options, request, engine, progress);
     const study::PlanChoice choice = study::choose_plan(engine, request);
     progress.clear();
     report::Json document = study::choice_json(request, choice, options.common.scene);
@@ -283,15 +278,14 @@ int run_choose(const ChooseOptions& options) {
     write_file(options.output, report::serialise(document));
     print_result(options.common.output_options.json
                      ? report::serialise(document)
-                     : describe_choice(request, choice) + make_path_distance_line(distance));
-    print_note_unless_quiet(options.common.output_options,
-                            (choice.chosen ? "written: " : "written, the nearest plan: ") +
-                                options.output);
+                     : describe_choice(request, choice) + distance_line(distance));
+    print_note(options.common.output_options,
+               (choice.chosen ? "written: " : "written, the nearest plan: ") + options.output);
     if (options.common.device.validate) engine.check_validation();
     return choice.chosen ? 0 : 1;
 }
 
-void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
+void add_limit_options(Verb& verb, ChooseOptions& options) {
     study::ChooseRequest& limits = options.limits;
     const auto add_limit = [&](const char* option, const char* value, const char* help,
                                study::ErrorQuantity quantity) {
@@ -340,7 +334,7 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
         options.limits.costs);
 }
 
-void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
+void add_count_options(Verb& verb, ChooseOptions& options) {
     study::ChooseRequest& limits = options.limits;
     verb.option("--cameras-per-instant", "M",
                 "neighbouring training views of one instant, which share captures (3)",
@@ -378,11 +372,11 @@ void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
 void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<ChooseOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_command_verb(
+    Verb& verb = program.add_verb(
         "choose", "choose the cheapest plan within a limit of error or time, with a certificate");
     verb.examples(kChooseExamples);
     verb.argument("SCENE", "built-in scene or .glb, .gltf or .obj file (cornell-mirrors)",
-                  options->common.scene, CommandVerb::VerbArgumentNeed::optional);
+                  options->common.scene, Verb::Need::optional);
     verb.option("-o,--output", "FILE", "file for the plan; required without --certify",
                 options->output);
     verb.option("--techniques", "T", "candidates, as of compare (a built-in list)",
@@ -393,9 +387,9 @@ void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
         "exposure and reference",
         options->certified);
     add_limit_options(verb, *options);
-    add_view_count_options(verb, *options);
-    add_common_options_without_scene(verb, options->common);
-    verb.set_verb_action([options] { return run_choose(*options); });
+    add_count_options(verb, *options);
+    add_sceneless_options(verb, options->common);
+    verb.action([options] { return run_choose(*options); });
 }
 
 } // namespace catoptric::cli

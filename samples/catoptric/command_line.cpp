@@ -18,19 +18,19 @@ namespace catoptric::cli {
 namespace {
 
 constexpr const char* kHelpVerb = "help";
-constexpr std::size_t kHelpTextColumns = 80;
-constexpr std::size_t kHelpDescriptionColumn = 28; ///< column of the descriptions of options
-constexpr std::ptrdiff_t kHelpLines = 80;          ///< a longer help names less common options only
+constexpr std::size_t kHelpWidth = 80;
+constexpr std::size_t kHelpColumn = 28;   ///< column of the descriptions of options
+constexpr std::ptrdiff_t kHelpLines = 80; ///< a longer help names less common options only
 
-/// Returns `text` in lines of at most kHelpTextColumns columns. The first line starts in column
+/// Returns `text` in lines of at most kHelpWidth columns. The first line starts in column
 /// `indent`; the others are indented to it.
-std::string wrap_help_text(const std::string& text, std::size_t indent) {
+std::string wrap_text(const std::string& text, std::size_t indent) {
     std::istringstream words(text);
     std::string lines, word;
     std::size_t column = indent;
     while (words >> word) {
         const bool is_first = column == indent;
-        if (!is_first && column + 1 + word.size() > kHelpTextColumns) {
+        if (!is_first && column + 1 + word.size() > kHelpWidth) {
             lines += "\n" + std::string(indent, ' ');
             column = indent;
         } else if (!is_first) {
@@ -44,22 +44,22 @@ std::string wrap_help_text(const std::string& text, std::size_t indent) {
 }
 
 /// Returns `left` with `help` beside it, or below it if `left` is too wide.
-std::string format_help_entry(const std::string& left, const std::string& help) {
+std::string format_entry(const std::string& left, const std::string& help) {
     const std::string start = "  " + left;
-    const bool fits = start.size() + 2 <= kHelpDescriptionColumn;
+    const bool fits = start.size() + 2 <= kHelpColumn;
     return start +
-           (fits ? std::string(kHelpDescriptionColumn - start.size(), ' ')
-                 : "\n" + std::string(kHelpDescriptionColumn, ' ')) +
-           wrap_help_text(help, kHelpDescriptionColumn) + "\n";
+           (fits ? std::string(kHelpColumn - start.size(), ' ')
+                 : "\n" + std::string(kHelpColumn, ' ')) +
+           wrap_text(help, kHelpColumn) + "\n";
 }
 
-/// Returns the text with each paragraph in lines of kHelpTextColumns columns. Lines that begin with
+/// Returns the text with each paragraph in lines of kHelpWidth columns. Lines that begin with
 /// a blank, and the heading above them, stay as they are.
 std::string wrap_paragraphs(const std::string& text) {
     std::istringstream lines(text);
     std::string result, line, prose;
     const auto end_paragraph = [&] {
-        if (!prose.empty()) result += wrap_help_text(std::exchange(prose, {}), 0) + "\n";
+        if (!prose.empty()) result += wrap_text(std::exchange(prose, {}), 0) + "\n";
     };
     while (std::getline(lines, line)) {
         if (!line.empty() && line.front() != ' ' && !line.ends_with(':')) {
@@ -74,19 +74,18 @@ std::string wrap_paragraphs(const std::string& text) {
 }
 
 /// Returns the help without repeated empty lines.
-std::string remove_repeated_empty_lines(std::string text) {
+std::string merge_empty_lines(std::string text) {
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;
 }
 
-/// Formats the help of CLI11 in kHelpTextColumns columns. A help of more than kHelpLines lines
+/// Formats the help of CLI11 in kHelpWidth columns. A help of more than kHelpLines lines
 /// describes the common options, and only names the others; --help-all describes all.
 class HelpFormatter : public CLI::Formatter {
 public:
     std::string make_help(const CLI::App* app, std::string name,
                           CLI::AppFormatMode mode) const override {
-        const std::string whole = remove_repeated_empty_lines(
-            CLI::Formatter::make_help(app, name, mode));
+        const std::string whole = merge_empty_lines(CLI::Formatter::make_help(app, name, mode));
         if (mode != CLI::AppFormatMode::Normal || std::ranges::count(whole, '\n') <= kHelpLines)
             return whole;
         std::string text = make_description(app) + make_usage(app, std::move(name)) +
@@ -98,16 +97,16 @@ public:
             std::string names;
             for (const CLI::Option* option : list_options(app, group))
                 names += (names.empty() ? "" : " ") + option->get_name();
-            if (!names.empty()) text += format_help_entry(group, names);
+            if (!names.empty()) text += format_entry(group, names);
         }
         return text + make_footer(app);
     }
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
-        return format_help_entry(make_option_name(option, is_positional) + make_option_opts(option),
-                                 make_option_desc(option));
+        return format_entry(make_option_name(option, is_positional) + make_option_opts(option),
+                            make_option_desc(option));
     }
     std::string make_subcommand(const CLI::App* verb) const override {
-        return format_help_entry(verb->get_name(), verb->get_description());
+        return format_entry(verb->get_name(), verb->get_description());
     }
     std::string make_footer(const CLI::App* app) const override {
         return app->get_footer().empty() ? "" : "\n" + wrap_paragraphs(app->get_footer());
@@ -142,7 +141,7 @@ void refuse_unknown_words(const CLI::App& verb, const std::string& program) {
 
 /// Returns the option of `app` or of the parsed verb with the longest name that the parser's
 /// message contains; null: none.
-const CLI::Option* find_option_in_message(const CLI::App& app, const std::string& words) {
+const CLI::Option* find_named_option(const CLI::App& app, const std::string& words) {
     const CLI::Option* longest = nullptr;
     std::vector<const CLI::App*> apps{&app};
     for (const CLI::App* verb : app.get_subcommands()) apps.push_back(verb);
@@ -157,7 +156,7 @@ const CLI::Option* find_option_in_message(const CLI::App& app, const std::string
 
 /// Returns the error message for an error of the parser CLI11, in the wording of this program.
 std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::Option* option = find_option_in_message(app, error.what());
+    const CLI::Option* option = find_named_option(app, error.what());
     if (option == nullptr) return "wanted one verb with options and arguments of its own";
     const std::string name = option->get_name(), type = option->get_type_name();
     const auto found = [&] { return ", found '" + join_with_commas(option->results()) + "'"; };
@@ -173,103 +172,100 @@ std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& err
 
 } // namespace
 
-void CommandVerb::examples(const std::string& text) { verb_parser_.footer(text); }
+void Verb::examples(const std::string& text) { parser_.footer(text); }
 
-void CommandVerb::heading(const std::string& text) { verb_parser_.option_defaults()->group(text); }
+void Verb::heading(const std::string& text) { parser_.option_defaults()->group(text); }
 
-void CommandVerb::argument(const std::string& name, const std::string& help, std::string& value,
-                           VerbArgumentNeed need) {
-    verb_parser_.add_option(name, value, help)
-        ->type_name("")
-        ->required(need == VerbArgumentNeed::required);
+void Verb::argument(const std::string& name, const std::string& help, std::string& value,
+                    Need need) {
+    parser_.add_option(name, value, help)->type_name("")->required(need == Need::required);
 }
 
-void CommandVerb::arguments(const std::string& name, const std::string& help,
-                            std::vector<std::string>& values) {
-    verb_parser_.add_option(name, values, help)->type_name("");
+void Verb::arguments(const std::string& name, const std::string& help,
+                     std::vector<std::string>& values) {
+    parser_.add_option(name, values, help)->type_name("");
 }
 
-void CommandVerb::flag(const std::string& names, const std::string& help, bool& value) {
-    verb_parser_.add_flag(names, value, help);
+void Verb::flag(const std::string& names, const std::string& help, bool& value) {
+    parser_.add_flag(names, value, help);
 }
 
-void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
-                         std::string& value) {
-    verb_parser_.add_option(names, value, help)->type_name(type);
+void Verb::option(const std::string& names, const std::string& type, const std::string& help,
+                  std::string& value) {
+    parser_.add_option(names, value, help)->type_name(type);
 }
 
-void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
-                         std::vector<std::string>& values) {
-    verb_parser_.add_option(names, values, help)->type_name(type);
+void Verb::option(const std::string& names, const std::string& type, const std::string& help,
+                  std::vector<std::string>& values) {
+    parser_.add_option(names, values, help)->type_name(type);
 }
 
-void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
-                         const OptionValueCallback& take) {
-    verb_parser_.add_option_function<std::string>(names, take, help)->type_name(type);
+void Verb::option(const std::string& names, const std::string& type, const std::string& help,
+                  const ValueCallback& take) {
+    parser_.add_option_function<std::string>(names, take, help)->type_name(type);
 }
 
-void CommandVerb::repeated(const std::string& names, const std::string& type,
-                           const std::string& help, const OptionValueCallback& take) {
+void Verb::repeated(const std::string& names, const std::string& type, const std::string& help,
+                    const ValueCallback& take) {
     const auto take_all = [take](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) take(text);
     };
-    verb_parser_.add_option_function<std::vector<std::string>>(names, take_all, help)
+    parser_.add_option_function<std::vector<std::string>>(names, take_all, help)
         ->type_name(type)
         ->allow_extra_args(false);
 }
 
-void CommandVerb::option_without_value(const std::string& names, const std::string& help,
-                                       const std::function<void()>& take) {
-    verb_parser_.add_flag_callback(names, take, help);
+void Verb::flag(const std::string& names, const std::string& help,
+                const std::function<void()>& take) {
+    parser_.add_flag_callback(names, take, help);
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          const std::string& version, const std::string& examples)
-    : command_line_parser_(std::make_unique<CLI::App>(summary, name)) {
-    command_line_parser_->formatter(std::make_shared<HelpFormatter>());
-    command_line_parser_->option_defaults()->group(kCommonOptions);
-    command_line_parser_->require_subcommand(1);
-    command_line_parser_->footer(examples);
-    command_line_parser_->set_version_flag("-V,--version", version);
-    command_line_parser_->set_help_flag("-h,--help", "print this help");
-    command_line_parser_->get_formatter()->label("SUBCOMMAND", "VERB");
+    : parser_(std::make_unique<CLI::App>(summary, name)) {
+    parser_->formatter(std::make_shared<HelpFormatter>());
+    parser_->option_defaults()->group(kCommonOptions);
+    parser_->require_subcommand(1);
+    parser_->footer(examples);
+    parser_->set_version_flag("-V,--version", version);
+    parser_->set_help_flag("-h,--help", "print this help");
+    parser_->get_formatter()->label("SUBCOMMAND", "VERB");
 }
 
 CommandLine::~CommandLine() = default;
 
-CommandVerb& CommandLine::add_command_verb(const std::string& name, const std::string& summary) {
-    CLI::App* app = command_line_parser_->add_subcommand(name, summary);
+Verb& CommandLine::add_verb(const std::string& name, const std::string& summary) {
+    CLI::App* app = parser_->add_subcommand(name, summary);
     app->group("Verbs");
     app->set_help_flag("-h,--help", "print this help");
     app->set_help_all_flag("--help-all", "describe all options");
     app->allow_extras(); // refuse_unknown_words has the better message
-    return *verbs_.emplace_back(std::make_unique<CommandVerb>(*app));
+    return *verbs_.emplace_back(std::make_unique<Verb>(*app));
 }
 
-CommandVerb& CommandLine::only_command_verb() {
-    command_line_parser_->require_subcommand(0);
-    command_line_parser_->set_help_all_flag("--help-all", "describe all options");
-    command_line_parser_->allow_extras();
+Verb& CommandLine::only_verb() {
+    parser_->require_subcommand(0);
+    parser_->set_help_all_flag("--help-all", "describe all options");
+    parser_->allow_extras();
     is_whole_ = true;
-    return *verbs_.emplace_back(std::make_unique<CommandVerb>(*command_line_parser_));
+    return *verbs_.emplace_back(std::make_unique<Verb>(*parser_));
 }
 
 /// Replaces "help" by "--help", and "help VERB" by "VERB --help".
-std::vector<std::string>
-CommandLine::replace_help_verb_by_option(std::vector<std::string> words) const {
+std::vector<std::string> CommandLine::help_as_option(std::vector<std::string> words) const {
     if (is_whole_ || words.front() != kHelpVerb) return words;
     check(words.size() <= 2, Failure::usage, "'help' wanted at most one verb, found '",
           words.size() > 2 ? words[2] : "", "'");
     words.erase(words.begin());
-    if (!words.empty()) check_command_verb_is_known(words.front());
+    if (!words.empty()) check_verb(words.front());
     words.emplace_back("--help");
     return words;
 }
 
 /// Throws `usage` unless the first word is a verb or asks for help or the version.
-void CommandLine::check_command_verb_is_known(const std::string& word) const {
+void CommandLine::check_verb(const std::string& word) const {
     std::vector<std::string> names;
-    for (const CLI::App* verb : command_line_parser_->get_subcommands(nullptr))
+    for (const CLI::App* verb : parser_->get_subcommands(nullptr))
         names.push_back(verb->get_name());
     names.emplace_back(kHelpVerb);
     const std::vector<std::string> flags{"-h", "--help", "-V", "--version"};
@@ -279,9 +275,9 @@ void CommandLine::check_command_verb_is_known(const std::string& word) const {
          suggest_name(word, word.starts_with('-') ? flags : names));
 }
 
-std::vector<CompletionVerb> CommandLine::list_completion_verbs() const {
+std::vector<CompletionVerb> CommandLine::completion_verbs() const {
     std::vector<CompletionVerb> verbs;
-    for (const CLI::App* app : command_line_parser_->get_subcommands(nullptr)) {
+    for (const CLI::App* app : parser_->get_subcommands(nullptr)) {
         CompletionVerb verb{app->get_name(), app->get_description(), {}};
         for (const CLI::Option* option : app->get_options()) {
             const std::vector<std::string>&longs = option->get_lnames(),
@@ -300,28 +296,26 @@ std::vector<CompletionVerb> CommandLine::list_completion_verbs() const {
 
 std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     if (words.empty() && !is_whole_) {
-        std::cerr << remove_repeated_empty_lines(command_line_parser_->help()) << std::flush;
+        std::cerr << merge_empty_lines(parser_->help()) << std::flush;
         return [] { return static_cast<int>(Failure::usage); };
     }
-    words = replace_help_verb_by_option(std::move(words));
-    const std::string program = is_whole_ ? command_line_parser_->get_name()
-                                          : command_line_parser_->get_name() + " " + words.front();
-    if (!is_whole_) check_command_verb_is_known(words.front());
+    words = help_as_option(std::move(words));
+    const std::string program = is_whole_ ? parser_->get_name()
+                                          : parser_->get_name() + " " + words.front();
+    if (!is_whole_) check_verb(words.front());
     std::ranges::reverse(words); // CLI11 takes a vector in reverse order
     try {
-        command_line_parser_->parse(words);
+        parser_->parse(words);
     } catch (const CLI::ParseError& error) {
         std::ostringstream text, ignored;
-        if (command_line_parser_->exit(error, text, ignored) ==
-            0) // the user asked for help or version
-            return
-                [text = remove_repeated_empty_lines(text.str())] { return print_result(text), 0; };
-        fail(Failure::usage, describe_parse_error(*command_line_parser_, error), " (try '", program,
+        if (parser_->exit(error, text, ignored) == 0) // the user asked for help or version
+            return [text = merge_empty_lines(text.str())] { return print_result(text), 0; };
+        fail(Failure::usage, describe_parse_error(*parser_, error), " (try '", program,
              " --help')");
     }
     const auto verb = std::ranges::find_if(
-        verbs_, [](const std::unique_ptr<CommandVerb>& one) { return one->verb_parser_.parsed(); });
-    refuse_unknown_words((*verb)->verb_parser_, program);
+        verbs_, [](const std::unique_ptr<Verb>& one) { return one->parser_.parsed(); });
+    refuse_unknown_words((*verb)->parser_, program);
     return (*verb)->run_;
 }
 

@@ -15,11 +15,11 @@ namespace catoptric::cli {
 
 /// A verb with its options, arguments and action. Parsing fills the variables of the options, so
 /// these must outlive the verb.
-class CommandVerb {
+class Verb {
 public:
-    using OptionValueCallback = std::function<void(const std::string&)>;
+    using ValueCallback = std::function<void(const std::string&)>;
 
-    explicit CommandVerb(CLI::App& app) : verb_parser_(app) {}
+    explicit Verb(CLI::App& app) : parser_(app) {}
 
     /// Sets the examples that follow the help.
     void examples(const std::string& text);
@@ -27,9 +27,8 @@ public:
     /// order of their first use, kCommonOptions first.
     void heading(const std::string& text);
 
-    enum class VerbArgumentNeed : std::uint8_t { optional, required };
-    void argument(const std::string& name, const std::string& help, std::string& value,
-                  VerbArgumentNeed need);
+    enum class Need : std::uint8_t { optional, required };
+    void argument(const std::string& name, const std::string& help, std::string& value, Need need);
     /// Adds an argument of any number of words.
     void arguments(const std::string& name, const std::string& help,
                    std::vector<std::string>& values);
@@ -43,19 +42,18 @@ public:
     /// Adds an option whose text is passed to `take` during parsing. `CommandLine::parse` passes
     /// exceptions of `take` on.
     void option(const std::string& names, const std::string& type, const std::string& help,
-                const OptionValueCallback& take);
+                const ValueCallback& take);
     /// Adds an option that may be given several times. Each use calls `take`.
     void repeated(const std::string& names, const std::string& type, const std::string& help,
-                  const OptionValueCallback& take);
-    void option_without_value(const std::string& names, const std::string& help,
-                              const std::function<void()>& take);
+                  const ValueCallback& take);
+    void flag(const std::string& names, const std::string& help, const std::function<void()>& take);
 
     /// Sets the action that is called after the whole line is parsed. It returns the exit code.
-    void set_verb_action(std::function<int()> run) { run_ = std::move(run); }
+    void action(std::function<int()> run) { run_ = std::move(run); }
 
 private:
     friend class CommandLine;
-    CLI::App& verb_parser_;
+    CLI::App& parser_;
     std::function<int()> run_;
 };
 
@@ -86,10 +84,10 @@ public:
     CommandLine& operator=(const CommandLine&) = delete;
 
     /// Adds a verb, which lives as long as this object.
-    CommandVerb& add_command_verb(const std::string& name, const std::string& summary);
+    Verb& add_verb(const std::string& name, const std::string& summary);
     /// Returns a single verb in place of a list of verbs. It takes all words as options and
     /// arguments.
-    CommandVerb& only_command_verb();
+    Verb& only_verb();
 
     /// Parses the words after the program's name and returns the function to call. The function
     /// runs a verb, or prints help ("help", "help VERB", "--help") or the version. Without words,
@@ -98,14 +96,14 @@ public:
     std::function<int()> parse(std::vector<std::string> words);
 
     /// Returns all verbs added so far with their options, in the order of the help.
-    std::vector<CompletionVerb> list_completion_verbs() const;
+    std::vector<CompletionVerb> completion_verbs() const;
 
 private:
-    void check_command_verb_is_known(const std::string& word) const;
-    std::vector<std::string> replace_help_verb_by_option(std::vector<std::string> words) const;
+    void check_verb(const std::string& word) const;
+    std::vector<std::string> help_as_option(std::vector<std::string> words) const;
 
-    std::unique_ptr<CLI::App> command_line_parser_;
-    std::vector<std::unique_ptr<CommandVerb>> verbs_;
+    std::unique_ptr<CLI::App> parser_;
+    std::vector<std::unique_ptr<Verb>> verbs_;
     bool is_whole_ = false;
 };
 

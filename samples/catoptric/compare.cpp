@@ -79,7 +79,7 @@ struct CompareOptions {
 };
 
 /// Returns the scenes that the user asked for, or the built-in scene if there are none.
-std::vector<std::string> list_scenes_to_compare(const CompareOptions& options) {
+std::vector<std::string> compared_scenes(const CompareOptions& options) {
     return options.scenes.empty() ? std::vector{options.common.scene} : options.scenes;
 }
 
@@ -97,7 +97,7 @@ study::CompareRequest make_compare_request(const CompareOptions& options,
     study::CompareRequest request;
     CommonOptions common = options.common;
     common.scene = scene;
-    request.base = make_render_request_of_options(common, study::check_has_mirror);
+    request.base = make_request(common, study::check_has_mirror);
     const bool keeps = common.both_models || request.base.model == session::RenderedWork::required;
     if (keeps && !common.animate && !common.warmup)
         request.base.warmup = session::Request().total();
@@ -127,7 +127,7 @@ study::CompareRequest make_compare_request(const CompareOptions& options,
     return request;
 }
 
-std::vector<std::string> list_requested_rows(const study::CompareRequest& request) {
+std::vector<std::string> requested_rows(const study::CompareRequest& request) {
     const session::Request& base = request.base;
     return base.techniques.empty() ? study::default_techniques(base) : base.techniques;
 }
@@ -136,7 +136,7 @@ std::vector<std::string> list_requested_rows(const study::CompareRequest& reques
 /// an error in the last scene is reported at once.
 std::vector<study::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_round_limit(options);
-    check_technique_list(options.techniques);
+    check_techniques(options.techniques);
     const std::string& reference = options.common.reference;
     check(options.truth == study::ReferencePixelKind::centre || reference.empty(), Failure::usage,
           "--truth chooses the reference; wanted no --reference beside it, found ", reference);
@@ -145,7 +145,7 @@ std::vector<study::CompareRequest> make_compare_requests(const CompareOptions& o
     const std::string judged_by = study::choose_reference(reference, scene::Scene(), options.truth);
     for (const study::StudyChoice& choice : options.studies) study::check_study(choice, judged_by);
     std::vector<study::CompareRequest> requests;
-    const std::vector<std::string> scenes = list_scenes_to_compare(options);
+    const std::vector<std::string> scenes = compared_scenes(options);
     check(options.common.reference_file.empty() || scenes.size() == 1, Failure::usage,
           "--reference ", options.common.reference_file, ": wanted one scene, found ",
           scenes.size());
@@ -156,9 +156,8 @@ std::vector<study::CompareRequest> make_compare_requests(const CompareOptions& o
         if (scenes.size() > 1)
             request.images = report::images_folder(requests.size(), request.base.scene.name);
         if (!options.axes.empty())
-            request.base.techniques = expand_techniques_along_axes(list_requested_rows(request),
-                                                                   options.axes);
-        request.base.techniques = list_requested_rows(request);
+            request.base.techniques = expand_axes(requested_rows(request), options.axes);
+        request.base.techniques = requested_rows(request);
         study::check_inputs(request);
         requests.push_back(std::move(request));
     }
@@ -172,7 +171,7 @@ void check_output_places(const CompareOptions& options,
         if (!file.empty()) outputs.emplace_back(file);
     for (const study::CompareRequest& request : requests) {
         std::vector<std::string> images;
-        for (const std::string& text : list_requested_rows(request)) {
+        for (const std::string& text : requested_rows(request)) {
             images.push_back(session::parse_technique(text).file_name);
             if (request.both_models) images.push_back(images.back() + "-required");
         }
@@ -190,10 +189,9 @@ void check_output_places(const CompareOptions& options,
         const std::vector<std::filesystem::path>& files = request.base.scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
-    check_outputs_differ_from_inputs(outputs, inputs);
+    check_distinct(outputs, inputs);
     if (!options.baseline.baseline.empty())
-        check_outputs_differ_from_inputs(outputs, {options.baseline.baseline},
-                                         ", which is the baseline");
+        check_distinct(outputs, {options.baseline.baseline}, ", which is the baseline");
 }
 
 /// Returns the labels of rows with pixels that are NaN or infinite.
@@ -214,39 +212,35 @@ void check_not_stopped(const CompareOptions& options, const report::Comparison& 
 }
 
 /// Writes the reports of one or several scenes.
-class CompareReportOutput {
+class CompareOutput {
 public:
-    CompareReportOutput(const CompareOptions& options, std::size_t count)
-        : compare_options_(options), one_(options.folder, options.csv, options.page_pictures()),
-          several_(options.folder, list_scenes_to_compare(options), options.csv,
-                   options.page_pictures()),
+    CompareOutput(const CompareOptions& options, std::size_t count)
+        : options_(options), one_(options.folder, options.csv, options.page_pictures()),
+          several_(options.folder, compared_scenes(options), options.csv, options.page_pictures()),
           is_one_(count == 1) {}
 
-    void write_scene_report(std::size_t index, const report::Comparison& comparison) {
+    void write_scene(std::size_t index, const report::Comparison& comparison) {
         is_one_ ? one_.write(comparison) : several_.write_scene(index, comparison);
     }
     /// Prints the table of one finished scene, and the warnings but the first `known`, which were
     /// printed when the scene was read.
-    void print_comparison_table(const report::Comparison& comparison, std::size_t known) const {
-        const OutputOptions& output_options = compare_options_.common.output_options;
+    void print_table(const report::Comparison& comparison, std::size_t known) const {
+        const OutputOptions& output_options = options_.common.output_options;
         for (std::size_t i = known; i < comparison.warnings.size(); ++i)
             print_warning(comparison.warnings[i]);
         for (const report::Row& row : comparison.rows)
             for (const std::string& what : measure::row_notes(comparison, row))
-                print_note_unless_quiet(output_options, row.label + ": " + what);
-        for (const std::string& sentence :
-             list_axes_without_effect(comparison, compare_options_.axes))
-            print_note_unless_quiet(output_options, sentence);
+                print_note(output_options, row.label + ": " + what);
+        for (const std::string& sentence : axes_without_effect(comparison, options_.axes))
+            print_note(output_options, sentence);
         std::size_t views = 0;
         for (const report::Row& row : comparison.rows) views = std::max(views, row.views.size());
         if (views > 0 && !output_options.json)
-            print_note_unless_quiet(output_options, "the report has the errors over " +
-                                                        std::to_string(views) +
-                                                        " drawn views; the table shows one view");
+            print_note(output_options, "the report has the errors over " + std::to_string(views) +
+                                           " drawn views; the table shows one view");
         if (!output_options.json)
             print_result(
-                (is_one_ ? "" : escape(comparison.scene.name) + "\n") +
-                make_compare_table(comparison) +
+                (is_one_ ? "" : escape(comparison.scene.name) + "\n") + compare_table(comparison) +
                 (measure::has_budget(comparison) ? report::describe_budget(comparison) + "\n"
                                                  : "") +
                 (comparison.path_distance
@@ -258,12 +252,12 @@ public:
     }
     /// Prints the document of all scenes at the end.
     void print_all_scenes() const {
-        if (compare_options_.common.output_options.json && !is_one_)
+        if (options_.common.output_options.json && !is_one_)
             print_result(report::to_json(several_.scene_reports()));
     }
 
 private:
-    const CompareOptions& compare_options_;
+    const CompareOptions& options_;
     report::ReportWriter one_;
     report::ScenesWriter several_;
     bool is_one_;
@@ -282,16 +276,15 @@ void ask_for_path_distance(study::CompareRequest& request) {
 /// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_scene(session::Engine& engine, study::CompareRequest& request,
                                  std::size_t index, const CompareOptions& options,
-                                 ProgressPrinter& progress, CompareReportOutput& output,
+                                 ProgressPrinter& progress, CompareOutput& output,
                                  const BaselineGate& gate) {
-    const std::size_t row_count = list_requested_rows(request).size();
+    const std::size_t row_count = requested_rows(request).size();
     ask_for_path_distance(request);
-    request.watcher = make_progress_watcher(progress);
+    request.watcher = make_watcher(progress);
     report_row(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
-        if (so_far.rows.size() == 1)
-            gate.check_baseline_scene(so_far); // its exposure may be known only now
-        output.write_scene_report(index, so_far);
+        if (so_far.rows.size() == 1) gate.check_scene(so_far); // its exposure may be known only now
+        output.write_scene(index, so_far);
     };
     report::Comparison comparison = study::compare(engine, request);
     comparison.max_ms = options.max_ms;
@@ -299,22 +292,21 @@ report::Comparison compare_scene(session::Engine& engine, study::CompareRequest&
     progress.clear();
     // If no row was finished, nothing is written, because an earlier report in the folder is worth
     // more.
-    if (!comparison.rows.empty()) output.write_scene_report(index, comparison);
-    output.print_comparison_table(comparison, request.base.scene.warnings.size());
+    if (!comparison.rows.empty()) output.write_scene(index, comparison);
+    output.print_table(comparison, request.base.scene.warnings.size());
     return comparison;
 }
 
 int run_compare(const CompareOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
-    for (const std::string& scene : list_scenes_to_compare(options)) scene::check_exists(scene);
-    throw_unless_option_given(!options.folder.empty(), "compare", "-o DIR",
-                              "the folder for the report");
-    check_folder_can_be_made(options.folder);
-    check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
+    for (const std::string& scene : compared_scenes(options)) scene::check_exists(scene);
+    require_option(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
+    check_output_folder(options.folder);
+    check_output_folder(std::filesystem::path(options.folder) / "images");
     check_figure_options(options.figures, options.common.size);
     check_baseline_options(options.baseline);
     BaselineGate gate(options.baseline);
-    ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::tenths,
+    ProgressPrinter progress(output_options, ProgressPrinter::OffTerminal::tenths,
                              "reading scenes, opening the device");
     std::vector<study::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
@@ -322,25 +314,25 @@ int run_compare(const CompareOptions& options) {
         if (options.baseline.baseline.empty()) break;
         report::Comparison settings;
         study::fill_settings(request, settings);
-        gate.check_baseline_scene(settings);
+        gate.check_scene(settings);
     }
-    session::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(engine_options(options.common.device));
     progress.clear();
-    print_device_and_warnings(engine, options.common.output_options);
+    print_device(engine, options.common.output_options);
     report::create_folder(options.folder);
     for (const study::CompareRequest& request : requests)
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
-    const report::DrawingConverter make_pdf = find_pdf_converter();
+    const report::DrawingConverter make_pdf = pdf_converter();
     if (!options.figures.folder.empty()) {
         for (const study::CompareRequest& request : requests)
             report::create_folder(options.figures.scene_folder(request.images));
         if (!make_pdf)
-            print_note_unless_quiet(output_options,
-                                    "--figures: SVG without PDF: wanted the program rsvg-convert "
-                                    "in PATH (apt install librsvg2-bin), found none");
+            print_note(output_options,
+                       "--figures: SVG without PDF: wanted the program rsvg-convert "
+                       "in PATH (apt install librsvg2-bin), found none");
     }
 
-    CompareReportOutput output(options, requests.size());
+    CompareOutput output(options, requests.size());
     std::vector<std::string> broken;
     bool keeps_budgets = true;
     std::exception_ptr figure_failure; ///< the first failure to write figures
@@ -349,7 +341,7 @@ int run_compare(const CompareOptions& options) {
                                                             progress, output, gate);
         if (comparison.stopped || i + 1 == requests.size()) output.print_all_scenes();
         if (!comparison.stopped && i + 1 == requests.size())
-            print_note_unless_quiet(output_options, "written: " + options.folder);
+            print_note(output_options, "written: " + options.folder);
         check_not_stopped(options, comparison);
         try {
             if (!options.figures.folder.empty())
@@ -358,7 +350,7 @@ int run_compare(const CompareOptions& options) {
         } catch (const Error&) { // the other scenes and the verdict matter more
             if (!figure_failure) figure_failure = std::current_exception();
         }
-        gate.judge_scene_against_baseline(comparison);
+        gate.judge(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_budget(comparison) ||
                                           measure::find_best_rows(comparison).row);
@@ -375,22 +367,22 @@ int run_compare(const CompareOptions& options) {
 
 enum class StudyOptionKind : std::uint8_t { number, words, flag };
 
-StudyOptionKind find_study_option_kind(const study::Study& study) {
+StudyOptionKind option_kind(const study::Study& study) {
     if (!study.number.empty()) return StudyOptionKind::number;
     return study.words.empty() ? StudyOptionKind::flag : StudyOptionKind::words;
 }
 
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
-void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKind kind) {
+void add_study_options(Verb& verb, CompareOptions& options, StudyOptionKind kind) {
     for (const study::Study& study : study::studies()) {
         const std::string option = "--" + std::string(study.name), help(study.help);
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});
         };
-        if (find_study_option_kind(study) != kind) continue;
+        if (option_kind(study) != kind) continue;
         if (kind == StudyOptionKind::flag) {
-            verb.option_without_value(option, help, [choose] { choose(1); });
+            verb.flag(option, help, [choose] { choose(1); });
             continue;
         }
         if (kind == StudyOptionKind::words) {
@@ -413,7 +405,7 @@ void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKi
 }
 
 /// Adds the arguments and options of `compare`. `options` must outlive the parsing.
-void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions>& options) {
+void add_compare_options(Verb& verb, const std::shared_ptr<CompareOptions>& options) {
     verb.arguments(
         "SCENE",
         "built-in scenes (see 'list scenes') or .glb, .gltf or .obj files (cornell-mirrors)",
@@ -429,7 +421,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
         "--axis", "KNOB=VALUES",
         "compare each technique that has the knob with each of several values, such as "
         "rays=1,4,16,64; may be repeated",
-        [options](const std::string& text) { options->axes.push_back(parse_knob_axis(text)); });
+        [options](const std::string& text) { options->axes.push_back(parse_axis(text)); });
     verb.repeated(
         "--row", "NAME=PICTURES",
         "further row: another renderer's picture of the same camera, time and size, or "
@@ -481,7 +473,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                 "with light between surfaces, lamps as areas and a shadowed environment) (centre)",
                 [options](const std::string& text) {
                     options->truth = static_cast<study::ReferencePixelKind>(
-                        parse_choice_index("--truth", text, {"centre", "converged", "paths"}));
+                        parse_choice("--truth", text, {"centre", "converged", "paths"}));
                 });
     verb.option(
         "--reference-seconds", "S",
@@ -492,10 +484,10 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
         });
     add_study_options(verb, *options, StudyOptionKind::words);
     add_study_options(verb, *options, StudyOptionKind::flag);
-    add_common_options_without_scene(verb, options->common);
+    add_sceneless_options(verb, options->common);
     verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",
                 [options](const std::string& text) {
-                    const bool all = parse_choice_index("--csv", text, {"table", "all"}) == 1;
+                    const bool all = parse_choice("--csv", text, {"table", "all"}) == 1;
                     options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;
                 });
     verb.flag("--inline",
@@ -510,26 +502,26 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
 void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<CompareOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_command_verb(
+    Verb& verb = program.add_verb(
         "compare", "compare techniques with the reference: time and error in one table");
     verb.examples(kCompareExamples);
     add_compare_options(verb, options);
-    verb.set_verb_action([options] { return run_compare(*options); });
+    verb.action([options] { return run_compare(*options); });
 }
 
-std::vector<CompletionOption> list_compare_options() {
+std::vector<CompletionOption> compare_options() {
     CommandLine program("catoptric", "", "", "");
     add_compare_verb(program, {});
-    return program.list_completion_verbs().front().options;
+    return program.completion_verbs().front().options;
 }
 
 CompareWords parse_compare_words(std::vector<std::string> words) {
     const auto options = std::make_shared<CompareOptions>();
     CommandLine program("catoptric compare", "", "", "");
-    CommandVerb& verb = program.only_command_verb();
+    Verb& verb = program.only_verb();
     add_compare_options(verb, options);
     bool is_comparison = false;
-    verb.set_verb_action([&] {
+    verb.action([&] {
         is_comparison = true;
         return 0;
     });
@@ -538,7 +530,7 @@ CompareWords parse_compare_words(std::vector<std::string> words) {
     std::vector<study::CompareRequest> requests = make_compare_requests(*options);
     check(requests.size() == 1, Failure::usage, "wanted one scene, found ", requests.size());
     CompareWords parsed{std::move(requests.front()), options->common.device};
-    parsed.request.base.techniques = list_requested_rows(parsed.request);
+    parsed.request.base.techniques = requested_rows(parsed.request);
     return parsed;
 }
 

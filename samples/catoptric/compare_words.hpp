@@ -19,6 +19,6 @@ struct CompareWords {
 CompareWords parse_compare_words(std::vector<std::string> words);
 
 /// Returns the options of `compare`.
-std::vector<CompletionOption> list_compare_options();
+std::vector<CompletionOption> compare_options();
 
 } // namespace catoptric::cli

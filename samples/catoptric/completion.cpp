@@ -30,7 +30,7 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-std::vector<std::string> list_technique_names() {
+std::vector<std::string> technique_names() {
     std::vector<std::string> names{"auto"};
     for (const session::TechniqueInfo& technique : session::techniques())
         names.push_back(technique.name);
@@ -38,7 +38,7 @@ std::vector<std::string> list_technique_names() {
 }
 
 /// Returns the words that complete the verb's arguments, beside names of files.
-std::vector<std::string> list_argument_words(const std::string& verb) {
+std::vector<std::string> argument_words(const std::string& verb) {
     if (verb == "list") return {"techniques", "scenes", "devices", "metrics", "costs"};
     if (verb == "completion") return kShells;
     std::vector<std::string> names;
@@ -48,7 +48,7 @@ std::vector<std::string> list_argument_words(const std::string& verb) {
     return names;
 }
 
-std::vector<std::string> list_option_names(const CompletionVerb& verb) {
+std::vector<std::string> option_names(const CompletionVerb& verb) {
     std::vector<std::string> names;
     for (const CompletionOption& option : verb.options) names.push_back(option.name);
     return names;
@@ -67,8 +67,8 @@ std::string write_bash_completion(const std::vector<CompletionVerb>& verbs) {
     for (const CompletionVerb& verb : verbs) {
         names += verb.name + " ";
         cases += "    " + verb.name + ")\n        options='" +
-                 report::join_texts(list_option_names(verb), " ") + "'\n        words='" +
-                 report::join_texts(list_argument_words(verb.name), " ") +
+                 report::join_texts(option_names(verb), " ") + "'\n        words='" +
+                 report::join_texts(argument_words(verb.name), " ") +
                  "'\n        files=" + (is_one_of(kVerbsWithoutFiles, verb.name) ? "" : "-f") +
                  " ;;\n";
     }
@@ -84,7 +84,7 @@ std::string write_bash_completion(const std::vector<CompletionVerb>& verbs) {
            "' files= ;;\n    *) return ;;\n    esac\n"
            "    case ${COMP_WORDS[COMP_CWORD-1]} in\n    " +
            report::join_texts(kTechniqueOptions, "|") + ") words='" +
-           report::join_texts(list_technique_names(), " ") +
+           report::join_texts(technique_names(), " ") +
            "' files= ;;\n    esac\n"
            "    [[ $cur != -* ]] || words=$options files=\n"
            "    COMPREPLY=($(compgen -W \"$words\" -- \"$cur\") $(compgen $files -- \"$cur\"))\n"
@@ -101,15 +101,14 @@ std::string write_zsh_completion(const std::vector<CompletionVerb>& verbs) {
             const bool is_technique = is_one_of(kTechniqueOptions, option.name);
             const std::string value = is_technique
                                           ? ":technique:(" +
-                                                report::join_texts(list_technique_names(), " ") +
-                                                ")"
+                                                report::join_texts(technique_names(), " ") + ")"
                                       : option.takes_value ? ":value:_files"
                                                            : "";
             std::string help = quote_for_shells(option.help);
             help = help.substr(1, help.size() - 2);
             cases += "        '" + option.name + "[" + help + "]" + value + "' \\\n";
         }
-        const std::vector<std::string> words = list_argument_words(verb.name);
+        const std::vector<std::string> words = argument_words(verb.name);
         cases += "        '*:argument:_alternative \"words:word:(" +
                  report::join_texts(words, " ") + ")\" \"files:file:_files\"' ;;\n";
     }
@@ -134,7 +133,7 @@ std::string write_fish_completion(const std::vector<CompletionVerb>& verbs) {
     for (const CompletionVerb& verb : verbs) {
         const std::string start = "complete -c catoptric -n '__fish_seen_subcommand_from " +
                                   verb.name + "'";
-        if (const std::vector<std::string> words = list_argument_words(verb.name); !words.empty())
+        if (const std::vector<std::string> words = argument_words(verb.name); !words.empty())
             text += start + (is_one_of(kVerbsWithoutFiles, verb.name) ? " -f" : "") + " -a '" +
                     report::join_texts(words, " ") + "'\n";
         for (const CompletionOption& option : verb.options) {
@@ -142,7 +141,7 @@ std::string write_fish_completion(const std::vector<CompletionVerb>& verbs) {
             text += start + (is_long ? " -l " : " -s ") + option.name.substr(is_long ? 2 : 1) +
                     (option.takes_value ? " -r" : "");
             if (is_one_of(kTechniqueOptions, option.name))
-                text += " -f -a '" + report::join_texts(list_technique_names(), " ") + "'";
+                text += " -f -a '" + report::join_texts(technique_names(), " ") + "'";
             text += " -d " + quote_for_shells(option.help) + "\n";
         }
     }
@@ -152,14 +151,14 @@ std::string write_fish_completion(const std::vector<CompletionVerb>& verbs) {
 } // namespace
 
 void add_completion_verb(CommandLine& program) {
-    CommandVerb& verb = program.add_command_verb(
-        "completion", "print a script that completes commands in bash, zsh or fish");
+    Verb& verb = program.add_verb("completion",
+                                  "print a script that completes commands in bash, zsh or fish");
     verb.examples(kCompletionExamples);
     const auto shell = std::make_shared<std::string>();
-    verb.argument("SHELL", "bash, zsh or fish", *shell, CommandVerb::VerbArgumentNeed::required);
-    verb.set_verb_action([shell, &program] {
-        const std::size_t index = parse_choice_index("completion", *shell, kShells);
-        const std::vector<CompletionVerb> verbs = program.list_completion_verbs();
+    verb.argument("SHELL", "bash, zsh or fish", *shell, Verb::Need::required);
+    verb.action([shell, &program] {
+        const std::size_t index = parse_choice("completion", *shell, kShells);
+        const std::vector<CompletionVerb> verbs = program.completion_verbs();
         print_result(index == 0   ? write_bash_completion(verbs)
                      : index == 1 ? write_zsh_completion(verbs)
                                   : write_fish_completion(verbs));

@@ -52,8 +52,8 @@ std::vector<std::string> make_option_words(const std::string& place, const Compl
 
 } // namespace
 
-std::vector<std::string> add_options_of_config_file(std::vector<std::string> words,
-                                                    const std::vector<CompletionVerb>& verbs) {
+std::vector<std::string> add_config_options(std::vector<std::string> words,
+                                            const std::vector<CompletionVerb>& verbs) {
     if (std::erase(words, kNoConfigOption) > 0 || words.empty()) return words;
     const auto verb = std::ranges::find(verbs, words.front(), &CompletionVerb::name);
     const std::filesystem::path folder = session::find_config_folder(),

@@ -18,7 +18,7 @@ namespace catoptric::cli {
 /// {"size": "256x256"}. A member with the name of a verb holds options of this verb, which win:
 /// {"compare": {"techniques": ["reuse", "secant"], "quiet": true}}. Values are texts, numbers,
 /// lists of them, and true for options without a value.
-std::vector<std::string> add_options_of_config_file(std::vector<std::string> words,
-                                                    const std::vector<CompletionVerb>& verbs);
+std::vector<std::string> add_config_options(std::vector<std::string> words,
+                                            const std::vector<CompletionVerb>& verbs);
 
 } // namespace catoptric::cli

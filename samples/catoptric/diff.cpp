@@ -37,8 +37,8 @@ struct DiffOptions {
     std::optional<double> most_flip, most_rmse;
 };
 
-void check_difference_threshold(PictureDiffFacts& facts, const char* option, double value,
-                                std::optional<double> most) {
+void check_threshold(DiffFacts& facts, const char* option, double value,
+                     std::optional<double> most) {
     if (!most) return;
     // NaN (no pixel to judge) exceeds every threshold.
     if (!(value <= *most))
@@ -46,11 +46,11 @@ void check_difference_threshold(PictureDiffFacts& facts, const char* option, dou
             fmt::format("{} {:.6g} is over --max-{} {:.6g}", option, value, option, *most));
 }
 
-PictureDiffFacts compare_files(const DiffOptions& options) {
+DiffFacts compare_files(const DiffOptions& options) {
     const std::string layer = options.layer.empty() ? "" : ":" + options.layer;
     const measure::FileDifference found = measure::compare_files(
         options.a + layer, options.b + layer, options.mask, options.exposure);
-    PictureDiffFacts facts{
+    DiffFacts facts{
         options.a,
         options.b,
         options.mask,
@@ -63,15 +63,14 @@ PictureDiffFacts compare_files(const DiffOptions& options) {
         found.a_clamped,
         found.b_clamped,
         {}};
-    check_difference_threshold(facts, "flip", facts.difference.flip, options.most_flip);
-    check_difference_threshold(facts, "rmse", facts.difference.rmse, options.most_rmse);
+    check_threshold(facts, "flip", facts.difference.flip, options.most_flip);
+    check_threshold(facts, "rmse", facts.difference.rmse, options.most_rmse);
     if ((options.most_flip || options.most_rmse) && facts.difference.nonfinite > 0)
         facts.over.push_back(fmt::format("{} pixels are not finite", facts.difference.nonfinite));
     return facts;
 }
 
-std::string format_mean_of_picture(const char* name, const measure::Mean& mean,
-                                   const measure::Mean& clamped) {
+std::string format_mean(const char* name, const measure::Mean& mean, const measure::Mean& clamped) {
     return fmt::format("mean {}  {:.6f} {:.6f} {:.6f}  clamped {:.6f} {:.6f} {:.6f}\n", name,
                        mean.rgb.x, mean.rgb.y, mean.rgb.z, clamped.rgb.x, clamped.rgb.y,
                        clamped.rgb.z);
@@ -86,20 +85,19 @@ std::string format_metric_value(const measure::MetricValue& value) {
                                         : fmt::format("{:.6f}", number);
 }
 
-std::string format_diff_facts(const PictureDiffFacts& facts) {
+std::string format_facts(const DiffFacts& facts) {
     std::string text;
     for (const measure::Metric& quantity : measure::difference_metrics())
         text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
                             format_metric_value(measure::metric_value(quantity, facts.difference)),
                             quantity.unit.empty() ? "" : " ", quantity.unit);
-    return text + format_mean_of_picture("A", facts.a_mean, facts.a_clamped) +
-           format_mean_of_picture("B", facts.b_mean, facts.b_clamped);
+    return text + format_mean("A", facts.a_mean, facts.a_clamped) +
+           format_mean("B", facts.b_mean, facts.b_clamped);
 }
 
 int run_diff(const DiffOptions& options) {
-    const PictureDiffFacts facts = compare_files(options);
-    print_result(options.output_options.json ? format_picture_difference_as_json(facts)
-                                             : format_diff_facts(facts));
+    const DiffFacts facts = compare_files(options);
+    print_result(options.output_options.json ? diff_json(facts) : format_facts(facts));
     check(facts.over.empty(), Failure::threshold, join_with_commas(facts.over));
     return 0;
 }
@@ -108,12 +106,10 @@ int run_diff(const DiffOptions& options) {
 
 void add_diff_verb(CommandLine& program) {
     const auto options = std::make_shared<DiffOptions>();
-    CommandVerb& verb = program.add_command_verb("diff", "compare two pictures");
+    Verb& verb = program.add_verb("diff", "compare two pictures");
     verb.examples(kDiffExamples);
-    verb.argument("A", "picture, .exr, .hdr or .png", options->a,
-                  CommandVerb::VerbArgumentNeed::required);
-    verb.argument("B", "picture of the same size", options->b,
-                  CommandVerb::VerbArgumentNeed::required);
+    verb.argument("A", "picture, .exr, .hdr or .png", options->a, Verb::Need::required);
+    verb.argument("B", "picture of the same size", options->b, Verb::Need::required);
     verb.option("--mask", "M", "PNG of the same size; only pixels that are not black count",
                 options->mask);
     verb.option(
@@ -133,7 +129,7 @@ void add_diff_verb(CommandLine& program) {
                 "exposure: light is multiplied by 2^STOPS before the comparison (0)",
                 [options](const std::string& text) { options->exposure = parse_stops(text); });
     add_output_options(verb, options->output_options);
-    verb.set_verb_action([options] { return run_diff(*options); });
+    verb.action([options] { return run_diff(*options); });
 }
 
 } // namespace catoptric::cli

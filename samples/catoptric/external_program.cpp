@@ -16,7 +16,7 @@
 
 namespace catoptric::cli {
 
-std::string find_program_in_path(const std::string& name) {
+std::string find_program(const std::string& name) {
     const char* const path = std::getenv("PATH");
     std::string_view rest = path ? path : "";
     while (!rest.empty()) {
@@ -31,7 +31,7 @@ std::string find_program_in_path(const std::string& name) {
     return {};
 }
 
-void run_external_program(const std::vector<std::string>& words, const std::string& name) {
+void run_external(const std::vector<std::string>& words, const std::string& name) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);

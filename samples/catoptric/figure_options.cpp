@@ -31,7 +31,7 @@ report::PixelRectangle parse_crop(const std::string& text) {
 
 } // namespace
 
-void add_figure_options(CommandVerb& verb, FigureOptions& options) {
+void add_figure_options(Verb& verb, FigureOptions& options) {
     verb.option(
         "--figures", "DIR",
         "folder for figures of a paper: plots as SVG and, with rsvg-convert, as PDF; enlarged crops; and "
@@ -43,15 +43,15 @@ void add_figure_options(CommandVerb& verb, FigureOptions& options) {
                 [&options](const std::string& text) { options.crop = parse_crop(text); });
 }
 
-report::DrawingConverter find_pdf_converter() {
-    const std::string program = find_program_in_path("rsvg-convert");
+report::DrawingConverter pdf_converter() {
+    const std::string program = find_program("rsvg-convert");
     if (program.empty()) return {};
     return [program](const std::filesystem::path& svg, const std::filesystem::path& pdf) {
         PartialFile partial(pdf);
-        run_external_program({program, "-f", "pdf", "-o",
-                              std::filesystem::absolute(partial.temporary()).string(),
-                              std::filesystem::absolute(svg).string()},
-                             pdf.string());
+        run_external({program, "-f", "pdf", "-o",
+                      std::filesystem::absolute(partial.temporary()).string(),
+                      std::filesystem::absolute(svg).string()},
+                     pdf.string());
         partial.copy_mode();
         partial.commit();
     };
@@ -60,7 +60,7 @@ report::DrawingConverter find_pdf_converter() {
 void check_figure_options(const FigureOptions& options, uvec2 size) {
     check(!options.crop || !options.folder.empty(), Failure::usage,
           "--crop: wanted --figures with it, found none");
-    if (!options.folder.empty()) check_folder_can_be_made(options.folder);
+    if (!options.folder.empty()) check_output_folder(options.folder);
     if (options.crop) report::check_crop(*options.crop, ivec2(size));
 }
 

@@ -21,10 +21,10 @@ struct FigureOptions {
 };
 
 /// Adds --figures and --crop. `options` must outlive the parsing.
-void add_figure_options(CommandVerb& verb, FigureOptions& options);
+void add_figure_options(Verb& verb, FigureOptions& options);
 
 /// Returns a converter that runs the program rsvg-convert; empty if PATH does not hold it.
-report::DrawingConverter find_pdf_converter();
+report::DrawingConverter pdf_converter();
 
 /// Throws `usage` for a crop without figures or outside a picture of this size, and
 /// `cannot_create` if the folder cannot be made.

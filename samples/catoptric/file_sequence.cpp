@@ -8,8 +8,7 @@
 
 namespace catoptric::cli {
 
-std::optional<PictureFileSequence>
-PictureFileSequence::parse_file_sequence(const std::string& name) {
+std::optional<FileSequence> FileSequence::parse(const std::string& name) {
     static const std::regex kNumberPlaceholder(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
     const std::size_t begin = name.rfind('/') + 1; // 0 without a folder
     const std::string folder = name.substr(0, begin), last = name.substr(begin);
@@ -24,14 +23,14 @@ PictureFileSequence::parse_file_sequence(const std::string& name) {
           "'");
     if (!found) return std::nullopt;
     const std::string digits = place[1].str() + place[2].str();
-    PictureFileSequence sequence;
+    FileSequence sequence;
     sequence.before_ = folder + place.prefix().str();
     sequence.after_ = rest;
     sequence.digits_ = digits.empty() ? 0 : std::stoi(digits);
     return sequence;
 }
 
-std::string PictureFileSequence::file(int number) const {
+std::string FileSequence::file(int number) const {
     return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
 }
 

@@ -20,7 +20,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr int kFilmStopCheckMilliseconds = 100; // milliseconds between two checks for a stop
+constexpr int kFilmStopCheckMs = 100; // milliseconds between two checks for a stop
 
 std::string describe_film_errno(int error) { return std::generic_category().message(error); }
 
@@ -28,21 +28,21 @@ std::string describe_film_errno(int error) { return std::generic_category().mess
 
 bool is_film_name(const std::string& name) { return name.ends_with(".mp4"); }
 
-void check_film_can_be_made(const std::string& file, uvec2 size) {
+void check_film(const std::string& file, uvec2 size) {
     check(
-        !find_program_in_path("ffmpeg").empty(), Failure::missing_input, "-o ", file,
+        !find_program("ffmpeg").empty(), Failure::missing_input, "-o ", file,
         ": wanted the program ffmpeg in PATH, which encodes films, found none; install the package "
         "ffmpeg (apt install ffmpeg), or write pictures (-o 'frame-{n:4}.png')");
     check(size.x % 2 == 0 && size.y % 2 == 0, Failure::usage, "-o ", file,
           ": wanted a film of an even width and height (--size), found ", size.x, "x", size.y);
 }
 
-std::vector<std::string> list_ffmpeg_words(uvec2 size, double frames_per_second,
-                                           const std::string& output) {
+std::vector<std::string> ffmpeg_words(uvec2 size, double frames_per_second,
+                                      const std::string& output) {
     const std::string pixels = std::to_string(size.x) + "x" + std::to_string(size.y),
                       rate = std::to_string(std::lround(frames_per_second));
-    std::vector<std::string> words{find_program_in_path("ffmpeg"), "-hide_banner", "-loglevel",
-                                   "error", "-y"};
+    std::vector<std::string> words{find_program("ffmpeg"), "-hide_banner", "-loglevel", "error",
+                                   "-y"};
     for (const char* word : {"-f", "rawvideo", "-pix_fmt", "rgb24", "-video_size", pixels.c_str(),
                              "-framerate", rate.c_str(), "-i", "pipe:0"})
         words.emplace_back(word);
@@ -59,9 +59,9 @@ std::vector<std::string> list_ffmpeg_words(uvec2 size, double frames_per_second,
 FilmWriter::FilmWriter(const std::string& file, uvec2 size, double frames_per_second,
                        const session::Watcher& watcher)
     : name_(file), partial_(file), watcher_(watcher) {
-    check_film_can_be_made(file, size);
-    start_ffmpeg(list_ffmpeg_words(size, frames_per_second,
-                                   std::filesystem::absolute(partial_.temporary()).string()));
+    check_film(file, size);
+    start_ffmpeg(ffmpeg_words(size, frames_per_second,
+                              std::filesystem::absolute(partial_.temporary()).string()));
 }
 
 FilmWriter::~FilmWriter() {
@@ -104,7 +104,7 @@ int FilmWriter::wait_for_ffmpeg() {
         if (ended < 0 && errno == EINTR) continue;
         if (ended == 0) {
             session::throw_if_stopped(watcher_);
-            ::poll(nullptr, 0, kFilmStopCheckMilliseconds / 10);
+            ::poll(nullptr, 0, kFilmStopCheckMs / 10);
             continue;
         }
         process_ = 0;
@@ -114,7 +114,7 @@ int FilmWriter::wait_for_ffmpeg() {
     }
 }
 
-void FilmWriter::fail_after_end_of_ffmpeg(int status) const {
+void FilmWriter::fail_ended(int status) const {
     session::throw_if_stopped(watcher_); // a signal from the terminal ends ffmpeg, too
     check(!WIFEXITED(status) || WEXITSTATUS(status) != 0, Failure::io, name_,
           ": wanted ffmpeg to read all frames, found that it ended before");
@@ -123,28 +123,28 @@ void FilmWriter::fail_after_end_of_ffmpeg(int status) const {
          WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
 }
 
-void FilmWriter::write_all_bytes(const std::vector<std::uint8_t>& bytes) {
+void FilmWriter::write_bytes(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t written = 0; written < bytes.size();) {
         session::throw_if_stopped(watcher_);
         pollfd ready{input_, POLLOUT, 0};
-        if (::poll(&ready, 1, kFilmStopCheckMilliseconds) <= 0) continue;
+        if (::poll(&ready, 1, kFilmStopCheckMs) <= 0) continue;
         const ssize_t count = ::write(input_, bytes.data() + written, bytes.size() - written);
         if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-        if (count < 0 && errno == EPIPE) fail_after_end_of_ffmpeg(wait_for_ffmpeg());
+        if (count < 0 && errno == EPIPE) fail_ended(wait_for_ffmpeg());
         check(count > 0, Failure::io, name_, ": writing to ffmpeg: ", describe_film_errno(errno));
         written += static_cast<std::size_t>(count);
     }
 }
 
 void FilmWriter::add_frame(const measure::Picture& display) {
-    write_all_bytes(measure::to_bytes(display));
+    write_bytes(measure::to_bytes(display));
 }
 
 void FilmWriter::finish() {
     ::close(input_);
     input_ = -1;
     const int status = wait_for_ffmpeg(); // it encodes the last frames after its input has ended
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_after_end_of_ffmpeg(status);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_ended(status);
     partial_.copy_mode();
     partial_.commit();
 }

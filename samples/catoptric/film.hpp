@@ -18,19 +18,19 @@ bool is_film_name(const std::string& name);
 
 /// Throws `missing_input`, with the package to install, if PATH holds no ffmpeg. Throws `usage` for
 /// a picture with an odd edge, because the film stores one colour for each 2x2 pixels.
-void check_film_can_be_made(const std::string& file, uvec2 size);
+void check_film(const std::string& file, uvec2 size);
 
 /// Returns the command that reads frames of 8-bit RGB from stdin and writes a film (H.264 in MP4).
 /// `output`: an absolute path.
-std::vector<std::string> list_ffmpeg_words(uvec2 size, double frames_per_second,
-                                           const std::string& output);
+std::vector<std::string> ffmpeg_words(uvec2 size, double frames_per_second,
+                                      const std::string& output);
 
 /// A film that is written frame by frame. The file is replaced as a whole by `finish`, or not at
 /// all.
 class FilmWriter {
 public:
     /// Starts ffmpeg. `watcher` must outlive this object: a stop ends the waits. Throws as
-    /// check_film_can_be_made does.
+    /// check_film does.
     FilmWriter(const std::string& file, uvec2 size, double frames_per_second,
                const session::Watcher& watcher);
     /// Ends ffmpeg if the film is not finished.
@@ -46,9 +46,9 @@ public:
 
 private:
     void start_ffmpeg(const std::vector<std::string>& words);
-    void write_all_bytes(const std::vector<std::uint8_t>& bytes);
+    void write_bytes(const std::vector<std::uint8_t>& bytes);
     int wait_for_ffmpeg();
-    [[noreturn]] void fail_after_end_of_ffmpeg(int status) const;
+    [[noreturn]] void fail_ended(int status) const;
 
     std::string name_;
     PartialFile partial_;

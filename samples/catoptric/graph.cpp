@@ -38,7 +38,7 @@ struct GraphOptions {
     bool why = false;
 };
 
-session::PlanFormat find_graph_output_format(const GraphOptions& options) {
+session::PlanFormat graph_format(const GraphOptions& options) {
     const session::PlanFormat asked = options.common.output_options.json
                                           ? session::PlanFormat::json
                                           : session::PlanFormat::text;
@@ -51,9 +51,9 @@ session::PlanFormat find_graph_output_format(const GraphOptions& options) {
 }
 
 /// Returns the unit costs of the device that draws, or the default ones if the machine has none.
-require::DeviceUnitCosts find_unit_costs_for_why(const DeviceOptions& options) {
+require::DeviceUnitCosts find_unit_costs(const DeviceOptions& options) {
     if (!options.name.empty())
-        return session::find_device_costs(session::Engine(make_engine_options(options)).device());
+        return session::find_device_costs(session::Engine(engine_options(options)).device());
     try {
         if (const std::vector<session::DeviceInfo> list = session::devices(); !list.empty())
             return session::find_device_costs(list.front());
@@ -73,23 +73,22 @@ void print_culling_report(const session::Request& request, session::PlanFormat f
 }
 
 int run_graph(const GraphOptions& options) {
-    const session::PlanFormat format = find_graph_output_format(options);
+    const session::PlanFormat format = graph_format(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     const bool is_limited = options.common.budget_ms > 0;
     check_budget_option(options.common);
     check(!is_limited || options.why, Failure::usage,
           "--budget-ms: wanted --why, since the plan is that of a frame at rest");
-    session::Request request = make_render_request_of_options(options.common);
+    session::Request request = make_request(options.common);
     request.techniques = {options.technique};
-    check_outputs_differ_from_inputs({kStdoutPath}, request.scene.files);
+    check_distinct({kStdoutPath}, request.scene.files);
     if (options.why && !is_limited) {
-        print_culling_report(request, format, find_unit_costs_for_why(options.common.device),
-                             std::nullopt);
+        print_culling_report(request, format, find_unit_costs(options.common.device), std::nullopt);
         return 0;
     }
-    session::Engine engine(make_engine_options(options.common.device));
-    print_device_and_warnings(engine, options.common.output_options);
+    session::Engine engine(engine_options(options.common.device));
+    print_device(engine, options.common.output_options);
     if (options.why) {
         request.model = session::RenderedWork::required;
         print_culling_report(request, format, session::find_device_costs(engine.device()),
@@ -108,29 +107,28 @@ int run_graph(const GraphOptions& options) {
 
 void add_graph_verb(CommandLine& program) {
     const auto options = std::make_shared<GraphOptions>();
-    CommandVerb& verb = program.add_command_verb("graph",
-                                                 "print the passes of a technique's frame");
+    Verb& verb = program.add_verb("graph", "print the passes of a technique's frame");
     verb.examples(kGraphExamples);
     add_technique_options(verb, options->drawn);
-    verb.option(
-        "--format", "F", "output format: text, dot or json (text)",
-        [options](const std::string& text) {
-            constexpr session::PlanFormat kGraphPlanFormats[] = {
-                session::PlanFormat::text, session::PlanFormat::dot, session::PlanFormat::json};
-            options->format =
-                kGraphPlanFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
-        });
+    verb.option("--format", "F", "output format: text, dot or json (text)",
+                [options](const std::string& text) {
+                    constexpr session::PlanFormat kGraphPlanFormats[] = {session::PlanFormat::text,
+                                                                         session::PlanFormat::dot,
+                                                                         session::PlanFormat::json};
+                    options->format =
+                        kGraphPlanFormats[parse_choice("--format", text, {"text", "dot", "json"})];
+                });
     verb.flag("--why",
               "print what the picture requires and what is left out, with reasons, instead of the "
               "frame's passes; needs no device, except with --budget-ms",
               options->why);
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
-    verb.set_verb_action([options] {
+    verb.action([options] {
         scene::check_exists(options->common.scene);
         const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
         if (is_given || !options->why || options->common.budget_ms > 0)
-            options->technique = check_technique_choice(options->drawn, "graph");
+            options->technique = check_choice(options->drawn, "graph");
         return run_graph(*options);
     });
 }

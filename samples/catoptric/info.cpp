@@ -29,10 +29,10 @@ constexpr const char* kInfoExamples = R"(Examples:
   catoptric info room.glb
   catoptric info room.glb --mirror 'wall mirror' --write)";
 
-ProgramInfo gather_info_facts(const DeviceOptions& device) {
+ProgramInfo gather_info(const DeviceOptions& device) {
     ProgramInfo facts;
     try {
-        session::EngineOptions options = make_engine_options(device);
+        session::EngineOptions options = engine_options(device);
         options.cache.clear(); // `info` compiles no shaders
         const session::Engine engine(options);
         facts.device = engine.device();
@@ -57,7 +57,7 @@ ProgramInfo gather_info_facts(const DeviceOptions& device) {
     return facts;
 }
 
-std::string format_info_facts(const ProgramInfo& facts) {
+std::string format_info(const ProgramInfo& facts) {
     std::string text = fmt::format("catoptric {} ({})\n", session::version(), session::commit());
     if (facts.device) {
         const session::DeviceInfo& device = *facts.device;
@@ -85,27 +85,27 @@ struct InfoOptions {
 
 /// Returns the exposure that the scene is shown with, in stops; none if no device can measure it.
 /// Moves the scene out of the request.
-std::optional<double> find_shown_exposure(session::Request& request, const InfoOptions& options) {
+std::optional<double> shown_exposure(session::Request& request, const InfoOptions& options) {
     if (!request.auto_exposure) return request.exposure;
     constexpr std::size_t kMaxExposureTriangles =
         500'000; // building a BVH over more costs as much as a picture
     if (const std::size_t count = scene::triangle_count(request.scene);
         count > kMaxExposureTriangles) {
-        print_note_unless_quiet(options.common.output_options,
-                                fmt::format("exposure not told: wanted at most {} triangles, "
-                                            "found {}; render chooses it",
-                                            kMaxExposureTriangles, count));
+        print_note(options.common.output_options,
+                   fmt::format("exposure not told: wanted at most {} triangles, "
+                               "found {}; render chooses it",
+                               kMaxExposureTriangles, count));
         return std::nullopt;
     }
     try {
-        session::Engine engine(make_engine_options(options.common.device));
-        print_device_and_warnings(engine, options.common.output_options);
+        session::Engine engine(engine_options(options.common.device));
+        print_device(engine, options.common.output_options);
         session::Session session(engine, std::move(request.scene));
         return session::measure_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
-        print_note_unless_quiet(options.common.output_options,
-                                std::string("exposure not told: ") + error.what());
+        print_note(options.common.output_options,
+                   std::string("exposure not told: ") + error.what());
         return std::nullopt;
     }
 }
@@ -128,17 +128,17 @@ void write_scene_file(const InfoOptions& options, const session::ResolvedScene& 
     if (wanted.is_camera_seeded)
         overrides.camera = request.camera.name; // the name holds the camera's numbers
     write_file(path, scene::scene_file_text(overrides, options.common.scene));
-    print_note_unless_quiet(options.common.output_options, "written: " + path.string());
+    print_note(options.common.output_options, "written: " + path.string());
 }
 
 int print_scene_info(const InfoOptions& options) {
-    ResolvedRequest asked = make_resolved_request(options.common);
+    ResolvedRequest asked = resolve_request(options.common);
     session::Request& request = asked.request;
     if (options.writes) write_scene_file(options, asked.wanted, request);
     SceneInfoFacts words{.info = session::make_scene_info(request)};
     words.warnings = request.scene.warnings;
     words.auto_exposure = request.auto_exposure;
-    words.exposure = find_shown_exposure(request, options); // moves the scene away
+    words.exposure = shown_exposure(request, options); // moves the scene away
     words.ambient = request.ambient;
     if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
     print_result(options.common.output_options.json ? scene_json(words) : format_scene_info(words));
@@ -149,9 +149,8 @@ int run_info(const InfoOptions& options) {
     check(options.writes || !options.replaces, Failure::usage, "--force: wanted --write beside it");
     if (!options.common.scene.empty()) return print_scene_info(options);
     check(!options.writes, Failure::usage, "--write: wanted a SCENE");
-    const ProgramInfo facts = gather_info_facts(options.common.device);
-    print_result(options.common.output_options.json ? make_info_json(facts)
-                                                    : format_info_facts(facts));
+    const ProgramInfo facts = gather_info(options.common.device);
+    print_result(options.common.output_options.json ? info_json(facts) : format_info(facts));
     return 0;
 }
 
@@ -160,21 +159,21 @@ int run_info(const InfoOptions& options) {
 void add_info_verb(CommandLine& program) {
     const auto options = std::make_shared<InfoOptions>();
     options->common.scene.clear();
-    CommandVerb& verb = program.add_command_verb(
-        "info", "print the contents of a scene, or version, device and features");
+    Verb& verb = program.add_verb("info",
+                                  "print the contents of a scene, or version, device and features");
     verb.examples(kInfoExamples);
     verb.argument(
         "SCENE",
         "built-in scene or .glb, .gltf or .obj file; without SCENE: information on program and "
         "device",
-        options->common.scene, CommandVerb::VerbArgumentNeed::optional);
+        options->common.scene, Verb::Need::optional);
     verb.flag("--write", "store the given scene options in SCENE.catoptric.json", options->writes);
     verb.flag("--force", "let --write replace an existing file", options->replaces);
     add_device_options(verb, options->common.device);
     add_view_options(verb, options->common);
-    add_scene_override_options(verb, options->common);
+    add_override_options(verb, options->common);
     add_output_options(verb, options->common.output_options);
-    verb.set_verb_action([options] { return run_info(*options); });
+    verb.action([options] { return run_info(*options); });
 }
 
 } // namespace catoptric::cli

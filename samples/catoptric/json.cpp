@@ -24,9 +24,9 @@ std::string serialise(const Json& document) {
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
-Json vector_to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
+Json vector_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json device_info_to_json(const session::DeviceInfo& device) {
+Json device_json(const session::DeviceInfo& device) {
     Json row = report::device_json(session::make_device_facts(device));
     row["id"] = device.id;
     row["usable"] = device.missing.empty();
@@ -35,7 +35,7 @@ Json device_info_to_json(const session::DeviceInfo& device) {
 }
 
 /// Returns the times in the format of report.json.
-Json make_times_json(const session::RunResult& result, const session::DeviceInfo& device) {
+Json times_json(const session::RunResult& result, const session::DeviceInfo& device) {
     report::Row row;
     study::fill_row_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
     const std::vector<session::PassTime>& last = result.frames.back().passes;
@@ -48,7 +48,7 @@ Json make_times_json(const session::RunResult& result, const session::DeviceInfo
     return report::row_times_json(row);
 }
 
-Json make_culled_work_json(const session::TechniqueResult& part) {
+Json culled_work_json(const session::TechniqueResult& part) {
     Json list = Json::array();
     for (const auto& [what, why, saves, error] : part.left_out)
         list.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", error}});
@@ -56,8 +56,7 @@ Json make_culled_work_json(const session::TechniqueResult& part) {
 }
 
 /// Returns how many captures a frame draws again, and how old their contents can be.
-Json make_capture_budget_json(const std::optional<session::CaptureBudget>& capture_budget,
-                              double budget_ms) {
+Json budget_json(const std::optional<session::CaptureBudget>& capture_budget, double budget_ms) {
     if (!capture_budget) return nullptr;
     return {{"budget_ms", budget_ms},
             {"mirrors", capture_budget->mirrors},
@@ -69,7 +68,7 @@ Json make_capture_budget_json(const std::optional<session::CaptureBudget>& captu
             {"said", session::describe_budget(*capture_budget)}};
 }
 
-Json make_settings_json(const std::vector<Setting>& list) {
+Json settings_json(const std::vector<Setting>& list) {
     Json settings = Json::object();
     for (const Setting& setting : list)
         settings[setting.name] = setting.number ? Json(std::stoll(setting.text))
@@ -78,7 +77,7 @@ Json make_settings_json(const std::vector<Setting>& list) {
 }
 
 /// Returns in one word whether larger or smaller values of a metric are better; null if neither is.
-Json make_better_direction_json(measure::BetterDirection better) {
+Json direction_json(measure::BetterDirection better) {
     switch (better) {
     case measure::BetterDirection::less: return "less";
     case measure::BetterDirection::more: return "more";
@@ -89,7 +88,7 @@ Json make_better_direction_json(measure::BetterDirection better) {
 
 } // namespace
 
-std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
+std::string diff_json(const DiffFacts& facts) {
     Json document{{"schema", "catoptric/diff/1"}, {"a", facts.a}, {"b", facts.b}};
     document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
     document["size"] = {facts.size.x, facts.size.y};
@@ -98,17 +97,16 @@ std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
     for (const measure::Metric& quantity : measure::difference_metrics())
         document[std::string(quantity.name)] = report::metric_json(
             measure::metric_value(quantity, facts.difference));
-    document["mean"] = {{"a", vector_to_json(facts.a_mean.rgb)},
-                        {"b", vector_to_json(facts.b_mean.rgb)}};
-    document["mean_clamped"] = {{"a", vector_to_json(facts.a_clamped.rgb)},
-                                {"b", vector_to_json(facts.b_clamped.rgb)}};
+    document["mean"] = {{"a", vector_json(facts.a_mean.rgb)}, {"b", vector_json(facts.b_mean.rgb)}};
+    document["mean_clamped"] = {{"a", vector_json(facts.a_clamped.rgb)},
+                                {"b", vector_json(facts.b_clamped.rgb)}};
     document["over"] = facts.over;
     return serialise(document);
 }
 
-std::string make_render_json(const session::Request& request, int first_frame,
-                             const session::DeviceInfo& device, const session::RunResult& result,
-                             const std::string& output) {
+std::string render_json(const session::Request& request, int first_frame,
+                        const session::DeviceInfo& device, const session::RunResult& result,
+                        const std::string& output) {
     const session::TechniqueResult& part = result.parts.front();
     const session::ParsedTechnique choice = session::parse_technique(request.techniques.front());
     using measure::ValueRange;
@@ -116,7 +114,7 @@ std::string make_render_json(const session::Request& request, int first_frame,
                   {"version", session::version()},
                   {"commit", session::commit()}};
     document["output"] = output;
-    document["device"] = device_info_to_json(device);
+    document["device"] = device_json(device);
     document["scene"] = request.scene.name;
     document["camera"] = request.camera.name;
     document["size"] = {request.size.x, request.size.y};
@@ -130,17 +128,17 @@ std::string make_render_json(const session::Request& request, int first_frame,
                                                                              : "pipelined";
     document["technique"] = choice.technique;
     document["label"] = choice.label;
-    document["settings"] = make_settings_json(choice.settings);
+    document["settings"] = settings_json(choice.settings);
     document["plan"] = report::plan_json(part.plan);
     document["notes"] = part.notes;
     document["model"] = work_name(part.model);
-    document["left_out"] = make_culled_work_json(part);
-    document["captures"] = make_capture_budget_json(part.capture_budget, request.budget_ms);
+    document["left_out"] = culled_work_json(part);
+    document["captures"] = budget_json(part.capture_budget, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // Frames of a still picture also compile shaders at their first use. The times of such frames
     // are therefore left out.
-    const Json times = make_times_json(result, device);
+    const Json times = times_json(result, device);
     for (const auto& [name, value] : times.items())
         document[name] = request.until_settled ? Json() : value;
     document["memory_bytes"] = part.memory_bytes;
@@ -148,12 +146,12 @@ std::string make_render_json(const session::Request& request, int first_frame,
         document["rays"] = {{"primary", part.rays->primary},
                             {"mirror", part.rays->mirror},
                             {"shadow", part.rays->shadow}};
-    document["mean"] = vector_to_json(measure::mean_of(part.hdr, ValueRange::unclamped).rgb);
-    document["mean_clamped"] = vector_to_json(measure::mean_of(part.hdr, ValueRange::clamped).rgb);
+    document["mean"] = vector_json(measure::mean_of(part.hdr, ValueRange::unclamped).rgb);
+    document["mean_clamped"] = vector_json(measure::mean_of(part.hdr, ValueRange::clamped).rgb);
     return serialise(document);
 }
 
-std::string make_picture_origin_json(const PictureOrigin& origin) {
+std::string origin_json(const PictureOrigin& origin) {
     const Json json{{"schema", "catoptric/picture/1"},
                     {"version", session::version()},
                     {"commit", session::commit()},
@@ -170,7 +168,7 @@ std::string make_picture_origin_json(const PictureOrigin& origin) {
     return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-std::string make_trace_json(const session::FrameTimes& frame, const std::string& process) {
+std::string trace_json(const session::FrameTimes& frame, const std::string& process) {
     Json events = Json::array();
     const auto name_of = [&](const char* what, const std::string& name) {
         events.push_back(
@@ -189,13 +187,13 @@ std::string make_trace_json(const session::FrameTimes& frame, const std::string&
     return serialise({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
 }
 
-std::string make_devices_json(const std::vector<session::DeviceInfo>& devices) {
+std::string devices_json(const std::vector<session::DeviceInfo>& devices) {
     Json rows = Json::array();
-    for (const session::DeviceInfo& device : devices) rows.push_back(device_info_to_json(device));
+    for (const session::DeviceInfo& device : devices) rows.push_back(device_json(device));
     return serialise({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
-Json make_traits_json(const TechniqueTraits& traits) {
+Json traits_json(const TechniqueTraits& traits) {
     constexpr std::array<const char*, 3> kCaptures{"none", "own", "shared"},
         kNoises{"none", "rays", "history"};
     return {{"captures", kCaptures[static_cast<std::size_t>(traits.captures)]},
@@ -204,7 +202,7 @@ Json make_traits_json(const TechniqueTraits& traits) {
             {"noise", kNoises[static_cast<std::size_t>(traits.noise)]}};
 }
 
-std::string make_techniques_json(const std::vector<session::TechniqueInfo>& techniques) {
+std::string techniques_json(const std::vector<session::TechniqueInfo>& techniques) {
     Json rows = Json::array();
     for (const session::TechniqueInfo& technique : techniques) {
         Json knobs = Json::array();
@@ -218,39 +216,37 @@ std::string make_techniques_json(const std::vector<session::TechniqueInfo>& tech
             if (!knob.special.empty()) row["special"] = knob.special;
             knobs.push_back(row);
         }
-        rows.push_back(
-            {{"name", technique.name},
-             {"summary", technique.summary},
-             {"traits", make_traits_json(session::parse_technique(technique.name).traits())},
-             {"knobs", knobs}});
+        rows.push_back({{"name", technique.name},
+                        {"summary", technique.summary},
+                        {"traits", traits_json(session::parse_technique(technique.name).traits())},
+                        {"knobs", knobs}});
     }
     return serialise({{"schema", "catoptric/list/1"}, {"techniques", rows}});
 }
 
-std::string make_named_list_json(const std::string& kind,
-                                 const std::vector<NamedListEntry>& named) {
+std::string named_json(const std::string& kind, const std::vector<NamedListEntry>& named) {
     Json rows = Json::array();
     for (const NamedListEntry& row : named)
         rows.push_back({{"name", row.name}, {"summary", row.summary}});
     return serialise({{"schema", "catoptric/list/1"}, {kind, rows}});
 }
 
-std::string make_metrics_json() {
+std::string metrics_json() {
     Json rows = Json::array();
     for (const measure::Metric& quantity : measure::metrics())
         rows.push_back({{"name", quantity.name},
                         {"summary", quantity.help},
                         {"unit", quantity.unit},
                         {"mask", quantity.mask},
-                        {"better", make_better_direction_json(quantity.better)}});
+                        {"better", direction_json(quantity.better)}});
     return serialise({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 
-std::string make_info_json(const ProgramInfo& facts) {
+std::string info_json(const ProgramInfo& facts) {
     Json document{{"schema", "catoptric/info/1"},
                   {"version", session::version()},
                   {"commit", session::commit()}};
-    document["device"] = facts.device ? device_info_to_json(*facts.device) : Json();
+    document["device"] = facts.device ? device_json(*facts.device) : Json();
     if (facts.device) document["device"]["lanes"] = facts.lanes;
     if (!facts.device) document["no_device"] = facts.why_no_device;
     Json features = Json::object();

@@ -13,7 +13,7 @@
 /// is not finite becomes null. Bytes that are not UTF-8 (in a path) are replaced.
 namespace catoptric::cli {
 
-struct PictureDiffFacts {
+struct DiffFacts {
     std::string a, b, mask;
     uvec2 size{0, 0};
     double exposure = 0;
@@ -22,12 +22,12 @@ struct PictureDiffFacts {
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words
 };
-std::string format_picture_difference_as_json(const PictureDiffFacts& facts);
+std::string diff_json(const DiffFacts& facts);
 
 /// `first_frame`: number of the first measured frame in its sequence, from 1.
-std::string make_render_json(const session::Request& request, int first_frame,
-                             const session::DeviceInfo& device, const session::RunResult& result,
-                             const std::string& output);
+std::string render_json(const session::Request& request, int first_frame,
+                        const session::DeviceInfo& device, const session::RunResult& result,
+                        const std::string& output);
 
 /// What a picture was made of: with this and the files of the scene, it can be made again.
 struct PictureOrigin {
@@ -42,22 +42,22 @@ struct PictureOrigin {
 };
 /// Returns the text for the header of an OpenEXR file, in one line, without a newline at its end:
 /// schema "catoptric/picture/1". The same origin gives the same text.
-std::string make_picture_origin_json(const PictureOrigin& origin);
+std::string origin_json(const PictureOrigin& origin);
 
 /// Returns the passes of one frame in Chrome's trace-event format (chrome://tracing, Perfetto).
-std::string make_trace_json(const session::FrameTimes& frame, const std::string& process);
+std::string trace_json(const session::FrameTimes& frame, const std::string& process);
 
-std::string make_devices_json(const std::vector<session::DeviceInfo>& devices);
-std::string make_techniques_json(const std::vector<session::TechniqueInfo>& techniques);
+std::string devices_json(const std::vector<session::DeviceInfo>& devices);
+std::string techniques_json(const std::vector<session::TechniqueInfo>& techniques);
 
 struct NamedListEntry {
     std::string name, summary;
 };
 /// Returns {"schema": "catoptric/list/1", KIND: [{"name", "summary"}]}.
-std::string make_named_list_json(const std::string& kind, const std::vector<NamedListEntry>& rows);
+std::string named_json(const std::string& kind, const std::vector<NamedListEntry>& rows);
 
 /// Returns the table of metrics: {"name", "summary", "unit", "mask", "better"}.
-std::string make_metrics_json();
+std::string metrics_json();
 
 struct ProgramInfo {
     std::optional<session::DeviceInfo> device;
@@ -66,7 +66,7 @@ struct ProgramInfo {
     /// Name of each group of features, and its features.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;
 };
-std::string make_info_json(const ProgramInfo& facts);
+std::string info_json(const ProgramInfo& facts);
 
 /// Facts that `info SCENE` reports.
 struct SceneInfoFacts {

@@ -12,28 +12,28 @@ namespace {
 
 using report::Json;
 
-Json make_colour_json(const vec3& colour) {
+Json colour_json(const vec3& colour) {
     return {scene::shortest_double(colour.x), scene::shortest_double(colour.y),
             scene::shortest_double(colour.z)};
 }
 
-Json make_material_json(const session::MaterialInfo& material) {
+Json material_json(const session::MaterialInfo& material) {
     Json json{{"name", material.name},
               {"kind", material.kind},
               {"objects", material.objects},
-              {"albedo", make_colour_json(material.albedo)}};
+              {"albedo", colour_json(material.albedo)}};
     for (std::size_t i = 0; i < material.factors.size(); ++i)
         json[std::string(scene::kMaterialFactors[i].name)] = scene::shortest_double(
             material.factors[i]);
-    json["f0"] = make_colour_json(material.f0);
-    json["light"] = material.light == vec3(0) ? Json() : make_colour_json(material.light);
+    json["f0"] = colour_json(material.f0);
+    json["light"] = material.light == vec3(0) ? Json() : colour_json(material.light);
     json["glows"] = material.glows, json["masked"] = material.is_masked;
     json["blended"] = material.is_blended;
     json["two_sided"] = material.is_two_sided, json["textures"] = material.textures;
     return json;
 }
 
-Json make_mirror_shape_json(const scene::MirrorShape& shape) {
+Json shape_json(const scene::MirrorShape& shape) {
     Json json{{"kind", scene::shape_name(shape.kind)}, {"closed", shape.is_closed}};
     json["sphere"] = nullptr;
     if (shape.fit)
@@ -43,13 +43,13 @@ Json make_mirror_shape_json(const scene::MirrorShape& shape) {
     return json;
 }
 
-Json make_mirror_json(const session::MirrorInfo& mirror) {
+Json mirror_json(const session::MirrorInfo& mirror) {
     return {{"mirror", mirror.number},
             {"name", mirror.name},
-            {"shape", make_mirror_shape_json(mirror.shape)},
+            {"shape", shape_json(mirror.shape)},
             {"screen_share", report::number_json(mirror.screen_share)},
             {"capture_centre", report::point_json(mirror.capture_centre)},
-            {"reflectance", make_colour_json(mirror.reflectance)},
+            {"reflectance", colour_json(mirror.reflectance)},
             {"constant", mirror.is_constant}};
 }
 
@@ -81,8 +81,8 @@ std::string scene_json(const SceneInfoFacts& words) {
     document["bytes"] = {{"geometry", info.geometry_bytes},
                          {"images", info.image_bytes},
                          {"files", info.file_bytes}};
-    document["materials"] = list_json(info.materials, make_material_json);
-    document["mirrors"] = list_json(info.mirrors, make_mirror_json);
+    document["materials"] = list_json(info.materials, material_json);
+    document["mirrors"] = list_json(info.mirrors, mirror_json);
     document["mirror_options"] = info.mirror_options;
     document["lights"] = report::lights_json(contents.lights);
     document["environment"] = report::environment_json(contents.environment);

@@ -63,13 +63,13 @@ keep_named_technique(std::vector<session::TechniqueInfo> techniques, const std::
     if (name == "auto") return {{.name = "auto", .summary = kAutoSummary}};
     std::vector<std::string> names;
     for (const session::TechniqueInfo& technique : techniques) names.push_back(technique.name);
-    return {techniques[parse_choice_index("list techniques", name, names)]};
+    return {techniques[parse_choice("list techniques", name, names)]};
 }
 
-std::string make_technique_list_text(const std::string& name, bool json) {
+std::string technique_text(const std::string& name, bool json) {
     std::vector<session::TechniqueInfo> techniques = session::techniques();
     if (!name.empty()) techniques = keep_named_technique(std::move(techniques), name);
-    if (json) return make_techniques_json(techniques);
+    if (json) return techniques_json(techniques);
     return name.empty() ? format_technique_list(techniques)
                         : describe_technique(techniques.front());
 }
@@ -134,21 +134,21 @@ std::string format_metric_list() {
     return text;
 }
 
-std::string make_list_output(const std::string& kind, const std::string& name, bool json) {
+std::string list_output(const std::string& kind, const std::string& name, bool json) {
     check(name.empty() || kind == "techniques", Failure::usage, "'list ", kind,
           "' wanted no further argument, found '", name, "'");
-    if (kind == "techniques") return make_technique_list_text(name, json);
+    if (kind == "techniques") return technique_text(name, json);
     if (kind == "devices") {
         const std::vector<session::DeviceInfo> devices = session::devices(
             session::find_profile_folder());
         for (const session::DeviceInfo& device : devices)
             if (!device.warning.empty()) print_warning(device.warning);
-        return json ? make_devices_json(devices) : format_device_list(devices);
+        return json ? devices_json(devices) : format_device_list(devices);
     }
-    if (kind == "metrics") return json ? make_metrics_json() : format_metric_list();
+    if (kind == "metrics") return json ? metrics_json() : format_metric_list();
     const std::vector<NamedListEntry> rows = kind == "costs" ? list_device_costs()
                                                              : built_in_scenes();
-    return json ? make_named_list_json(kind, rows) : format_named_list(rows);
+    return json ? named_json(kind, rows) : format_named_list(rows);
 }
 
 } // namespace
@@ -159,17 +159,17 @@ void add_list_verb(CommandLine& program) {
         std::string kind, name;
     };
     const auto options = std::make_shared<ListOptions>();
-    CommandVerb& verb = program.add_command_verb(
-        "list", "techniques, scenes, devices, metrics or costs of devices");
+    Verb& verb = program.add_verb("list",
+                                  "techniques, scenes, devices, metrics or costs of devices");
     verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices, metrics or costs", options->kind,
-                  CommandVerb::VerbArgumentNeed::required);
+                  Verb::Need::required);
     verb.argument("NAME", "name of a technique, to list its knobs", options->name,
-                  CommandVerb::VerbArgumentNeed::optional);
+                  Verb::Need::optional);
     add_output_options(verb, options->output_options);
-    verb.set_verb_action([options] {
-        parse_choice_index("list", options->kind, kListableKinds);
-        print_result(make_list_output(options->kind, options->name, options->output_options.json));
+    verb.action([options] {
+        parse_choice("list", options->kind, kListableKinds);
+        print_result(list_output(options->kind, options->name, options->output_options.json));
         return 0;
     });
 }

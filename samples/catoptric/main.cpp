@@ -12,7 +12,7 @@ namespace {
 /// Each thread's heap keeps some free memory nevertheless. The software driver allocates and frees
 /// the vertices of each draw and the triangles of each pass. Without free memory the system clears
 /// new pages each time, which took 40 % of a frame with 64 captures.
-void release_freed_memory_at_once() {
+void release_freed_memory() {
 #ifdef __GLIBC__
     constexpr int kMinMmapAllocationBytes = 128 * 1024, kKeptFreeBytes = 8 * 1024 * 1024;
     mallopt(M_MMAP_THRESHOLD, kMinMmapAllocationBytes);
@@ -29,6 +29,6 @@ void release_freed_memory_at_once() {
 } // namespace
 
 int main(int argc, char** argv) {
-    release_freed_memory_at_once();
+    release_freed_memory();
     return catoptric::cli::run_program(argc, argv);
 }

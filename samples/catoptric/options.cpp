@@ -24,7 +24,7 @@ namespace {
 constexpr std::int64_t kMaxFrameCount = 1'000'000;
 
 /// Reads N, or A..B if the verb takes a range.
-void parse_frames_option(const std::string& text, CommonOptions& common) {
+void parse_frames(const std::string& text, CommonOptions& common) {
     const auto parse_number = [](const std::string& number, int low) {
         return static_cast<int>(parse_integer("--frames", number, low, kMaxFrameCount));
     };
@@ -39,14 +39,14 @@ void parse_frames_option(const std::string& text, CommonOptions& common) {
     common.frames = last - common.first_frame + 1;
 }
 
-void add_number_options(CommandVerb& verb, CommonOptions& common) {
+void add_number_options(Verb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
     verb.option(
         "--frames", common.takes_frame_range ? "N|A..B" : "N",
         common.takes_frame_range
             ? "number of measured frames, at least 1 (20), or the first and the last of them"
             : "number of measured frames, at least 1 (20)",
-        [&](const std::string& text) { parse_frames_option(text, common); });
+        [&](const std::string& text) { parse_frames(text, common); });
     verb.option("--warmup", "N",
                 "frames before the measured ones (8; 28 with compare --model required or both)",
                 [&](const std::string& text) {
@@ -59,19 +59,18 @@ void add_number_options(CommandVerb& verb, CommonOptions& common) {
         common.animate);
 }
 
-void parse_model_option(const std::string& text, CommonOptions& common) {
-    const std::size_t choice = parse_choice_index("--model", text,
-                                                  {"everything", "required", "both"});
+void parse_model(const std::string& text, CommonOptions& common) {
+    const std::size_t choice = parse_choice("--model", text, {"everything", "required", "both"});
     common.both_models = choice == 2;
     common.model = choice == 1 ? session::RenderedWork::required
                                : session::RenderedWork::everything;
 }
 
-void add_choice_options(CommandVerb& verb, CommonOptions& common) {
+void add_choice_options(Verb& verb, CommonOptions& common) {
     verb.option("--model", "M",
                 "everything: draw all captures in each frame; required: draw only what the picture "
                 "requires (default of render); both: compare shows both (everything)",
-                [&](const std::string& text) { parse_model_option(text, common); });
+                [&](const std::string& text) { parse_model(text, common); });
     verb.option(
         "--reference", "T",
         "technique of the reference picture of compare (raytrace:depth=16, with rays=64 if a "
@@ -88,8 +87,7 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
         "isolated: passes run one after the other, so their times add up; pipelined: passes may "
         "overlap (isolated)",
         [&](const std::string& text) {
-            const bool isolated = parse_choice_index("--timing", text, {"isolated", "pipelined"}) ==
-                                  0;
+            const bool isolated = parse_choice("--timing", text, {"isolated", "pipelined"}) == 0;
             common.timing = isolated ? session::PassTimingMode::isolated
                                      : session::PassTimingMode::pipelined;
         });
@@ -99,9 +97,8 @@ scene::Camera choose_camera(const CommonOptions& common, session::ResolvedScene&
     if (wanted.is_camera_seeded) {
         scene::Camera camera = session::make_seeded_camera(wanted.scene, common.time.value_or(0),
                                                            common.seed);
-        print_note_unless_quiet(common.output_options, "camera drawn from seed " +
-                                                           std::to_string(common.seed) + ": " +
-                                                           camera.name);
+        print_note(common.output_options,
+                   "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
         return camera;
     }
     return session::choose_camera(wanted, double(common.size.x) / double(common.size.y));
@@ -117,7 +114,7 @@ void warn_of_no_mirror(const scene::Scene& scene) {
 
 } // namespace
 
-scene::FileOptions make_scene_file_options(const CommonOptions& common) {
+scene::FileOptions scene_file_options(const CommonOptions& common) {
     return {.root = common.root,
             .budget = scene::choose_budget(common.scene, common.budget, scene::read_free_memory())};
 }
@@ -134,7 +131,7 @@ double parse_stops(const std::string& text) {
     return parse_real("--exposure", text, -scene::kMaxExposureStops, scene::kMaxExposureStops);
 }
 
-void add_output_options(CommandVerb& verb, OutputOptions& output_options) {
+void add_output_options(Verb& verb, OutputOptions& output_options) {
     verb.heading("Output");
     verb.flag("--json", "print one JSON document on stdout instead of text", output_options.json);
     verb.flag("-q,--quiet", "print no progress and no information on stderr", output_options.quiet);
@@ -143,11 +140,11 @@ void add_output_options(CommandVerb& verb, OutputOptions& output_options) {
                 "when to show progress: auto (on a terminal), always or never (auto)",
                 [&](const std::string& text) {
                     output_options.progress = static_cast<ProgressMode>(
-                        parse_choice_index("--progress", text, {"auto", "always", "never"}));
+                        parse_choice("--progress", text, {"auto", "always", "never"}));
                 });
 }
 
-void add_device_options(CommandVerb& verb, DeviceOptions& device) {
+void add_device_options(Verb& verb, DeviceOptions& device) {
     verb.heading(kDeviceOptions);
     verb.option(
         "--device", "D",
@@ -160,13 +157,13 @@ void add_device_options(CommandVerb& verb, DeviceOptions& device) {
         device.profile);
 }
 
-void add_validate_option(CommandVerb& verb, DeviceOptions& device) {
+void add_validate_option(Verb& verb, DeviceOptions& device) {
     verb.heading(kDeviceOptions);
     verb.flag("--validate", "run with the Vulkan validation layer; any message fails the run",
               device.validate);
 }
 
-void add_view_options(CommandVerb& verb, CommonOptions& common) {
+void add_view_options(Verb& verb, CommonOptions& common) {
     verb.heading(kCommonOptions);
     verb.option("--size", "WxH", "size of the picture in pixels (512x512)",
                 [&](const std::string& text) {
@@ -180,7 +177,7 @@ void add_view_options(CommandVerb& verb, CommonOptions& common) {
                 [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
 }
 
-void add_budget_option(CommandVerb& verb, CommonOptions& common) {
+void add_budget_option(Verb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
     verb.option(
         "--budget-ms", "MS",
@@ -199,29 +196,29 @@ void check_budget_option(const CommonOptions& common) {
           "--budget-ms and --model everything: wanted --model required, which keeps captures");
 }
 
-void add_common_options_without_scene(CommandVerb& verb, CommonOptions& common) {
+void add_sceneless_options(Verb& verb, CommonOptions& common) {
     add_view_options(verb, common);
     add_number_options(verb, common);
     add_choice_options(verb, common);
-    add_scene_override_options(verb, common);
+    add_override_options(verb, common);
     add_device_options(verb, common.device);
     add_validate_option(verb, common.device);
     add_output_options(verb, common.output_options);
 }
 
-void add_common_options(CommandVerb& verb, CommonOptions& common) {
+void add_common_options(Verb& verb, CommonOptions& common) {
     verb.argument(
         "SCENE", "built-in scene (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
-        common.scene, CommandVerb::VerbArgumentNeed::optional);
-    add_common_options_without_scene(verb, common);
+        common.scene, Verb::Need::optional);
+    add_sceneless_options(verb, common);
 }
 
-void throw_unless_option_given(bool given, const std::string& verb, const std::string& option,
-                               const std::string& what) {
+void require_option(bool given, const std::string& verb, const std::string& option,
+                    const std::string& what) {
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
-void check_technique_list(const std::vector<std::string>& techniques) {
+void check_techniques(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
         for (const scene::BuiltInScene& built_in : scene::built_in_scenes())
@@ -232,8 +229,8 @@ void check_technique_list(const std::vector<std::string>& techniques) {
     parse_option("--techniques", [&] { study::check_techniques(techniques); });
 }
 
-ResolvedRequest make_resolved_request(const CommonOptions& common,
-                                      const std::function<void(const scene::Scene&)>& check) {
+ResolvedRequest resolve_request(const CommonOptions& common,
+                                const std::function<void(const scene::Scene&)>& check) {
     ResolvedRequest asked;
     session::Request& request = asked.request;
     request.seed = common.seed;
@@ -241,7 +238,7 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     {
         const Stopwatch watch(load_ms);
         asked.wanted = session::resolve_scene(common.scene,
-                                              {.load = make_scene_file_options(common),
+                                              {.load = scene_file_options(common),
                                                .overrides = common.overrides,
                                                .use_scene_file = common.use_scene_file});
     }
@@ -250,7 +247,7 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     for (const std::string& warning : asked.wanted.scene.warnings) print_warning(warning);
     request.camera = choose_camera(common, asked.wanted);
     for (const std::string& sentence : asked.wanted.said)
-        print_note_unless_quiet(common.output_options, sentence);
+        print_note(common.output_options, sentence);
     if (!check) warn_of_no_mirror(asked.wanted.scene);
     request.size = common.size;
     request.frames = common.frames.value_or(request.frames);
@@ -268,13 +265,12 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     return asked;
 }
 
-session::Request
-make_render_request_of_options(const CommonOptions& common,
-                               const std::function<void(const scene::Scene&)>& check) {
-    return make_resolved_request(common, check).request;
+session::Request make_request(const CommonOptions& common,
+                              const std::function<void(const scene::Scene&)>& check) {
+    return resolve_request(common, check).request;
 }
 
-session::EngineOptions make_engine_options(const DeviceOptions& device) {
+session::EngineOptions engine_options(const DeviceOptions& device) {
     const bool by_default = device.profile == kNoProfileName;
     return {.device = device.name,
             .validate = device.validate,
@@ -283,9 +279,8 @@ session::EngineOptions make_engine_options(const DeviceOptions& device) {
             .cache = session::find_cache_folder()};
 }
 
-void print_device_and_warnings(const session::Engine& engine, const OutputOptions& output_options) {
-    print_detail_if_verbose(output_options,
-                            "device: " + engine.device().name + ", " + engine.device().driver);
+void print_device(const session::Engine& engine, const OutputOptions& output_options) {
+    print_detail(output_options, "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) print_warning(engine.warning());
     if (const std::string text = session::vector_width_warning(engine); !text.empty())
         print_warning(text);

@@ -58,24 +58,24 @@ inline constexpr const char* kMeasuringOptions = "Frames, times and errors";
 inline constexpr const char* kDeviceOptions = "Device";
 
 /// Adds --json, --quiet, -v and --progress.
-void add_output_options(CommandVerb& verb, OutputOptions& output_options);
+void add_output_options(Verb& verb, OutputOptions& output_options);
 /// Adds SCENE, all common options, and the options of `add_output_options`. `common` must outlive
 /// the parsing.
-void add_common_options(CommandVerb& verb, CommonOptions& common);
+void add_common_options(Verb& verb, CommonOptions& common);
 /// Adds all common options without SCENE, and the options of `add_output_options`.
-void add_common_options_without_scene(CommandVerb& verb, CommonOptions& common);
+void add_sceneless_options(Verb& verb, CommonOptions& common);
 /// Adds the scene overrides under their own heading: --root to --no-scene-file.
-void add_scene_override_options(CommandVerb& verb, CommonOptions& common);
+void add_override_options(Verb& verb, CommonOptions& common);
 /// Adds --device and --device-profile. `device` must outlive the parsing.
-void add_device_options(CommandVerb& verb, DeviceOptions& device);
+void add_device_options(Verb& verb, DeviceOptions& device);
 /// Adds --validate.
-void add_validate_option(CommandVerb& verb, DeviceOptions& device);
+void add_validate_option(Verb& verb, DeviceOptions& device);
 /// Adds --size, --camera, --exposure, --time and --seed.
-void add_view_options(CommandVerb& verb, CommonOptions& common);
+void add_view_options(Verb& verb, CommonOptions& common);
 /// Adds --camera and --exposure.
-void add_camera_options(CommandVerb& verb, CommonOptions& common);
+void add_camera_options(Verb& verb, CommonOptions& common);
 /// Returns the options for loading the scene.
-scene::FileOptions make_scene_file_options(const CommonOptions& common);
+scene::FileOptions scene_file_options(const CommonOptions& common);
 /// Returns the label of a technique that can be the reference. Throws `usage` for plans and unknown
 /// techniques.
 std::string parse_reference(const std::string& text);
@@ -83,34 +83,33 @@ std::string parse_reference(const std::string& text);
 double parse_stops(const std::string& text);
 
 /// Adds --budget-ms.
-void add_budget_option(CommandVerb& verb, CommonOptions& common);
+void add_budget_option(Verb& verb, CommonOptions& common);
 /// Throws `usage` for a capture budget with --model everything, which draws all captures.
 void check_budget_option(const CommonOptions& common);
 
 /// Throws `usage` with the message that `verb` needs `option`, unless `given`.
-void throw_unless_option_given(bool given, const std::string& verb, const std::string& option,
-                               const std::string& what);
+void require_option(bool given, const std::string& verb, const std::string& option,
+                    const std::string& what);
 
 /// Throws `usage` if the list of --techniques contains a scene, because the option takes all words
 /// that follow it. Also throws as study::check_techniques does.
-void check_technique_list(const std::vector<std::string>& techniques);
+void check_techniques(const std::vector<std::string>& techniques);
 
 /// Returns the request to the engine, without techniques: scene, camera and numbers. Prints
 /// messages of the loader, and parts that were added to the scene, to stderr. `check`, if given,
 /// may refuse the scene before any other message. Without it, a scene without a mirror causes a
 /// warning.
-session::Request
-make_render_request_of_options(const CommonOptions& common,
-                               const std::function<void(const scene::Scene&)>& check = {});
+session::Request make_request(const CommonOptions& common,
+                              const std::function<void(const scene::Scene&)>& check = {});
 /// A request, with the resolved scene from which it was made.
 struct ResolvedRequest {
     session::Request request;
     session::ResolvedScene wanted; ///< without its scene, which is in `request`
 };
-ResolvedRequest make_resolved_request(const CommonOptions& common,
-                                      const std::function<void(const scene::Scene&)>& check = {});
-session::EngineOptions make_engine_options(const DeviceOptions& device);
+ResolvedRequest resolve_request(const CommonOptions& common,
+                                const std::function<void(const scene::Scene&)>& check = {});
+session::EngineOptions engine_options(const DeviceOptions& device);
 /// Prints the device and the engine's warnings to stderr.
-void print_device_and_warnings(const session::Engine& engine, const OutputOptions& output_options);
+void print_device(const session::Engine& engine, const OutputOptions& output_options);
 
 } // namespace catoptric::cli

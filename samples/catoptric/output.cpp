@@ -20,7 +20,7 @@ namespace {
 
 /// Returns the printable form of a message, which may quote a file or a name. All lines after the
 /// first are indented, so that a quoted name cannot begin a line that looks like a new message.
-std::string escape_message_text(std::string_view text) {
+std::string escape_text(std::string_view text) {
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find("\n  ", begin), text.size());
@@ -31,7 +31,7 @@ std::string escape_message_text(std::string_view text) {
     return shown;
 }
 
-void write_all_to_stdout(std::string_view bytes) {
+void write_stdout(std::string_view bytes) {
     errno = 0;
     const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stdout);
     if (written == bytes.size() && std::fflush(stdout) == 0) return;
@@ -41,7 +41,7 @@ void write_all_to_stdout(std::string_view bytes) {
          " bytes: ", std::generic_category().message(error));
 }
 
-void check_folder_is_writable(const fs::path& folder, const fs::path& path) {
+void check_writable(const fs::path& folder, const fs::path& path) {
     const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
     const int error = errno; // saved before any other call
     check(writable, Failure::cannot_create, path.string(), ": cannot be created in ",
@@ -59,12 +59,12 @@ void check_parent_folder(const fs::path& path) {
     const fs::path parent = find_parent_folder(path);
     check(fs::is_directory(parent, error), Failure::cannot_create, path.string(),
           ": cannot be created: there is no folder ", parent.string());
-    check_folder_is_writable(parent, path);
+    check_writable(parent, path);
 }
 
 } // namespace
 
-void prepare_standard_streams() {
+void prepare_streams() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGCHLD, SIG_DFL); // a parent may have ignored it, and exit codes would be lost
@@ -77,20 +77,20 @@ void prepare_standard_streams() {
     }
 }
 
-void print_result(std::string_view result) { write_all_to_stdout(escape(result, "\n")); }
+void print_result(std::string_view result) { write_stdout(escape(result, "\n")); }
 
-void print_picture_bytes(std::string_view result) { write_all_to_stdout(result); }
+void print_bytes(std::string_view result) { write_stdout(result); }
 
 void print_message(const std::string& text) {
-    const std::string whole = escape_message_text(text) + "\n";
+    const std::string whole = escape_text(text) + "\n";
     std::fwrite(whole.data(), 1, whole.size(), stderr); // a failure here cannot be reported
 }
 
-void print_note_unless_quiet(const OutputOptions& output_options, const std::string& text) {
+void print_note(const OutputOptions& output_options, const std::string& text) {
     if (!output_options.quiet) print_message(text);
 }
 
-void print_detail_if_verbose(const OutputOptions& output_options, const std::string& text) {
+void print_detail(const OutputOptions& output_options, const std::string& text) {
     if (output_options.verbose && !output_options.quiet) print_message(text);
 }
 
@@ -104,14 +104,14 @@ void throw_incomplete_run(const Error& stopped, std::size_t rows, std::size_t as
                         : "; what there is lies in " + folder.string() + ", marked incomplete");
 }
 
-void check_file_can_be_made(const fs::path& path) {
+void check_output_file(const fs::path& path) {
     std::error_code error;
     check(!path.empty() && path.has_filename() && !fs::is_directory(path, error),
           Failure::cannot_create, path.string(), ": wanted a file name, found a folder");
     check_parent_folder(path);
 }
 
-void check_folder_can_be_made(const fs::path& path) {
+void check_output_folder(const fs::path& path) {
     check(!path.empty(), Failure::cannot_create, "wanted the name of a folder, found none");
     std::error_code error;
     fs::path there = path; // the path, or its nearest existing parent
@@ -119,7 +119,7 @@ void check_folder_can_be_made(const fs::path& path) {
     check(fs::is_directory(there, error), Failure::cannot_create, path.string(),
           ": cannot be created: wanted ", there == path ? "" : there.string() + " to be ",
           "a folder, found a file");
-    check_folder_is_writable(there, path);
+    check_writable(there, path);
 }
 
 } // namespace catoptric::cli

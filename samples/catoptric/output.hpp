@@ -20,7 +20,7 @@ struct OutputOptions {
 
 /// Prepares stdin, stdout and stderr. A write to a closed pipe or beyond the file size limit fails
 /// instead of killing the program. Files opened later cannot take the place of a closed stream.
-void prepare_standard_streams();
+void prepare_streams();
 
 /// Writes the result, text or JSON, to stdout and flushes it. Escapes characters that a terminal
 /// might obey (`escape`). Throws `Failure::io`, without a message if the reader
@@ -28,16 +28,16 @@ void prepare_standard_streams();
 void print_result(std::string_view result);
 /// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `print_result`
 /// does.
-void print_picture_bytes(std::string_view result);
+void print_bytes(std::string_view result);
 /// Writes one message to stderr, with the same characters escaped as by `print_result`. In a
 /// message of several lines, all lines but the first begin with two spaces. Other line breaks are
 /// escaped.
 void print_message(const std::string& text);
 
-/// Writes a line to stderr: `print_note_unless_quiet` unless --quiet, `print_detail_if_verbose`
+/// Writes a line to stderr: `print_note` unless --quiet, `print_detail`
 /// only with -v, `print_warning` always.
-void print_note_unless_quiet(const OutputOptions& output_options, const std::string& text);
-void print_detail_if_verbose(const OutputOptions& output_options, const std::string& text);
+void print_note(const OutputOptions& output_options, const std::string& text);
+void print_detail(const OutputOptions& output_options, const std::string& text);
 void print_warning(const std::string& text);
 
 /// Throws the error that ended a run early, with the number of finished rows and their folder.
@@ -48,9 +48,9 @@ void print_warning(const std::string& text);
 
 /// Throws `cannot_create` if no file can be made at `path`, before work is spent on it. Reasons are
 /// a missing folder, or a folder of this name.
-void check_file_can_be_made(const std::filesystem::path& path);
+void check_output_file(const std::filesystem::path& path);
 /// Throws `cannot_create` if the folder and its parents cannot be made. The nearest existing parent
 /// must be a folder that accepts entries.
-void check_folder_can_be_made(const std::filesystem::path& path);
+void check_output_folder(const std::filesystem::path& path);
 
 } // namespace catoptric::cli

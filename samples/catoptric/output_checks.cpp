@@ -15,15 +15,15 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Files by their resolved path and, if they exist, by inode number.
-class KnownFileIdentities {
+class KnownFiles {
 public:
-    struct KnownFileIdentity {
+    struct KnownFile {
         fs::path path; ///< path as the user named it
         bool is_input = false;
     };
     /// Returns the known file to which `path` also leads; null if there is none. Devices and pipes
     /// never count as the same file.
-    const KnownFileIdentity* find_known_file_at_path(const fs::path& path) const {
+    const KnownFile* find(const fs::path& path) const {
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;
         if (is_there && !S_ISREG(status.st_mode)) return nullptr;
@@ -32,7 +32,7 @@ public:
         const auto found = numbers_.find({status.st_dev, status.st_ino});
         return is_there && found != numbers_.end() ? &found->second : nullptr;
     }
-    void add_known_file(const KnownFileIdentity& file) {
+    void add(const KnownFile& file) {
         paths_.emplace(real_path(file.path), file);
         struct stat status {};
         if (::stat(file.path.c_str(), &status) == 0)
@@ -40,26 +40,24 @@ public:
     }
 
 private:
-    std::map<fs::path, KnownFileIdentity> paths_;
-    std::map<std::pair<dev_t, ino_t>, KnownFileIdentity> numbers_;
+    std::map<fs::path, KnownFile> paths_;
+    std::map<std::pair<dev_t, ino_t>, KnownFile> numbers_;
 };
 
 } // namespace
 
-void check_outputs_differ_from_inputs(const std::vector<fs::path>& outputs,
-                                      const std::vector<fs::path>& inputs,
-                                      const std::string& read) {
-    KnownFileIdentities files;
-    for (const fs::path& input : inputs) files.add_known_file({input, true});
+void check_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,
+                    const std::string& read) {
+    KnownFiles files;
+    for (const fs::path& input : inputs) files.add({input, true});
     for (const fs::path& output : outputs) {
-        if (const KnownFileIdentities::KnownFileIdentity* same = files.find_known_file_at_path(
-                output)) {
+        if (const KnownFiles::KnownFile* same = files.find(output)) {
             check(same->is_input || same->path != output, Failure::usage, output.string(),
                   ": wanted one output in a place, found two");
             fail(Failure::usage, output.string(), ": cannot be written: it is the same file as ",
                  same->path.string(), same->is_input ? read : ", which is written too");
         }
-        files.add_known_file({output, false});
+        files.add({output, false});
     }
 }
 

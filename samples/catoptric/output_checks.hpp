@@ -13,8 +13,8 @@ inline const std::filesystem::path kStdoutPath = "/dev/stdout";
 /// Throws `usage` with both names if an output is the same file as an input or another output.
 /// Files are compared through links of either kind. Devices and pipes may be named twice. `read`
 /// describes an input in the message.
-void check_outputs_differ_from_inputs(const std::vector<std::filesystem::path>& outputs,
-                                      const std::vector<std::filesystem::path>& inputs,
-                                      const std::string& read = ", which the scene is read from");
+void check_distinct(const std::vector<std::filesystem::path>& outputs,
+                    const std::vector<std::filesystem::path>& inputs,
+                    const std::string& read = ", which the scene is read from");
 
 } // namespace catoptric::cli

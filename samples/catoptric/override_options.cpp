@@ -11,7 +11,7 @@ namespace {
 
 const std::string kSceneOptionsHeading = "The scene";
 
-void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
+void add_surface_options(Verb& verb, scene::SceneOverrides& overrides) {
     const auto mirror = [&](const std::string& text) {
         overrides.mirrors.push_back(scene::parse_mirror_override("--mirror", text));
     };
@@ -38,8 +38,8 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
                     overrides.mirror_max_roughness = parse_real("--mirror-max-roughness", text, 0,
                                                                 1);
                 });
-    verb.option_without_value("--dielectric-mirrors", "surfaces that are no metal are mirrors, too",
-                              [&] { overrides.dielectric_mirrors = true; });
+    verb.flag("--dielectric-mirrors", "surfaces that are no metal are mirrors, too",
+              [&] { overrides.dielectric_mirrors = true; });
     verb.option(
         "--multiple-scattering", "NAME",
         "light that rough surfaces scatter several times: none (it is lost) or turquin (none)",
@@ -58,7 +58,7 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
                 });
 }
 
-void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
+void add_environment_options(Verb& verb, scene::SceneOverrides& overrides) {
     verb.option(
         "--environment", "E",
         "picture around the scene that also lights it: FILE.exr, .hdr or .png (equirectangular; "
@@ -93,12 +93,11 @@ void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides
         [&](const std::string& text) { overrides.ambient = parse_real("--ambient", text, 0); });
 }
 
-void add_scale_and_axis_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
+void add_scale_and_axis_options(Verb& verb, scene::SceneOverrides& overrides) {
     verb.option("--up", "AXIS", "axis that points up in the file, y or z; z is turned to y (y)",
                 [&](const std::string& text) {
-                    overrides.up = parse_choice_index("--up", text, {"y", "z"}) == 1
-                                       ? scene::UpAxis::z
-                                       : scene::UpAxis::y;
+                    overrides.up = parse_choice("--up", text, {"y", "z"}) == 1 ? scene::UpAxis::z
+                                                                               : scene::UpAxis::y;
                 });
     verb.option("--animation", "NAME", "animation of a glTF file to play, or none (the first)",
                 [&](const std::string& text) { overrides.animation = text; });
@@ -106,7 +105,7 @@ void add_scale_and_axis_options(CommandVerb& verb, scene::SceneOverrides& overri
 
 } // namespace
 
-void add_camera_options(CommandVerb& verb, CommonOptions& common) {
+void add_camera_options(Verb& verb, CommonOptions& common) {
     scene::SceneOverrides& overrides = common.overrides;
     verb.option(
         "--camera", "C",
@@ -126,7 +125,7 @@ void add_camera_options(CommandVerb& verb, CommonOptions& common) {
         });
 }
 
-void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
+void add_override_options(Verb& verb, CommonOptions& common) {
     verb.heading(kSceneOptionsHeading);
     verb.option("--root", "DIR",
                 "additional folder for files that SCENE names (only the scene's own folder)",
@@ -151,8 +150,8 @@ void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
     add_surface_options(verb, common.overrides);
     add_environment_options(verb, common.overrides);
     add_scale_and_axis_options(verb, common.overrides);
-    verb.option_without_value("--no-scene-file", "ignore SCENE.catoptric.json",
-                              [&] { common.use_scene_file = false; });
+    verb.flag("--no-scene-file", "ignore SCENE.catoptric.json",
+              [&] { common.use_scene_file = false; });
     verb.heading(kCommonOptions);
     // The parser takes options in the order in which they are added, so this one wins.
     verb.repeated("--set", "KEY=VALUE",

@@ -13,13 +13,13 @@ namespace {
 
 /// Reads the whole of `text` as a number. Returns false if any text is left over.
 template <typename Number>
-bool parse_number_of_whole_text(const std::string& text, Number& value) {
+bool parse_whole(const std::string& text, Number& value) {
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     return error == std::errc{} && stop == end;
 }
 
-std::string format_allowed_range(double low, double high) {
+std::string format_range(double low, double high) {
     constexpr double kLargestDouble = std::numeric_limits<double>::max();
     std::ostringstream text;
     text.precision(15);
@@ -34,8 +34,8 @@ uvec2 parse_size(const std::string& option, const std::string& text) {
     constexpr std::uint32_t kMaxPictureSide = 1U << 20; // larger than any device allows
     const std::vector<std::string> parts = split(text, "x");
     uvec2 size{0, 0};
-    const bool numbers = parts.size() == 2 && parse_number_of_whole_text(parts[0], size.x) &&
-                         parse_number_of_whole_text(parts[1], size.y);
+    const bool numbers = parts.size() == 2 && parse_whole(parts[0], size.x) &&
+                         parse_whole(parts[1], size.y);
     const bool in_range = size.x >= 1 && size.y >= 1 && size.x <= kMaxPictureSide &&
                           size.y <= kMaxPictureSide;
     check(numbers && in_range, Failure::usage, option,
@@ -47,30 +47,28 @@ uvec2 parse_size(const std::string& option, const std::string& text) {
 std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
                            std::int64_t high) {
     std::int64_t value = 0;
-    check(parse_number_of_whole_text(text, value) && value >= low && value <= high, Failure::usage,
-          option, ": wanted a whole number from ", low, " to ", high, ", found '", text, "'");
+    check(parse_whole(text, value) && value >= low && value <= high, Failure::usage, option,
+          ": wanted a whole number from ", low, " to ", high, ", found '", text, "'");
     return value;
 }
 
 std::uint64_t parse_seed(const std::string& option, const std::string& text) {
     std::uint64_t value = 0;
-    check(parse_number_of_whole_text(text, value), Failure::usage, option,
-          ": wanted a whole number from 0 to ", std::numeric_limits<std::uint64_t>::max(),
-          ", found '", text, "'");
+    check(parse_whole(text, value), Failure::usage, option, ": wanted a whole number from 0 to ",
+          std::numeric_limits<std::uint64_t>::max(), ", found '", text, "'");
     return value;
 }
 
 double parse_real(const std::string& option, const std::string& text, double low, double high) {
     double value = 0;
     // NaN and infinities fail this comparison.
-    check(parse_number_of_whole_text(text, value) && value >= low && value <= high, Failure::usage,
-          option, ": wanted a finite number", format_allowed_range(low, high), ", found '", text,
-          "'");
+    check(parse_whole(text, value) && value >= low && value <= high, Failure::usage, option,
+          ": wanted a finite number", format_range(low, high), ", found '", text, "'");
     return value;
 }
 
-std::size_t parse_choice_index(const std::string& option, const std::string& text,
-                               const std::vector<std::string>& choices) {
+std::size_t parse_choice(const std::string& option, const std::string& text,
+                         const std::vector<std::string>& choices) {
     const auto found = std::ranges::find(choices, text);
     check(found != choices.end(), Failure::usage, option, ": wanted one of ",
           join_with_commas(choices), ", found '", text, "'", suggest_name(text, choices));

@@ -25,8 +25,8 @@ double parse_real(const std::string& option, const std::string& text,
                   double high = std::numeric_limits<double>::max());
 
 /// Returns the index of `text` in `choices`. The error message suggests the nearest choice.
-std::size_t parse_choice_index(const std::string& option, const std::string& text,
-                               const std::vector<std::string>& choices);
+std::size_t parse_choice(const std::string& option, const std::string& text,
+                         const std::vector<std::string>& choices);
 
 /// Calls `work`, whose errors of usage then begin with the option's name.
 template <typename Work>

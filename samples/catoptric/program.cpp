@@ -30,7 +30,7 @@ Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 6
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
 76 device lost; 129, 130, 143 stopped by a signal (finished rows are kept, also after 75 and 76))";
 
-void print_program_failure(const std::string& name, const std::string& message) {
+void print_failure(const std::string& name, const std::string& message) {
     if (!message.empty()) print_message(name + ": " + message);
 }
 
@@ -51,7 +51,7 @@ void add_all_verbs(CommandLine& program, const std::vector<std::string>& command
     add_completion_verb(program);
 }
 
-int run_program_and_check_streams(int argc, char** argv) {
+int run_checked(int argc, char** argv) {
     std::vector<std::string> command(argv, argv + argc);
     const auto make_program = [] {
         return std::make_unique<CommandLine>(
@@ -60,8 +60,8 @@ int run_program_and_check_streams(int argc, char** argv) {
     };
     const std::unique_ptr<CommandLine> known = make_program();
     add_all_verbs(*known, command);
-    std::vector<std::string> words = add_options_of_config_file(
-        {command.begin() + std::min(argc, 1), command.end()}, known->list_completion_verbs());
+    std::vector<std::string> words = add_config_options(
+        {command.begin() + std::min(argc, 1), command.end()}, known->completion_verbs());
     command.resize(static_cast<std::size_t>(std::min(argc, 1)));
     command.insert(command.end(), words.begin(), words.end());
     const std::unique_ptr<CommandLine> program = make_program();
@@ -70,34 +70,33 @@ int run_program_and_check_streams(int argc, char** argv) {
 }
 
 /// Runs the work, and prints errors to stderr. Returns the exit code.
-int run_and_get_exit_code(const std::string& name, const std::function<int()>& work) {
+int exit_code_of(const std::string& name, const std::function<int()>& work) {
     try {
         return work();
     } catch (const Error& error) {
-        print_program_failure(name, error.what());
+        print_failure(name, error.what());
         return static_cast<int>(error.failure);
     } catch (const std::bad_alloc&) {
-        print_program_failure(name, "out of memory");
+        print_failure(name, "out of memory");
         return static_cast<int>(Failure::exhausted);
     } catch (const std::exception& error) {
-        print_program_failure(name, std::string("internal error: ") + error.what());
+        print_failure(name, std::string("internal error: ") + error.what());
         return static_cast<int>(Failure::internal);
     }
 }
 
 } // namespace
 
-int run_program_catching_errors(const std::string& name, const std::function<int()>& work) {
-    prepare_standard_streams();
-    const int code = run_and_get_exit_code(name, work);
+int run_catching(const std::string& name, const std::function<int()>& work) {
+    prepare_streams();
+    const int code = exit_code_of(name, work);
     if (session::has_abandoned_device())
         std::_Exit(code); // destroying objects that a driver still uses is unsafe
     return code;
 }
 
 int run_program(int argc, char** argv) {
-    return run_program_catching_errors("catoptric",
-                                       [&] { return run_program_and_check_streams(argc, argv); });
+    return run_catching("catoptric", [&] { return run_checked(argc, argv); });
 }
 
 } // namespace catoptric::cli

@@ -10,6 +10,6 @@ namespace catoptric::cli {
 int run_program(int argc, char** argv);
 /// Runs `work` for another program, and turns errors into exit codes as run_program() does. Error
 /// messages go to stderr after the program's name.
-int run_program_catching_errors(const std::string& name, const std::function<int()>& work);
+int run_catching(const std::string& name, const std::function<int()>& work);
 
 } // namespace catoptric::cli

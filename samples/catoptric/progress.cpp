@@ -25,7 +25,7 @@ bool is_stderr_terminal() {
     return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
 }
 
-std::size_t count_terminal_columns() {
+std::size_t terminal_columns() {
     winsize size{};
     const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
     return known ? size.ws_col : 80U;
@@ -33,7 +33,7 @@ std::size_t count_terminal_columns() {
 
 } // namespace
 
-session::Watcher make_progress_watcher(ProgressPrinter& progress) {
+session::Watcher make_watcher(ProgressPrinter& progress) {
     return {.on_row = [&](const std::string& label, std::size_t index,
                           std::size_t count) { progress.row(label, index, count); },
             .on_frame = [&](int number, int total) { progress.frame(number, total); },
@@ -48,15 +48,15 @@ std::string format_duration(double seconds) {
                      : fmt::format("{}:{:02}", minutes, rest);
 }
 
-ProgressPrinter::ProgressPrinter(const OutputOptions& output_options,
-                                 ProgressOffTerminal off_terminal, std::string phase)
+ProgressPrinter::ProgressPrinter(const OutputOptions& output_options, OffTerminal off_terminal,
+                                 std::string phase)
     : is_active_(!output_options.quiet &&
                  (output_options.progress == ProgressMode::always ||
                   (output_options.progress == ProgressMode::automatic && is_stderr_terminal()))),
       rewrites_(is_stderr_terminal()),
       in_tenths_(!is_active_ && !output_options.quiet &&
                  output_options.progress == ProgressMode::automatic &&
-                 off_terminal == ProgressOffTerminal::tenths),
+                 off_terminal == OffTerminal::tenths),
       label_(std::move(phase)) {
     if (output_options.quiet || output_options.progress == ProgressMode::never) return;
     teller_ = std::jthread([this](const std::stop_token& ended) { tell_while_working(ended); });
@@ -96,7 +96,7 @@ std::string ProgressPrinter::describe_phase() const {
                                    format_duration(seconds));
     if (const double all = (static_cast<double>(index_) + done) / static_cast<double>(count_);
         count_ > 1)
-        text += fmt::format("; about {} left in all", format_estimated_time_left(all));
+        text += fmt::format("; about {} left in all", format_time_left(all));
     return text;
 }
 
@@ -116,21 +116,19 @@ void ProgressPrinter::row(const std::string& label, std::size_t index, std::size
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};
     if (is_active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label_);
-    if (in_tenths_) show_progress_every_ten_percent();
+    if (in_tenths_) show_tenths();
 }
 
-void ProgressPrinter::show_progress_every_ten_percent() {
+void ProgressPrinter::show_tenths() {
     const std::size_t tenths = 10 * index_ / count_;
     if (tenths <= tenths_) return;
     tenths_ = tenths;
-    fmt::print(
-        stderr, "{} % done, about {} left, now {}\n", 10 * tenths,
-        format_estimated_time_left(static_cast<double>(index_) / static_cast<double>(count_)),
-        label_);
+    fmt::print(stderr, "{} % done, about {} left, now {}\n", 10 * tenths,
+               format_time_left(static_cast<double>(index_) / static_cast<double>(count_)), label_);
     std::fflush(stderr);
 }
 
-std::string ProgressPrinter::format_estimated_time_left(double done) const {
+std::string ProgressPrinter::format_time_left(double done) const {
     const double elapsed = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     return format_duration(elapsed * (1 - done) / done);
 }
@@ -147,7 +145,7 @@ void ProgressPrinter::frame(int number, int total) {
                         static_cast<double>(count_);
     const std::string place = count_ > 1 ? fmt::format("[{}/{}] ", index_ + 1, count_) : "";
     show(fmt::format("{}{}  frame {}/{}  about {} left", place, label_, number, total,
-                     format_estimated_time_left(done)));
+                     format_time_left(done)));
 }
 
 void ProgressPrinter::clear() {
@@ -164,7 +162,7 @@ void ProgressPrinter::remove_line() {
 }
 
 void ProgressPrinter::show(const std::string& text) {
-    const std::string cut = text.substr(0, count_terminal_columns() - 1);
+    const std::string cut = text.substr(0, terminal_columns() - 1);
     const std::size_t left_over = shown_width_ > cut.size() ? shown_width_ - cut.size() : 0;
     fmt::print(stderr, "\r{}{}", cut, std::string(left_over, ' '));
     std::fflush(stderr);

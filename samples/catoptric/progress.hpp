@@ -21,13 +21,13 @@ namespace catoptric::cli {
 class ProgressPrinter {
 public:
     /// Output if stderr is no terminal and --progress is automatic.
-    enum class ProgressOffTerminal : std::uint8_t {
+    enum class OffTerminal : std::uint8_t {
         nothing,
         tenths, ///< a line per finished tenth of the rows: "30 % done, ..."
     };
     /// `phase`: what is done until the first row.
     explicit ProgressPrinter(const OutputOptions& output_options,
-                             ProgressOffTerminal off_terminal = ProgressOffTerminal::nothing,
+                             OffTerminal off_terminal = OffTerminal::nothing,
                              std::string phase = "preparing");
     /// Removes the progress line from the terminal.
     ~ProgressPrinter();
@@ -51,9 +51,9 @@ private:
     std::string describe_phase() const;
     void show(const std::string& text);
     /// Writes a line if another tenth of the work is done since the last line.
-    void show_progress_every_ten_percent();
+    void show_tenths();
     /// Returns the estimated remaining time from the time so far: "0:35".
-    std::string format_estimated_time_left(double done) const;
+    std::string format_time_left(double done) const;
 
     mutable std::mutex mutex_; ///< of all members below
     bool is_active_ = false;
@@ -74,7 +74,7 @@ private:
 
 /// Returns a watcher that shows every row and frame, and stops the work at the first signal
 /// (signals.hpp). `progress` must outlive it.
-session::Watcher make_progress_watcher(ProgressPrinter& progress);
+session::Watcher make_watcher(ProgressPrinter& progress);
 
 /// Returns a duration as text: "0:07", "12:40", "3:02:10".
 std::string format_duration(double seconds);

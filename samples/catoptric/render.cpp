@@ -97,10 +97,9 @@ bool wants_only_picture(const RenderOptions& options) {
 
 /// Returns the files that the pictures of so many measured frames are written to; none if the
 /// picture goes to stdout.
-std::vector<std::string> list_output_files(const RenderOptions& options, int frames) {
+std::vector<std::string> output_files(const RenderOptions& options, int frames) {
     if (writes_to_stdout(options)) return {};
-    const std::optional<PictureFileSequence> sequence = PictureFileSequence::parse_file_sequence(
-        options.output);
+    const std::optional<FileSequence> sequence = FileSequence::parse(options.output);
     if (writes_film(options)) {
         check(!sequence, Failure::usage, "-o ", options.output,
               ": wanted a film's name without a place for the frame's number, found one");
@@ -125,12 +124,12 @@ void check_output_options(const RenderOptions& options) {
     check_budget_option(options.common);
     check(options.camera_path.empty() || !options.common.overrides.camera, Failure::usage,
           "--camera-path: wanted it without --camera, found both");
-    throw_unless_option_given(!options.output.empty(), "render", "-o OUT",
-                              "a name ending in .exr, .png or .mp4, or - for stdout");
+    require_option(!options.output.empty(), "render", "-o OUT",
+                   "a name ending in .exr, .png or .mp4, or - for stdout");
     check(!writes_to_stdout(options) || !options.common.output_options.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
     if (!writes_to_stdout(options)) {
-        check_file_can_be_made(list_output_files(options, 1).front());
+        check_output_file(output_files(options, 1).front());
         check(writes_exr(options) || writes_film(options) || options.output.ends_with(".png"),
               Failure::usage, "-o: wanted a name ending in .exr, .png or .mp4, or -, found '",
               options.output, "'");
@@ -140,9 +139,9 @@ void check_output_options(const RenderOptions& options) {
           options.output, "'");
     check(!options.origin || writes_exr(options), Failure::usage,
           "--origin: wanted -o with a name ending in .exr, found '", options.output, "'");
-    if (writes_film(options)) check_film_can_be_made(options.output, options.common.size);
+    if (writes_film(options)) check_film(options.output, options.common.size);
     for (const std::string& file : {options.trace, options.profile})
-        if (!file.empty()) check_file_can_be_made(file);
+        if (!file.empty()) check_output_file(file);
 }
 
 void check_picture_places(const RenderOptions& options, const scene::Scene& scene,
@@ -153,14 +152,14 @@ void check_picture_places(const RenderOptions& options, const scene::Scene& scen
     for (const std::string& file : pictures) outputs.emplace_back(file);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
-    check_outputs_differ_from_inputs(outputs, scene.files);
+    check_distinct(outputs, scene.files);
     if (!options.camera_path.empty())
-        check_outputs_differ_from_inputs(outputs, {real_path(options.camera_path)},
-                                         ", which the camera's path is read from");
+        check_distinct(outputs, {real_path(options.camera_path)},
+                       ", which the camera's path is read from");
 }
 
 session::Request make_render_request(const RenderOptions& options) {
-    session::Request request = make_render_request_of_options(options.common);
+    session::Request request = make_request(options.common);
     request.techniques = {options.technique};
     request.model = options.common.model.value_or(session::RenderedWork::required);
     request.with_lookup = writes_aov(options, PictureAov::tier);
@@ -173,9 +172,9 @@ session::Request make_render_request(const RenderOptions& options) {
 
 /// Returns what pictures of the request are made of, but for the camera and the instant. Empty
 /// without --origin.
-std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
-                                                 const session::Request& request,
-                                                 const session::DeviceInfo& device) {
+std::optional<PictureOrigin> picture_origin(const RenderOptions& options,
+                                            const session::Request& request,
+                                            const session::DeviceInfo& device) {
     if (!options.origin) return std::nullopt;
     return PictureOrigin{.device = device.name,
                          .driver = device.driver,
@@ -189,8 +188,7 @@ std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
 
 /// Reads the cameras of the frames. Unless --frames is given, sets the number of frames so that
 /// they cover the whole file.
-std::optional<FrameCameras> read_cameras_of_request(const RenderOptions& options,
-                                                    session::Request& request) {
+std::optional<FrameCameras> read_cameras(const RenderOptions& options, session::Request& request) {
     if (options.camera_path.empty()) return std::nullopt;
     FrameCameras cameras = read_frame_cameras(options.camera_path, request.scene);
     for (const auto& [given, option] : {std::pair(options.common.animate, "--animate"),
@@ -203,16 +201,16 @@ std::optional<FrameCameras> read_cameras_of_request(const RenderOptions& options
           " frames, found ", whole);
     if (!options.common.frames) request.frames = static_cast<int>(whole);
     cameras.check_frames(options.common.first_frame - 1 + request.frames, options.camera_path);
-    request.camera = cameras.camera_of_frame(1);
+    request.camera = cameras.camera_of(1);
     request.camera.name = options.camera_path;
-    if (cameras.has_instants()) request.time = cameras.instant_of_frame(1);
+    if (cameras.has_instants()) request.time = cameras.instant_of(1);
     return cameras;
 }
 
 /// Writes the pictures of a run: one, one for each measured frame, or a film.
 class RunOutput {
 public:
-    /// `files`: as list_output_files returns them. `origin`: what the pictures are made of, but for
+    /// `files`: as output_files returns them. `origin`: what the pictures are made of, but for
     /// the camera and the instant. All arguments but the last must outlive this object.
     RunOutput(const RenderOptions& options, const std::vector<std::string>& files,
               session::Session& session, const session::Watcher& watcher,
@@ -228,11 +226,11 @@ public:
     /// The frame cannot be read afterwards.
     void write_frame(std::size_t number, const session::Frame& frame,
                      const session::FrameSpec& spec, const session::TechniqueResult& part) {
-        if (files_.empty()) return print_picture_bytes(measure::encode_png(part.display));
+        if (files_.empty()) return print_bytes(measure::encode_png(part.display));
         if (film_) return film_->add_frame(part.display);
         const std::string& file = files_.at(std::min(number, files_.size() - 1));
         if (!writes_exr(options_)) return measure::write_png(part.display, file);
-        write_file(file, encode_exr_of_frame(frame, spec, part));
+        write_file(file, encode_exr(frame, spec, part));
     }
     /// Puts the film in place, if there is one.
     void finish() {
@@ -240,21 +238,20 @@ public:
     }
 
 private:
-    std::string encode_exr_of_frame(const session::Frame& frame, const session::FrameSpec& spec,
-                                    const session::TechniqueResult& part) {
+    std::string encode_exr(const session::Frame& frame, const session::FrameSpec& spec,
+                           const session::TechniqueResult& part) {
         std::string text;
         if (origin_) {
             origin_->camera = session::make_camera_facts(spec.camera, spec.time);
             origin_->time = spec.time;
-            text = make_picture_origin_json(*origin_);
+            text = origin_json(*origin_);
         }
         if (options_.aovs.empty()) return measure::encode_exr(part.hdr, text);
         std::optional<session::ReflectionTiers> tiers;
         if (writes_aov(options_, PictureAov::tier)) tiers = session::Access::read_tiers(frame);
         const session::FirstSurfaces surfaces = session::Access::trace_first_surfaces(session_,
                                                                                       spec);
-        return measure::encode_exr(part.hdr, make_aov_channels(options_.aovs, surfaces, tiers),
-                                   text);
+        return measure::encode_exr(part.hdr, aov_channels(options_.aovs, surfaces, tiers), text);
     }
 
     const RenderOptions& options_;
@@ -265,21 +262,20 @@ private:
 };
 
 /// Renders all frames and writes them. Returns the results.
-session::RunResult render_and_write_frames(session::Session& session,
-                                           const session::Request& request, int first_frame,
-                                           const std::optional<FrameCameras>& cameras,
-                                           RunOutput& output, const session::Watcher& watcher) {
+session::RunResult render_frames(session::Session& session, const session::Request& request,
+                                 int first_frame, const std::optional<FrameCameras>& cameras,
+                                 RunOutput& output, const session::Watcher& watcher) {
     session::FrameLoop frames(session, request);
     session::FrameSpec shown = request;
     int number = first_frame - request.warmup; // below first_frame: warm-up
     const auto find_instant = [&] {
-        return cameras && cameras->has_instants() ? cameras->instant_of_frame(number)
+        return cameras && cameras->has_instants() ? cameras->instant_of(number)
                                                   : request.instant(request.warmup + number);
     };
     throw_if_stopped(watcher);
     for (;; ++number) {
         session::FrameSpec next = shown;
-        next.camera = cameras ? cameras->camera_of_frame(number) : request.camera;
+        next.camera = cameras ? cameras->camera_of(number) : request.camera;
         next.time = find_instant();
         if (!frames.render_next(next.camera, next.time)) break;
         shown = std::move(next);
@@ -297,36 +293,34 @@ session::RunResult render_and_write_frames(session::Session& session,
     return result;
 }
 
-std::vector<double> list_gpu_times(const session::RunResult& result) {
+std::vector<double> gpu_times(const session::RunResult& result) {
     std::vector<double> ms;
     for (const session::FrameTimes& frame : result.frames) ms.push_back(frame.gpu_ms);
     return ms;
 }
 
-void print_render_summary(const RenderOptions& options, const session::Request& request,
-                          const session::RunResult& result) {
+void print_summary(const RenderOptions& options, const session::Request& request,
+                   const session::RunResult& result) {
     const OutputOptions& output_options = options.common.output_options;
     const session::TechniqueResult& part = result.parts.front();
-    for (const std::string& what : part.notes)
-        print_note_unless_quiet(output_options, part.label + ": " + what);
+    for (const std::string& what : part.notes) print_note(output_options, part.label + ": " + what);
     const measure::Mean mean = measure::mean_of(part.hdr, measure::ValueRange::clamped);
     const std::string output = writes_to_stdout(options) ? "stdout" : options.output;
     std::string frames = fmt::format("{} frame{}", result.frames.size(),
                                      result.frames.size() == 1 ? "" : "s");
     if (request.until_settled && !result.settled) frames += " (the next would still differ)";
     if (!request.until_settled) {
-        const measure::SampleSummary ms = measure::summarise(list_gpu_times(result));
+        const measure::SampleSummary ms = measure::summarise(gpu_times(result));
         frames = fmt::format("{:.4g} ms [{:.4g} - {:.4g}]", ms.median, ms.p05, ms.p95);
     }
-    print_note_unless_quiet(output_options,
-                            fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}",
-                                        part.label, part.scene_passes, frames, mean.all, output));
+    print_note(output_options,
+               fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}", part.label,
+                           part.scene_passes, frames, mean.all, output));
     if (part.capture_budget)
-        print_detail_if_verbose(output_options, session::describe_budget(*part.capture_budget));
+        print_detail(output_options, session::describe_budget(*part.capture_budget));
     if (request.until_settled) return;
     for (const session::PassTime& pass : result.frames.back().passes)
-        print_detail_if_verbose(output_options,
-                                fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
+        print_detail(output_options, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
 }
 
 void warn_of_nonfinite(const measure::Picture& picture) {
@@ -340,39 +334,39 @@ int run_render(const RenderOptions& options) {
     const OutputOptions& output_options = options.common.output_options;
     const session::ParsedTechnique choice = session::parse_technique(options.technique);
     check_output_options(options);
-    ProgressPrinter progress(output_options, ProgressPrinter::ProgressOffTerminal::nothing,
+    ProgressPrinter progress(output_options, ProgressPrinter::OffTerminal::nothing,
                              "reading the scene, opening the device");
     session::Request request = make_render_request(options);
-    const std::optional<FrameCameras> cameras = read_cameras_of_request(options, request);
-    const std::vector<std::string> files = list_output_files(options, request.frames);
+    const std::optional<FrameCameras> cameras = read_cameras(options, request);
+    const std::vector<std::string> files = output_files(options, request.frames);
     check_picture_places(options, request.scene, files);
-    session::Engine engine(make_engine_options(options.common.device));
+    session::Engine engine(engine_options(options.common.device));
     progress.clear();
-    print_device_and_warnings(engine, options.common.output_options);
+    print_device(engine, options.common.output_options);
 
-    const session::Watcher watcher = make_progress_watcher(progress);
+    const session::Watcher watcher = make_watcher(progress);
     const session::WatchedWork watched(watcher);
     report_row(watcher, choice.label, 0, 1);
-    std::optional<PictureOrigin> origin = make_picture_origin(options, request, engine.device());
+    std::optional<PictureOrigin> origin = picture_origin(options, request, engine.device());
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     session::Session session(engine, std::move(scene));
     session::resolve_exposure(session, request);
     if (origin) origin->exposure = request.exposure;
     RunOutput output(options, files, session, watcher, std::move(origin));
-    const session::RunResult result = render_and_write_frames(
-        session, request, options.common.first_frame, cameras, output, watcher);
+    const session::RunResult result = render_frames(session, request, options.common.first_frame,
+                                                    cameras, output, watcher);
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);
     if (!options.trace.empty())
-        write_file(options.trace, make_trace_json(result.frames.back(),
-                                                  choice.label + " on " + engine.device().name));
-    const std::string document = make_render_json(request, options.common.first_frame,
-                                                  engine.device(), result, options.output);
+        write_file(options.trace,
+                   trace_json(result.frames.back(), choice.label + " on " + engine.device().name));
+    const std::string document = render_json(request, options.common.first_frame, engine.device(),
+                                             result, options.output);
     if (!options.profile.empty()) write_file(options.profile, document);
     if (output_options.json) print_result(document);
-    print_render_summary(options, request, result);
+    print_summary(options, request, result);
     if (options.common.device.validate) engine.check_validation();
     return 0;
 }
@@ -381,8 +375,7 @@ int run_render(const RenderOptions& options) {
 
 void add_render_verb(CommandLine& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CommandVerb& verb = program.add_command_verb("render",
-                                                 "render one picture by one technique or plan");
+    Verb& verb = program.add_verb("render", "render one picture by one technique or plan");
     verb.examples(kRenderExamples + describe_aovs() + kPictureFileNotes);
     add_technique_options(verb, options->drawn, kDefaultTechnique);
     verb.option(
@@ -396,7 +389,7 @@ void add_render_verb(CommandLine& program) {
     verb.option("--aov", "LIST",
                 "layers to add to OUT.exr, separated by commas: distance, normal, object, mirror, "
                 "tier, roughness, or all; see the notes below",
-                [options](const std::string& text) { options->aovs = parse_aov_list(text); });
+                [options](const std::string& text) { options->aovs = parse_aovs(text); });
     verb.flag("--origin", "write into the header of OUT.exr how it was made, see the notes below",
               options->origin);
     verb.heading(kMeasuringOptions);
@@ -409,11 +402,11 @@ void add_render_verb(CommandLine& program) {
     options->common.takes_frame_range = true;
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
-    verb.set_verb_action([options] {
+    verb.action([options] {
         scene::check_exists(options->common.scene);
         TechniqueOption drawn = options->drawn;
         if (drawn.technique.empty() && drawn.plan.empty()) drawn.technique = kDefaultTechnique;
-        options->technique = check_technique_choice(drawn, "render");
+        options->technique = check_choice(drawn, "render");
         return run_render(*options);
     });
 }

@@ -30,22 +30,22 @@ struct ResultsOptions {
 int run_results(const ResultsOptions& options) {
     const std::vector<std::string>& words = options.words;
     check(!words.empty(), Failure::usage, "'results' needs an action: add or build");
-    const bool adds = parse_choice_index("results", words.front(), {"add", "build"}) == 0;
+    const bool adds = parse_choice("results", words.front(), {"add", "build"}) == 0;
     check(words.size() == (adds ? 3 : 2), Failure::usage, "'results ", words.front(), "': wanted ",
           adds ? "REPORT.json SITE" : "SITE", ", found ", words.size() - 1, " arguments");
     if (adds) {
-        check_folder_can_be_made(words[2]);
-        const AddedReport added = add_report_to_site(words[1], words[2]);
+        check_output_folder(words[2]);
+        const AddedReport added = add_report(words[1], words[2]);
         if (options.output_options.json)
             print_result(report::serialise({{"schema", "catoptric/results-added/1"},
                                             {"report", added.name},
                                             {"comparisons", added.comparisons},
                                             {"known", added.is_known}}));
-        print_note_unless_quiet(
-            options.output_options,
-            added.is_known ? "the site has this report: " + added.name
-                           : fmt::format("added: {}, {} {}", added.name, added.comparisons,
-                                         added.comparisons == 1 ? "comparison" : "comparisons"));
+        print_note(options.output_options,
+                   added.is_known
+                       ? "the site has this report: " + added.name
+                       : fmt::format("added: {}, {} {}", added.name, added.comparisons,
+                                     added.comparisons == 1 ? "comparison" : "comparisons"));
         return 0;
     }
     const BuiltSite built = build_site(words[1]);
@@ -54,10 +54,9 @@ int run_results(const ResultsOptions& options) {
                                         {"index", words[1] + "/index.html"},
                                         {"pages", built.pages},
                                         {"reports", built.reports}}));
-    print_note_unless_quiet(options.output_options,
-                            fmt::format("written: {}/index.html, {} pages from {} "
-                                        "reports",
-                                        words[1], built.pages, built.reports));
+    print_note(options.output_options, fmt::format("written: {}/index.html, {} pages from {} "
+                                                   "reports",
+                                                   words[1], built.pages, built.reports));
     return 0;
 }
 
@@ -65,12 +64,12 @@ int run_results(const ResultsOptions& options) {
 
 void add_results_verb(CommandLine& program) {
     const auto options = std::make_shared<ResultsOptions>();
-    CommandVerb& verb = program.add_command_verb(
-        "results", "collect reports, and write a site with a page for each scene");
+    Verb& verb = program.add_verb("results",
+                                  "collect reports, and write a site with a page for each scene");
     verb.examples(kResultsExamples);
     verb.arguments("ACTION", "add REPORT.json SITE, or build SITE", options->words);
     add_output_options(verb, options->output_options);
-    verb.set_verb_action([options] { return run_results(*options); });
+    verb.action([options] { return run_results(*options); });
 }
 
 } // namespace catoptric::cli

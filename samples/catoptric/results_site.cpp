@@ -41,7 +41,7 @@ struct SitePage {
     std::map<std::string, std::vector<SiteComparison>> devices;
 };
 
-std::vector<SitePage> group_comparisons_by_page(const std::vector<SiteComparison>& comparisons) {
+std::vector<SitePage> group_by_page(const std::vector<SiteComparison>& comparisons) {
     std::map<std::string, SitePage> pages; // sorted by scene and setting
     for (const SiteComparison& one : comparisons) {
         const bool is_sweep = !one.machine.empty();
@@ -50,8 +50,7 @@ std::vector<SitePage> group_comparisons_by_page(const std::vector<SiteComparison
         page.scene = one.scene;
         page.setting = (is_sweep ? "sweep, " : "hash " + one.hash.substr(0, 8) + ", ") +
                        one.setting;
-        page.file = std::string(kPagePrefix) + compute_sha256(key).substr(0, kIdCharacters) +
-                    ".html";
+        page.file = std::string(kPagePrefix) + sha256(key).substr(0, kIdCharacters) + ".html";
         if (std::ranges::find(page.sections, one.section) == page.sections.end())
             page.sections.push_back(one.section);
         page.devices[one.device + ", " + one.driver +
@@ -75,7 +74,7 @@ std::string format_cell(double value, int decimals) {
 
 /// Returns the head row of a table whose first columns hold text and whose other columns hold
 /// numbers.
-std::string make_table_head(std::span<const std::string> titles, std::size_t text_columns = 1) {
+std::string table_head(std::span<const std::string> titles, std::size_t text_columns = 1) {
     std::string html = "<thead><tr>";
     for (std::size_t i = 0; i < titles.size(); ++i)
         html += std::string("<th scope=\"col\"") + (i < text_columns ? " class=\"text\">" : ">") +
@@ -85,7 +84,7 @@ std::string make_table_head(std::span<const std::string> titles, std::size_t tex
 
 /// Returns the rows on the front that the plot can show, the fastest first. The plot and the table
 /// number them in this order.
-std::vector<const SiteRow*> list_front_rows(const SiteComparison& run) {
+std::vector<const SiteRow*> front_rows(const SiteComparison& run) {
     std::vector<const SiteRow*> front;
     for (const SiteRow& row : run.rows)
         if (row.on_front && row.ms > 0 && std::isfinite(row.flip)) front.push_back(&row);
@@ -95,9 +94,9 @@ std::vector<const SiteRow*> list_front_rows(const SiteComparison& run) {
 
 /// Returns a chart of time (logarithmic) against FLIP or RMSE. Marks of rows on the front are
 /// filled, and have the rows' numbers.
-std::string make_front_chart(const SiteComparison& run) {
+std::string front_chart(const SiteComparison& run) {
     using report::number_json;
-    const std::vector<const SiteRow*> front = list_front_rows(run);
+    const std::vector<const SiteRow*> front = front_rows(run);
     SiteJson rows = SiteJson::array(), times = rows, intervals = rows, flips = rows, rmses = rows,
              flip_intervals = rows, unknown = rows;
     for (const SiteRow& row : run.rows) {
@@ -136,7 +135,7 @@ std::string make_front_chart(const SiteComparison& run) {
 }
 
 /// Returns the cell that tells a row's place: its number on the front, "reference", or empty text.
-std::string describe_place_on_front(const SiteRow& row, const std::vector<const SiteRow*>& front) {
+std::string describe_place(const SiteRow& row, const std::vector<const SiteRow*>& front) {
     if (const auto found = std::ranges::find(front, &row); found != front.end())
         return fmt::format("number {}", found - front.begin() + 1);
     return row.is_reference ? "reference" : "";
@@ -148,7 +147,7 @@ std::string describe_flip_interval(const SiteRow& row) {
                : std::string(report::kEmptyCell);
 }
 
-std::string make_latest_table(const SiteComparison& run) {
+std::string latest_table(const SiteComparison& run) {
     std::vector<const SiteRow*> rows;
     for (const SiteRow& row : run.rows) rows.push_back(&row);
     std::ranges::stable_sort(rows, [](const SiteRow* a, const SiteRow* b) {
@@ -160,8 +159,8 @@ std::string make_latest_table(const SiteComparison& run) {
     std::vector<std::string> titles{"Row", "ms", "95 % interval", "FLIP"};
     if (has_flip_intervals) titles.emplace_back("95 % interval of FLIP");
     titles.insert(titles.end(), {"RMSE", "Front"});
-    const std::vector<const SiteRow*> front = list_front_rows(run);
-    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
+    const std::vector<const SiteRow*> front = front_rows(run);
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + table_head(titles) +
                        "<tbody>";
     for (const SiteRow* row : rows)
         html += fmt::format(
@@ -174,13 +173,13 @@ std::string make_latest_table(const SiteComparison& run) {
                 : std::string(report::kEmptyCell),
             report::format_error(row->flip),
             has_flip_intervals ? "<td>" + describe_flip_interval(*row) + "</td>" : std::string(),
-            report::format_error(row->rmse), describe_place_on_front(*row, front));
+            report::format_error(row->rmse), describe_place(*row, front));
     return html + "</tbody></table></div>";
 }
 
 /// Returns a table with each row's time and FLIP in the latest reports, from the oldest to the
 /// newest.
-std::string make_history_table(const std::vector<SiteComparison>& runs) {
+std::string history_table(const std::vector<SiteComparison>& runs) {
     if (runs.size() < 2) return "";
     const std::span<const SiteComparison> shown(
         runs.end() - static_cast<std::ptrdiff_t>(std::min(runs.size(), kMaxHistoryColumns)),
@@ -193,7 +192,7 @@ std::string make_history_table(const std::vector<SiteComparison>& runs) {
     }
     std::string html = fmt::format("<h4>History: the latest {} of {} reports</h4>", shown.size(),
                                    runs.size()) +
-                       "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
+                       "<div class=\"scroll\" tabindex=\"0\"><table>" + table_head(titles) +
                        "<tbody>";
     for (const std::string& label : labels) {
         html += "<tr><th scope=\"row\" class=\"text\">" + escape_html(label) + "</th>";
@@ -210,8 +209,8 @@ std::string make_history_table(const std::vector<SiteComparison>& runs) {
 
 /// Returns the comparisons of one section, from the oldest to the newest. Comparisons of an earlier
 /// version of the scene are left out.
-std::vector<SiteComparison> list_runs_of_section(const std::vector<SiteComparison>& runs,
-                                                 const std::string& section) {
+std::vector<SiteComparison> section_runs(const std::vector<SiteComparison>& runs,
+                                         const std::string& section) {
     std::vector<SiteComparison> list;
     std::ranges::copy_if(runs, std::back_inserter(list),
                          [&](const SiteComparison& run) { return run.section == section; });
@@ -224,12 +223,12 @@ std::vector<SiteComparison> list_runs_of_section(const std::vector<SiteCompariso
 
 /// Returns a table of the FLIP of each row in each section of a sweep. Values on the front of their
 /// section are bold.
-std::string make_overview_table(const std::vector<std::string>& sections,
-                                const std::vector<SiteComparison>& runs) {
+std::string overview_table(const std::vector<std::string>& sections,
+                           const std::vector<SiteComparison>& runs) {
     std::vector<std::string> titles{"FLIP over the mirrors; bold: on the front"}, labels;
     std::vector<SiteComparison> latest;
     for (const std::string& section : sections) {
-        const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
+        const std::vector<SiteComparison> list = section_runs(runs, section);
         if (list.empty()) continue; // another device measured this section
         std::string title;          // with spaces at which a long title can be broken
         for (const char c : section) title += c == ',' ? std::string(", ") : std::string(1, c);
@@ -238,7 +237,7 @@ std::string make_overview_table(const std::vector<std::string>& sections,
         for (const SiteRow& row : latest.back().rows)
             if (std::ranges::find(labels, row.label) == labels.end()) labels.push_back(row.label);
     }
-    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + table_head(titles) +
                        "<tbody>";
     for (const std::string& label : labels) {
         html += "<tr><th scope=\"row\" class=\"text\">" + escape_html(label) + "</th>";
@@ -255,26 +254,26 @@ std::string make_overview_table(const std::vector<std::string>& sections,
 }
 
 /// Returns the front, the table and the history of comparisons of equal sections on one device.
-std::string make_comparison_parts(const std::vector<SiteComparison>& runs) {
+std::string comparison_parts(const std::vector<SiteComparison>& runs) {
     const SiteComparison& latest = runs.back();
     return "<p>" +
            escape_html(fmt::format("Latest report: {}, commit {}, version {}.", latest.date,
                                    latest.commit, latest.version)) +
-           "</p>" + make_front_chart(latest) + make_latest_table(latest) + make_history_table(runs);
+           "</p>" + front_chart(latest) + latest_table(latest) + history_table(runs);
 }
 
-std::string make_scene_page(const SitePage& page) {
+std::string scene_page(const SitePage& page) {
     std::string html = "<header><p class=\"kicker\"><a href=\"index.html\">All scenes</a></p><h1>" +
                        escape_html(page.scene) + "</h1><p class=\"lede\">" +
                        escape_html(page.setting) + "</p></header><main>";
     for (const auto& [device, runs] : page.devices) {
         std::string parts;
-        if (page.sections.size() > 1) parts += make_overview_table(page.sections, runs);
+        if (page.sections.size() > 1) parts += overview_table(page.sections, runs);
         for (const std::string& section : page.sections) {
-            const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
+            const std::vector<SiteComparison> list = section_runs(runs, section);
             if (list.empty()) continue;
             if (!section.empty()) parts += "<h3>" + escape_html(section) + "</h3>";
-            parts += make_comparison_parts(list);
+            parts += comparison_parts(list);
         }
         html += report::titled_section(escape_html(device), parts);
     }
@@ -292,11 +291,10 @@ document.getElementById('search').addEventListener('input', event => {
 
 /// Returns the labels of the rows on the front, from the fastest row on. In a sweep, a label on the
 /// front of several sections is listed once, with the number of these sections.
-std::string join_labels_of_front_rows(const SitePage& page,
-                                      const std::vector<SiteComparison>& runs) {
+std::string join_front_labels(const SitePage& page, const std::vector<SiteComparison>& runs) {
     std::vector<std::pair<std::string, std::size_t>> labels; // with the number of sections
     for (const std::string& section : page.sections) {
-        const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
+        const std::vector<SiteComparison> list = section_runs(runs, section);
         if (list.empty()) continue;
         std::vector<const SiteRow*> front;
         for (const SiteRow& row : list.back().rows)
@@ -322,7 +320,7 @@ std::string join_labels_of_front_rows(const SitePage& page,
     return text.empty() ? std::string(report::kEmptyCell) : text;
 }
 
-std::string make_index_page(const std::vector<SitePage>& pages, std::size_t reports) {
+std::string index_page(const std::vector<SitePage>& pages, std::size_t reports) {
     std::string html = fmt::format(
         "<header><h1>Reflections compared</h1><p class=\"lede\">{} {} on {} scenes and "
         "settings.</p><p><label>Search <input id=\"search\" type=\"search\"></label></p></header>"
@@ -330,7 +328,7 @@ std::string make_index_page(const std::vector<SitePage>& pages, std::size_t repo
         reports, reports == 1 ? "report" : "reports", pages.size());
     static const std::vector<std::string> kTitles{
         "Scene", "Setting", "Device", "Front of the latest report, fastest first", "Reports"};
-    html += make_table_head(kTitles, kTitles.size() - 1) + "<tbody>";
+    html += table_head(kTitles, kTitles.size() - 1) + "<tbody>";
     for (const SitePage& page : pages)
         for (const auto& [device, runs] : page.devices)
             html += fmt::format(
@@ -338,8 +336,8 @@ std::string make_index_page(const std::vector<SitePage>& pages, std::size_t repo
                 "class=\"text\">{}</td><td class=\"text\">{}</td><td "
                 "class=\"text\">{}</td><td>{}</td></tr>",
                 page.file, escape_html(page.scene), escape_html(page.setting), escape_html(device),
-                escape_html(join_labels_of_front_rows(page, runs)),
-                list_runs_of_section(runs, runs.back().section).size());
+                escape_html(join_front_labels(page, runs)),
+                section_runs(runs, runs.back().section).size());
     return report::html_page("all scenes", html + "</tbody></table></div></main>" + kSearchScript);
 }
 
@@ -359,11 +357,11 @@ void remove_other_pages(const fs::path& site, const std::vector<SitePage>& pages
 
 } // namespace
 
-AddedReport add_report_to_site(const fs::path& file, const fs::path& site) {
+AddedReport add_report(const fs::path& file, const fs::path& site) {
     const std::string text = read_json_text(file, "a report", kMaxReportBytes);
     const std::size_t comparisons = read_site_report(file, text).size();
     report::create_folder(site / "reports");
-    AddedReport added{compute_sha256(text) + ".json", comparisons, false};
+    AddedReport added{sha256(text) + ".json", comparisons, false};
     const fs::path place = site / "reports" / added.name;
     std::error_code ignored;
     added.is_known = fs::exists(place, ignored);
@@ -383,10 +381,10 @@ BuiltSite build_site(const fs::path& site) {
         for (SiteComparison& one :
              read_site_report(file, read_json_text(file, "a report", kMaxReportBytes)))
             comparisons.push_back(std::move(one));
-    const std::vector<SitePage> pages = group_comparisons_by_page(comparisons);
+    const std::vector<SitePage> pages = group_by_page(comparisons);
     remove_other_pages(site, pages);
-    for (const SitePage& page : pages) write_file(site / page.file, make_scene_page(page));
-    write_file(site / "index.html", make_index_page(pages, files.size()));
+    for (const SitePage& page : pages) write_file(site / page.file, scene_page(page));
+    write_file(site / "index.html", index_page(pages, files.size()));
     return {files.size(), pages.size() + 1};
 }
 

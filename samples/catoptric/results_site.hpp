@@ -17,8 +17,7 @@ struct AddedReport {
 /// Adds a report.json, of one scene or several, or a sweep's results.json, to the site's folder,
 /// which is made if it is missing. The file's name is the SHA-256 of its bytes, so a report is
 /// added once. Throws `bad_data`, with the member, for a document that is no complete report.
-AddedReport add_report_to_site(const std::filesystem::path& report,
-                               const std::filesystem::path& site);
+AddedReport add_report(const std::filesystem::path& report, const std::filesystem::path& site);
 
 struct BuiltSite {
     std::size_t reports = 0, pages = 0;

@@ -34,14 +34,14 @@ std::string format_info_line(const std::string& name, const std::string& value) 
 }
 
 /// Returns a table under its title; empty if it has no rows.
-std::string format_titled_table(const std::string& title, const SceneTableCells& cells) {
+std::string titled_table(const std::string& title, const SceneTableCells& cells) {
     return cells.size() < 2 ? "" : "\n" + title + "\n" + align_columns(cells, 0);
 }
 
 /// The first factors, metallic and roughness, have columns of their own.
 constexpr std::size_t kMaterialFactorColumns = 2;
 
-std::string describe_material_details(const session::MaterialInfo& material) {
+std::string describe_material(const session::MaterialInfo& material) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
     if (material.light != vec3(0)) add("lights " + format_colour(material.light));
@@ -56,7 +56,7 @@ std::string describe_material_details(const session::MaterialInfo& material) {
     return text.empty() ? "-" : text;
 }
 
-SceneTableCells list_material_cells(const session::SceneInfo& info) {
+SceneTableCells material_cells(const session::SceneInfo& info) {
     constexpr std::size_t kMaxListedMaterials = 50;
     SceneTableCells cells{
         {"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
@@ -70,12 +70,12 @@ SceneTableCells list_material_cells(const session::SceneInfo& info) {
         cells.push_back({escape(material.name), material.kind, std::to_string(material.objects),
                          format_colour(material.albedo), fmt::format("{:.3g}", material.factors[0]),
                          fmt::format("{:.3g}", material.factors[1]), format_colour(material.f0),
-                         describe_material_details(material)});
+                         describe_material(material)});
     }
     return cells;
 }
 
-std::string describe_mirror_shape(const scene::MirrorShape& shape) {
+std::string describe_shape(const scene::MirrorShape& shape) {
     std::string text = scene::shape_name(shape.kind);
     text += shape.is_closed ? ", closed" : ", open";
     if (shape.fit)
@@ -83,18 +83,18 @@ std::string describe_mirror_shape(const scene::MirrorShape& shape) {
     return text;
 }
 
-SceneTableCells list_mirror_cells(const session::SceneInfo& info) {
+SceneTableCells mirror_cells(const session::SceneInfo& info) {
     SceneTableCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
     for (const session::MirrorInfo& mirror : info.mirrors)
         cells.push_back({std::to_string(mirror.number), escape(mirror.name),
-                         describe_mirror_shape(mirror.shape),
+                         describe_shape(mirror.shape),
                          fmt::format("{:.1f} %", 100 * mirror.screen_share),
                          format_colour(mirror.reflectance) + (mirror.is_constant ? "" : " and up"),
                          format_point(mirror.capture_centre)});
     return cells;
 }
 
-SceneTableCells list_light_cells(const report::SceneFacts& facts) {
+SceneTableCells light_cells(const report::SceneFacts& facts) {
     SceneTableCells cells{{"light", "name", "at", "towards", "emits", "area"}};
     for (const report::LightFacts& light : measure::read_scene_contents(facts).lights)
         cells.push_back({light.kind, light.name.empty() ? "-" : escape(light.name),
@@ -136,7 +136,7 @@ std::string describe_exposure(const SceneInfoFacts& words) {
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
 
-SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
+SceneTableCells unsupported_cells(const report::SceneFacts& facts) {
     const report::ReportTable table = report::unsupported_table(facts);
     SceneTableCells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
@@ -169,17 +169,16 @@ std::string format_scene_info(const SceneInfoFacts& words) {
     for (std::size_t i = 0; i < info.cameras.size(); ++i)
         text += format_info_line(i == 0 ? "cameras" : "",
                                  fmt::format("{} {}", i, describe_camera(info.cameras[i])));
-    text += format_titled_table("Materials", list_material_cells(info)) +
-            format_titled_table("Mirrors", list_mirror_cells(info)) +
-            format_titled_table("Lights", list_light_cells(facts));
+    text += titled_table("Materials", material_cells(info)) +
+            titled_table("Mirrors", mirror_cells(info)) +
+            titled_table("Lights", light_cells(facts));
     if (info.mirrors.empty()) {
         text += info.mirror_options.empty()
                     ? "\nNo mirror\n"
                     : "\nNo mirror; the smoothest surfaces become one with\n";
         for (const std::string& option : info.mirror_options) text += "  " + option + "\n";
     }
-    return text +
-           format_titled_table("Added, approximated, left out", list_unsupported_cells(facts));
+    return text + titled_table("Added, approximated, left out", unsupported_cells(facts));
 }
 
 } // namespace catoptric::cli

@@ -19,7 +19,7 @@ namespace catoptric::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestBlindWork{1500};
-constexpr std::int64_t kSignalRepeatNanoseconds = 1'000'000'000; // nanoseconds
+constexpr std::int64_t kSignalRepeatNs = 1'000'000'000; // nanoseconds
 
 std::atomic<const char*> program{"catoptric"};
 std::atomic<bool> is_looked_at{false}; ///< whether the program polls `number_of_signal`
@@ -34,7 +34,7 @@ static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<const char*>::is_always_lock_free,
               "a signal handler may only store without a lock");
 
-std::int64_t monotonic_nanoseconds() {
+std::int64_t monotonic_ns() {
     timespec time{};
     ::clock_gettime(CLOCK_MONOTONIC, &time); // allowed in a signal handler
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -74,7 +74,7 @@ void handle_signal(int number) {
     if (!is_looked_at.load()) exit_from_signal(number);
     const int error = errno;
     std::int64_t never = 0;
-    if (first_at.compare_exchange_strong(never, monotonic_nanoseconds())) {
+    if (first_at.compare_exchange_strong(never, monotonic_ns())) {
         number_of_signal.store(number);
         if (const unsigned seconds = most_seconds.load(); seconds > 0)
             ::alarm(seconds); // allowed in a signal handler
@@ -83,7 +83,7 @@ void handle_signal(int number) {
             const ssize_t written = ::write(event, &one, sizeof one); // wakes end_if_not_seen
             static_cast<void>(written);
         }
-    } else if (monotonic_nanoseconds() - first_at.load() > kSignalRepeatNanoseconds) {
+    } else if (monotonic_ns() - first_at.load() > kSignalRepeatNs) {
         std::signal(number, SIG_DFL);
         std::raise(number); // delivered when this handler returns
     }

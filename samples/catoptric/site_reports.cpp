@@ -44,16 +44,16 @@ SiteJson find_member(const SiteJson& object, const std::string& name, const Repo
     return object.value(name, SiteJson());
 }
 
-std::string read_text_member_of_report(const SiteJson& object, const std::string& name,
-                                       const ReportPlace& place) {
+std::string read_text_member(const SiteJson& object, const std::string& name,
+                             const ReportPlace& place) {
     const SiteJson value = find_member(object, name, place);
     place.at(name).check(value.is_string(), "wanted text, found ", report::describe(value));
     return value.get<std::string>();
 }
 
 /// Returns a number from `low` to `high`; NaN for null.
-double read_number_member_within(const SiteJson& object, const std::string& name,
-                                 const ReportPlace& place, double low, double high) {
+double read_number_member(const SiteJson& object, const std::string& name, const ReportPlace& place,
+                          double low, double high) {
     const SiteJson value = find_member(object, name, place);
     const bool fits = value.is_number() && value.get<double>() >= low &&
                       value.get<double>() <= high;
@@ -83,7 +83,7 @@ std::string read_judged_time(const SiteJson& json, const ReportPlace& place) {
 
 SiteRow read_site_row(const SiteJson& json, const std::string& time, const ReportPlace& place) {
     SiteRow row;
-    row.label = read_text_member_of_report(json, "label", place);
+    row.label = read_text_member(json, "label", place);
     // The label of a row names the model only in reports that compare both models. On a page with
     // reports of both kinds, labels without a model must not be mixed up.
     constexpr std::string_view kModel = ", model=required";
@@ -92,14 +92,14 @@ SiteRow read_site_row(const SiteJson& json, const std::string& time, const Repor
     SiteJson times = find_member(json, time, place);
     if (times.is_null()) times = find_member(json, "gpu_ms", place); // a row with a stated time
     if (!times.is_null()) { // null for a row whose pictures come from a file
-        row.ms = read_number_member_within(times, "median", place.at(time), 0, kMaxReportedMs);
+        row.ms = read_number_member(times, "median", place.at(time), 0, kMaxReportedMs);
         std::tie(row.ms_low,
                  row.ms_high) = read_interval(find_member(times, "ci95", place.at(time)));
     }
     const SiteJson error = find_member(json, "error", place);
-    row.flip = read_number_member_within(error, "flip", place.at("error"), 0, 1);
+    row.flip = read_number_member(error, "flip", place.at("error"), 0, 1);
     // The rmse against a noisy reference is negative if its estimate is below the noise.
-    row.rmse = read_number_member_within(error, "rmse", place.at("error"), -1, 1);
+    row.rmse = read_number_member(error, "rmse", place.at("error"), -1, 1);
     row.is_reference = find_member(json, "is_reference", place) == true;
     std::tie(row.flip_low, row.flip_high) = read_interval(find_member(json, "flip_ci95", place));
     return row;
@@ -134,8 +134,7 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
         point("target"), point("up"),
         height == "0" ? number(camera, "vertical_fov_degrees") + " degrees" : height + " high",
         number(json, "exposure"), number(json, "ambient"),
-        read_text_member_of_report(find_member(json, "reference", place), "label",
-                                   place.at("reference")));
+        read_text_member(find_member(json, "reference", place), "label", place.at("reference")));
     if (const SiteJson timing = find_member(json, "timing", place); timing == "pipelined")
         text += ", pipelined";
     if (find_member(json, "together", place) == true) text += ", all rows in one frame";
@@ -144,7 +143,7 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
 }
 
 /// Returns whether the text is a date such as "2026-11-24T03:05:10Z", whose order is that of time.
-bool is_report_date(const std::string& text) {
+bool is_date(const std::string& text) {
     constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
     return text.size() == kForm.size() &&
            std::ranges::equal(text, kForm, [](char found, char wanted) {
@@ -157,14 +156,14 @@ SiteComparison read_common_members(const SiteJson& json, const ReportPlace& plac
     SiteComparison found;
     const SiteJson scene = find_member(json, "scene", place),
                    device = find_member(json, "device", place);
-    found.scene = read_text_member_of_report(scene, "name", place.at("scene"));
-    found.hash = read_text_member_of_report(scene, "hash", place.at("scene"));
-    found.device = read_text_member_of_report(device, "name", place.at("device"));
-    found.driver = read_text_member_of_report(device, "driver", place.at("device"));
-    found.commit = read_text_member_of_report(json, "commit", place);
-    found.version = read_text_member_of_report(json, "version", place);
-    found.date = read_text_member_of_report(json, "date", place);
-    place.at("date").check(is_report_date(found.date),
+    found.scene = read_text_member(scene, "name", place.at("scene"));
+    found.hash = read_text_member(scene, "hash", place.at("scene"));
+    found.device = read_text_member(device, "name", place.at("device"));
+    found.driver = read_text_member(device, "driver", place.at("device"));
+    found.commit = read_text_member(json, "commit", place);
+    found.version = read_text_member(json, "version", place);
+    found.date = read_text_member(json, "date", place);
+    place.at("date").check(is_date(found.date),
                            "wanted a date such as 2026-11-24T03:05:10Z, found ", quote(found.date));
     const SiteJson rows = find_member(json, "rows", place);
     place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
@@ -197,9 +196,9 @@ SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& pla
 /// Reads a comparison of results.json, which `sweep merge` writes.
 SiteComparison read_sweep_comparison(const SiteJson& json, const ReportPlace& place) {
     SiteComparison found = read_common_members(json, place);
-    found.setting = read_text_member_of_report(json, "setting", place);
-    found.section = read_text_member_of_report(json, "section", place);
-    found.machine = read_text_member_of_report(json, "machine", place);
+    found.setting = read_text_member(json, "setting", place);
+    found.section = read_text_member(json, "section", place);
+    found.machine = read_text_member(json, "machine", place);
     return found;
 }
 

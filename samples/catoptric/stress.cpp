@@ -51,20 +51,20 @@ std::string make_stress_text(const report::StressResults& stress) {
 
 int run_stress(const StressOptions& options) {
     for (const std::string& id : options.only)
-        stress::find_stress_property(id); // an unknown id fails before any work
+        stress::find_property(id); // an unknown id fails before any work
     if (!options.folder.empty()) {
         const std::filesystem::path folder = options.folder;
-        check_folder_can_be_made(folder);
-        check_folder_can_be_made(folder / "images");
+        check_output_folder(folder);
+        check_output_folder(folder / "images");
         std::vector<std::filesystem::path> outputs{kStdoutPath, folder / "stress.json",
                                                    folder / "stress.html", folder / "stress.md"};
         std::error_code none_yet; // earlier failure pictures may be replaced
         for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
             outputs.push_back(entry.path());
-        check_outputs_differ_from_inputs(outputs, {});
+        check_distinct(outputs, {});
     }
-    session::Engine engine(make_engine_options(options.device));
-    print_device_and_warnings(engine, options.output_options);
+    session::Engine engine(engine_options(options.device));
+    print_device(engine, options.output_options);
     if (!options.folder.empty())
         report::create_folder(std::filesystem::path(options.folder) / "images");
     ProgressPrinter progress(options.output_options);
@@ -72,22 +72,21 @@ int run_stress(const StressOptions& options) {
     const auto write = [&](const report::StressResults& so_far) {
         if (!options.folder.empty()) writer.write(so_far);
     };
-    const report::StressResults found = stress::run_stress_properties(
-        engine, {.only = options.only,
-                 .size = options.size,
-                 .seed = options.seed,
-                 .command = options.command,
-                 .watcher = make_progress_watcher(progress),
-                 .on_finished_row = write});
+    const report::StressResults found = stress::run_properties(engine,
+                                                               {.only = options.only,
+                                                                .size = options.size,
+                                                                .seed = options.seed,
+                                                                .command = options.command,
+                                                                .watcher = make_watcher(progress),
+                                                                .on_finished_row = write});
     progress.clear();
     if (!found.rows.empty()) write(found); // an empty table would replace an earlier one
     print_result(options.output_options.json ? report::to_json(found) : make_stress_text(found));
     if (found.stopped)
         throw_incomplete_run(*found.stopped, found.rows.size(), found.asked, "", options.folder);
-    if (!options.folder.empty())
-        print_note_unless_quiet(options.output_options, "written: " + options.folder);
+    if (!options.folder.empty()) print_note(options.output_options, "written: " + options.folder);
     for (const std::string& part : found.parts_not_run())
-        print_note_unless_quiet(options.output_options, "not run: " + part);
+        print_note(options.output_options, "not run: " + part);
     if (options.device.validate) engine.check_validation();
     return found.has_failed_row() ? static_cast<int>(Failure::threshold) : 0;
 }
@@ -97,8 +96,8 @@ int run_stress(const StressOptions& options) {
 void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<StressOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_command_verb(
-        "stress", "measure properties of extreme scenes against thresholds");
+    Verb& verb = program.add_verb("stress",
+                                  "measure properties of extreme scenes against thresholds");
     verb.examples(kStressExamples);
     verb.option("-o,--output", "DIR",
                 "folder for stress.json, stress.html, stress.md and pictures of failed properties",
@@ -111,7 +110,7 @@ void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
     add_device_options(verb, options->device);
     add_validate_option(verb, options->device);
     add_output_options(verb, options->output_options);
-    verb.set_verb_action([options] { return run_stress(*options); });
+    verb.action([options] { return run_stress(*options); });
 }
 
 } // namespace catoptric::cli

@@ -38,38 +38,38 @@ struct SweepOptions {
     bool across_identities = false;
 };
 
-void run_sweep_plan_action(const SweepOptions& options) {
+void plan_action(const SweepOptions& options) {
     check(fs::exists(options.path), Failure::missing_input, options.path,
           ": cannot be opened: No such file or directory");
-    throw_unless_option_given(!options.output.empty(), "sweep plan", "-o DIR",
-                              "the folder for the plan and its results");
+    require_option(!options.output.empty(), "sweep plan", "-o DIR",
+                   "the folder for the plan and its results");
     const fs::path folder = options.output;
-    check_folder_can_be_made(folder);
-    const SweepPlan plan = make_sweep_plan(options.path, folder);
+    check_output_folder(folder);
+    const SweepPlan plan = make_plan(options.path, folder);
     report::create_folder(folder);
-    write_sweep_plan(plan, folder);
+    write_plan(plan, folder);
     const auto timings = static_cast<std::size_t>(
         std::ranges::count_if(plan.pieces, &SweepPiece::is_timing));
-    print_note_unless_quiet(options.run.output_options,
-                            fmt::format("written: {}: {} picture pieces, {} timing pieces; run "
-                                        "them with 'catoptric sweep run {}'",
-                                        (folder / "plan.json").string(),
-                                        plan.pieces.size() - timings, timings, folder.string()));
+    print_note(options.run.output_options,
+               fmt::format("written: {}: {} picture pieces, {} timing pieces; run "
+                           "them with 'catoptric sweep run {}'",
+                           (folder / "plan.json").string(), plan.pieces.size() - timings, timings,
+                           folder.string()));
     if (options.run.output_options.json)
         print_result(report::serialise({{"schema", "catoptric/sweep-planned/1"},
                                         {"pictures", plan.pieces.size() - timings},
                                         {"timings", timings}}));
 }
 
-void run_sweep_run_action(const SweepOptions& options) {
+void run_action(const SweepOptions& options) {
     const fs::path folder = options.path;
-    const SweepPlan plan = read_sweep_plan(folder);
-    const SweepRunCounts counts = run_sweep_pieces(folder, plan, options.run);
+    const SweepPlan plan = read_plan(folder);
+    const SweepRunCounts counts = run_pieces(folder, plan, options.run);
     std::string text = fmt::format("{} pieces run, {} were finished before", counts.run,
                                    counts.finished_before);
     if (counts.elsewhere > 0)
         text += fmt::format(", {} are in work in other processes", counts.elsewhere);
-    print_note_unless_quiet(options.run.output_options, text);
+    print_note(options.run.output_options, text);
     if (options.run.output_options.json)
         print_result(report::serialise({{"schema", "catoptric/sweep-run/1"},
                                         {"run", counts.run},
@@ -77,7 +77,7 @@ void run_sweep_run_action(const SweepOptions& options) {
                                         {"elsewhere", counts.elsewhere}}));
 }
 
-report::Json make_sweep_state_json(const SweepState& state) {
+report::Json state_json(const SweepState& state) {
     report::Json json{{"schema", "catoptric/sweep-state/1"},
                       {"pieces", state.pieces},
                       {"finished", state.finished},
@@ -92,8 +92,7 @@ report::Json make_sweep_state_json(const SweepState& state) {
 }
 
 /// Returns a line for each of the first ids, and a line with the number of all further ids.
-std::string list_first_pieces(const std::vector<std::string>& ids, const std::string& what,
-                              bool all) {
+std::string first_pieces(const std::vector<std::string>& ids, const std::string& what, bool all) {
     constexpr std::size_t kMaxListedPieces = 10;
     const std::size_t shown = all ? ids.size() : std::min(ids.size(), kMaxListedPieces);
     std::string text;
@@ -103,51 +102,51 @@ std::string list_first_pieces(const std::vector<std::string>& ids, const std::st
     return text;
 }
 
-int run_sweep_check_action(const SweepOptions& options) {
-    const SweepState state = check_sweep(options.path, read_sweep_plan(options.path));
+int check_action(const SweepOptions& options) {
+    const SweepState state = check_sweep(options.path, read_plan(options.path));
     const OutputOptions& output_options = options.run.output_options;
     if (output_options.json) {
-        print_result(report::serialise(make_sweep_state_json(state)));
+        print_result(report::serialise(state_json(state)));
         return state.is_complete() ? 0 : 1;
     }
     std::string text = fmt::format("{} of {} pieces have a result, {} are in work\n",
                                    state.finished, state.pieces, state.in_work.size());
-    text += list_first_pieces(state.in_work, "in work", output_options.verbose);
-    text += list_first_pieces(state.missing, "missing", output_options.verbose);
+    text += first_pieces(state.in_work, "in work", output_options.verbose);
+    text += first_pieces(state.missing, "missing", output_options.verbose);
     for (const auto& [id, why] : state.broken)
         text += "broken: " + why + "; delete this file and run the piece again\n";
-    text += list_first_pieces(state.unknown, "belongs to no piece", output_options.verbose);
+    text += first_pieces(state.unknown, "belongs to no piece", output_options.verbose);
     if (state.identities.size() > 1)
         text += fmt::format("results come from {} identities\n", state.identities.size());
     print_result(text);
     return state.is_complete() ? 0 : 1;
 }
 
-void run_sweep_merge_action(const SweepOptions& options) {
-    const SweepPlan plan = read_sweep_plan(options.path);
-    throw_unless_option_given(!options.output.empty(), "sweep merge", "-o DIR",
-                              "the folder for the merged results");
+void merge_action(const SweepOptions& options) {
+    const SweepPlan plan = read_plan(options.path);
+    require_option(!options.output.empty(), "sweep merge", "-o DIR",
+                   "the folder for the merged results");
     const fs::path out = options.output;
-    check_folder_can_be_made(out);
+    check_output_folder(out);
     const MergedSweep merged = merge_sweep(options.path, plan,
                                            options.across_identities ? AcrossIdentities::allowed
                                                                      : AcrossIdentities::refused);
     report::create_folder(out);
     for (const auto& [name, content] : merged.files) write_file(out / name, content);
     if (merged.is_mixed)
-        print_note_unless_quiet(
+        print_note(
             options.run.output_options,
             fmt::format("results of {} identities: {:.3g} % of {} pixels of their common pictures "
                         "differ by more than 1/255",
                         merged.identities.size(), 100 * merged.difference.share(),
                         merged.difference.pixels));
     if (options.run.output_options.json) print_result(merged.files.back().second); // merged.json
-    print_note_unless_quiet(options.run.output_options, "written: " + out.string());
+    print_note(options.run.output_options, "written: " + out.string());
 }
 
 int run_sweep(const SweepOptions& options) {
-    const std::size_t action = parse_choice_index("sweep", options.action,
-                                                  {"plan", "run", "merge", "check"});
+    const std::size_t action = parse_choice("sweep", options.action,
+                                            {"plan", "run", "merge", "check"});
     const auto refuse = [&](bool is_given, const char* option) {
         check(!is_given, Failure::usage, "'sweep ", options.action, "' has no option '", option,
               "'");
@@ -160,10 +159,10 @@ int run_sweep(const SweepOptions& options) {
     check(options.run.pieces.empty() || options.run.kinds == SweepRunOptions::PieceKinds::all,
           Failure::usage, "--piece names pieces of one kind; wanted no --kind beside it");
     switch (action) {
-    case 0: run_sweep_plan_action(options); break;
-    case 1: run_sweep_run_action(options); break;
-    case 2: run_sweep_merge_action(options); break;
-    default: return run_sweep_check_action(options);
+    case 0: plan_action(options); break;
+    case 1: run_action(options); break;
+    case 2: merge_action(options); break;
+    default: return check_action(options);
     }
     return 0;
 }
@@ -172,13 +171,12 @@ int run_sweep(const SweepOptions& options) {
 
 void add_sweep_verb(CommandLine& program) {
     const auto options = std::make_shared<SweepOptions>();
-    CommandVerb& verb = program.add_command_verb(
+    Verb& verb = program.add_verb(
         "sweep", "compare many scenes, techniques and views, in pieces on many machines");
     verb.examples(kSweepExamples);
-    verb.argument("ACTION", "plan, run, check or merge", options->action,
-                  CommandVerb::VerbArgumentNeed::required);
+    verb.argument("ACTION", "plan, run, check or merge", options->action, Verb::Need::required);
     verb.argument("PATH", "plan: the sweep's file; otherwise the folder of the plan", options->path,
-                  CommandVerb::VerbArgumentNeed::required);
+                  Verb::Need::required);
     verb.option("-o,--output", "DIR",
                 "plan: folder for the plan and its results; merge: folder for the tables",
                 options->output);
@@ -188,14 +186,14 @@ void add_sweep_verb(CommandLine& program) {
     verb.option("--kind", "KIND", "run only pieces of this kind: all, pictures or timings (all)",
                 [options](const std::string& text) {
                     options->run.kinds = static_cast<SweepRunOptions::PieceKinds>(
-                        parse_choice_index("--kind", text, {"all", "pictures", "timings"}));
+                        parse_choice("--kind", text, {"all", "pictures", "timings"}));
                 });
     verb.flag("--across-identities",
               "merge pictures of different programs, drivers or processors, and say how much they "
               "differ",
               options->across_identities);
     add_output_options(verb, options->run.output_options);
-    verb.set_verb_action([options] { return run_sweep(*options); });
+    verb.action([options] { return run_sweep(*options); });
 }
 
 } // namespace catoptric::cli

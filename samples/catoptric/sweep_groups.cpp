@@ -26,8 +26,7 @@ double find_instant(const SweepPiece& piece) {
 
 /// Returns the mean of the values over the views of each instant. Views of one instant resemble
 /// each other, so they count as one sample.
-std::vector<double> average_values_per_instant(const SweepGroup& group,
-                                               const std::vector<double>& values) {
+std::vector<double> average_instants(const SweepGroup& group, const std::vector<double>& values) {
     std::map<double, std::vector<double>> instants;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!std::isnan(values[i]))
@@ -41,8 +40,7 @@ std::vector<double> average_values_per_instant(const SweepGroup& group,
 
 } // namespace
 
-std::vector<SweepGroup> read_results_by_sweep_group(const std::filesystem::path& folder,
-                                                    const SweepPlan& plan) {
+std::vector<SweepGroup> read_groups(const std::filesystem::path& folder, const SweepPlan& plan) {
     std::vector<SweepGroup> groups;
     for (const SweepPiece& piece : plan.pieces) {
         const SweepJson &scene = piece.content["scene"], &options = piece.content["options"];
@@ -54,7 +52,7 @@ std::vector<SweepGroup> read_results_by_sweep_group(const std::filesystem::path&
         group.labels = piece.content["techniques"].get<std::vector<std::string>>();
         (piece.is_timing() ? group.timing_pieces : group.picture_pieces).push_back(&piece);
         (piece.is_timing() ? group.timings : group.pictures)
-            .push_back(read_sweep_result(folder, piece).value());
+            .push_back(read_result(folder, piece).value());
     }
     return groups;
 }
@@ -73,8 +71,8 @@ SweepSummary summarise(std::vector<double> values) {
     return summary;
 }
 
-std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
-                                       const std::string& metric) {
+std::vector<double> metric_values(const SweepGroup& group, std::size_t row,
+                                  const std::string& metric) {
     std::vector<double> values;
     for (const SweepJson& result : group.pictures) {
         const SweepJson value = result["rows"].at(row).at("error").value(metric, SweepJson());
@@ -97,7 +95,7 @@ bool has_dependent_views(const SweepGroup& group) {
 SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values) {
     SweepSummary summary = summarise(values);
     if (has_dependent_views(group))
-        summary.ci95 = measure::median_interval(average_values_per_instant(group, values));
+        summary.ci95 = measure::median_interval(average_instants(group, values));
     return summary;
 }
 
@@ -107,7 +105,7 @@ void CsvTable::add_line(const std::vector<std::string>& fields) {
     text_ += fmt::format("{}\r\n", fmt::join(escaped, ","));
 }
 
-std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups) {
+std::vector<std::string> axis_names(const std::vector<SweepGroup>& groups) {
     std::vector<std::string> names;
     for (const auto& [name, value] : groups.front().options.items())
         if (std::ranges::any_of(groups, [&](const SweepGroup& group) {
@@ -117,8 +115,8 @@ std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups) 
     return names;
 }
 
-std::vector<std::string> make_scene_and_axis_fields(const SweepGroup& group,
-                                                    const std::vector<std::string>& axes) {
+std::vector<std::string> group_fields(const SweepGroup& group,
+                                      const std::vector<std::string>& axes) {
     std::vector<std::string> fields{group.scene.get<std::string>()};
     for (const std::string& axis : axes) {
         const SweepJson& value = group.options[axis];

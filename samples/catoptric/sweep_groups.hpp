@@ -22,8 +22,7 @@ struct SweepGroup {
 };
 
 /// Reads the results of all pieces. Throws if a result is missing or broken.
-std::vector<SweepGroup> read_results_by_sweep_group(const std::filesystem::path& folder,
-                                                    const SweepPlan& plan);
+std::vector<SweepGroup> read_groups(const std::filesystem::path& folder, const SweepPlan& plan);
 
 /// Mean, median and largest of some values, and the 95 % interval of the median.
 struct SweepSummary {
@@ -37,8 +36,8 @@ SweepSummary summarise(std::vector<double> values);
 
 /// Returns a metric of a row over its mirrors, one value for each view. Views without a value have
 /// NaN.
-std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
-                                       const std::string& metric);
+std::vector<double> metric_values(const SweepGroup& group, std::size_t row,
+                                  const std::string& metric);
 
 /// Returns the number of different instants of the group's views; 1 for a single view.
 std::size_t count_instants(const SweepGroup& group);
@@ -62,11 +61,11 @@ private:
 };
 
 /// Returns the options of the sweep that differ between groups of results.
-std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups);
+std::vector<std::string> axis_names(const std::vector<SweepGroup>& groups);
 
 /// Returns the table cells that tell groups apart: the scene, then a value for each axis.
-std::vector<std::string> make_scene_and_axis_fields(const SweepGroup& group,
-                                                    const std::vector<std::string>& axes);
+std::vector<std::string> group_fields(const SweepGroup& group,
+                                      const std::vector<std::string>& axes);
 
 /// Returns the first line of a table: scene, axes, then `names`.
 std::vector<std::string> make_header(const std::vector<std::string>& axes,

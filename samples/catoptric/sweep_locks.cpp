@@ -45,7 +45,7 @@ struct flock make_byte_lock(short type, std::size_t index) {
     return lock;
 }
 
-std::filesystem::path find_machine_lock_file() {
+std::filesystem::path machine_lock_file() {
     return find_machine_folder() / ("catoptric-sweep-" + std::to_string(::getuid()) + ".lock");
 }
 
@@ -69,19 +69,18 @@ void PieceLockFile::unlock(std::size_t index) const {
     ::fcntl(file_, F_OFD_SETLK, &lock);
 }
 
-bool PieceLockFile::is_piece_locked_by_other_process(std::size_t index) const {
+bool PieceLockFile::is_locked(std::size_t index) const {
     struct flock lock = make_byte_lock(F_WRLCK, index);
     return ::fcntl(file_, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
 MachineLock::MachineLock(Use use, const std::atomic<int>& stop)
-    : file_(open_lock_file(find_machine_lock_file(), O_RDWR | O_CREAT)) {
+    : file_(open_lock_file(machine_lock_file(), O_RDWR | O_CREAT)) {
     const int operation = (use == Use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
     try {
         while (::flock(file_, operation) != 0) {
             const int error = errno;
-            check(error == EWOULDBLOCK || error == EINTR, Failure::io,
-                  find_machine_lock_file().string(),
+            check(error == EWOULDBLOCK || error == EINTR, Failure::io, machine_lock_file().string(),
                   ": cannot be locked: ", std::generic_category().message(error));
             session::throw_if_stopped({.stop = &stop});
             std::this_thread::sleep_for(kLockPollInterval);

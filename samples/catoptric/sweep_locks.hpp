@@ -22,7 +22,7 @@ public:
     bool try_lock(std::size_t index) const;
     void unlock(std::size_t index) const;
     /// Returns whether another process holds the lock of the byte at `index`.
-    bool is_piece_locked_by_other_process(std::size_t index) const;
+    bool is_locked(std::size_t index) const;
 
 private:
     int file_ = -1;

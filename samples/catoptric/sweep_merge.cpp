@@ -29,12 +29,12 @@ constexpr int kPictureGapColumns = 4; // between the row and the reference besid
                                       // picture
 
 /// Adds the identity (program, driver and processor) to the list if it is new.
-void add_identity_if_new(std::vector<SweepJson>& identities, const SweepJson& identity) {
+void add_identity(std::vector<SweepJson>& identities, const SweepJson& identity) {
     if (std::ranges::find(identities, identity) == identities.end()) identities.push_back(identity);
 }
 
 /// Returns a text with the differences between identities, such as "driver: A, B; lanes: 4, 8".
-std::string describe_identity_differences(const std::vector<SweepJson>& identities) {
+std::string describe_identities(const std::vector<SweepJson>& identities) {
     std::set<std::string> names;
     for (const SweepJson& identity : identities)
         for (const auto& [name, value] : identity.items()) names.insert(name);
@@ -76,9 +76,9 @@ IdentityDifference compare_pictures(const fs::path& a_file, const fs::path& b_fi
 
 /// Returns the names of the pictures that machines of an identity drew for a common piece; empty if
 /// none were drawn yet.
-std::vector<std::string> list_common_pictures(const fs::path& folder) {
+std::vector<std::string> common_pictures(const fs::path& folder) {
     std::error_code ignored;
-    const fs::path file = folder / kCommonPicturesListFile;
+    const fs::path file = folder / kCommonListFile;
     if (!fs::exists(file, ignored)) return {};
     constexpr std::uintmax_t kMaxListBytes = 1U << 20U;
     const auto names = parse_json<SweepJson>(
@@ -91,17 +91,16 @@ std::vector<std::string> list_common_pictures(const fs::path& folder) {
 
 /// Compares the common pictures of two identities on one device, and adds the numbers of different
 /// pixels. Throws `bad_data` if an identity has no common pictures.
-void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
-                                  const SweepJson& device, const SweepJson& a, const SweepJson& b,
-                                  IdentityDifference& whole) {
+void add_difference(const fs::path& folder, const SweepPlan& plan, const SweepJson& device,
+                    const SweepJson& a, const SweepJson& b, IdentityDifference& whole) {
     const std::size_t before = whole.pixels;
     for (const std::size_t place : plan.common) {
         const SweepPiece& piece = plan.pieces[place];
-        if (find_device_options(piece.content) != device) continue;
-        const fs::path a_folder = find_common_picture_folder(folder, a, piece.id),
-                       b_folder = find_common_picture_folder(folder, b, piece.id);
-        const std::vector<std::string> names = list_common_pictures(a_folder),
-                                       other_names = list_common_pictures(b_folder);
+        if (device_options(piece.content) != device) continue;
+        const fs::path a_folder = common_folder(folder, a, piece.id),
+                       b_folder = common_folder(folder, b, piece.id);
+        const std::vector<std::string> names = common_pictures(a_folder),
+                                       other_names = common_pictures(b_folder);
         for (const std::string& name : names) {
             if (std::ranges::find(other_names, name) == other_names.end()) continue;
             const bool is_first = name == names.front();
@@ -112,11 +111,11 @@ void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
         }
     }
     check(whole.pixels > before, Failure::bad_data, folder.string(),
-          ": two identities have no common picture: ", describe_identity_differences({a, b}),
+          ": two identities have no common picture: ", describe_identities({a, b}),
           "; 'catoptric sweep run' on each of these machines draws them with its next piece");
 }
 
-OrderedJson make_summary_json(const SweepSummary& summary) {
+OrderedJson summary_json(const SweepSummary& summary) {
     return {{"views", summary.count},
             {"mean", report::number_json(summary.mean)},
             {"median", report::number_json(summary.median)},
@@ -124,8 +123,7 @@ OrderedJson make_summary_json(const SweepSummary& summary) {
             {"largest", report::number_json(summary.largest)}};
 }
 
-OrderedJson make_sweep_group_json(const SweepGroup& group,
-                                  const std::vector<std::string>& metrics) {
+OrderedJson group_json(const SweepGroup& group, const std::vector<std::string>& metrics) {
     OrderedJson json{{"scene", group.scene},
                      {"options", group.options},
                      {"views", group.pictures.size()},
@@ -135,16 +133,16 @@ OrderedJson make_sweep_group_json(const SweepGroup& group,
     for (std::size_t row = 0; row < group.labels.size(); ++row) {
         OrderedJson errors = OrderedJson::object();
         for (const std::string& metric : metrics)
-            errors[metric] = make_summary_json(
-                summarise_metric(group, list_metric_values(group, row, metric)));
+            errors[metric] = summary_json(
+                summarise_metric(group, metric_values(group, row, metric)));
         json["rows"].push_back({{"label", group.labels[row]}, {"error", errors}});
     }
     return json;
 }
 
-std::string make_errors_csv(const std::vector<SweepGroup>& groups,
-                            const std::vector<std::string>& metrics) {
-    const std::vector<std::string> axes = list_axis_names(groups);
+std::string errors_csv(const std::vector<SweepGroup>& groups,
+                       const std::vector<std::string>& metrics) {
+    const std::vector<std::string> axes = axis_names(groups);
     std::vector<std::string> header = make_header(axes, {"view", "seed", "time", "label"});
     header.insert(header.end(), metrics.begin(), metrics.end());
     CsvTable table;
@@ -154,11 +152,11 @@ std::string make_errors_csv(const std::vector<SweepGroup>& groups,
             group.labels.size()); // by metric, view
         for (std::size_t row = 0; row < values.size(); ++row)
             for (const std::string& metric : metrics)
-                values[row].push_back(list_metric_values(group, row, metric));
+                values[row].push_back(metric_values(group, row, metric));
         for (std::size_t i = 0; i < group.pictures.size(); ++i)
             for (std::size_t row = 0; row < group.labels.size(); ++row) {
                 const SweepJson& view = group.picture_pieces[i]->content["view"];
-                std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
+                std::vector<std::string> fields = group_fields(group, axes);
                 for (const char* name : {"index", "seed", "time"})
                     fields.push_back(view.is_null() ? "" : view[name].dump());
                 fields.push_back(group.labels[row]);
@@ -170,9 +168,9 @@ std::string make_errors_csv(const std::vector<SweepGroup>& groups,
     return table.text();
 }
 
-std::string make_summary_csv(const std::vector<SweepGroup>& groups,
-                             const std::vector<std::string>& metrics) {
-    const std::vector<std::string> axes = list_axis_names(groups);
+std::string summary_csv(const std::vector<SweepGroup>& groups,
+                        const std::vector<std::string>& metrics) {
+    const std::vector<std::string> axes = axis_names(groups);
     std::vector<std::string> header = make_header(axes, {"label", "views"});
     for (const std::string& metric : metrics)
         for (const char* part : {"mean", "median", "low", "high", "largest"})
@@ -181,13 +179,13 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
     table.add_line(header);
     for (const SweepGroup& group : groups)
         for (std::size_t row = 0; row < group.labels.size(); ++row) {
-            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
+            std::vector<std::string> fields = group_fields(group, axes);
             fields.push_back(group.labels[row]);
-            const std::vector<double> flip = list_metric_values(group, row, "flip");
+            const std::vector<double> flip = metric_values(group, row, "flip");
             fields.push_back(std::to_string(summarise(flip).count));
             for (const std::string& metric : metrics) {
-                const SweepSummary summary = summarise_metric(
-                    group, list_metric_values(group, row, metric));
+                const SweepSummary summary = summarise_metric(group,
+                                                              metric_values(group, row, metric));
                 for (const double value : {summary.mean, summary.median, summary.ci95.low,
                                            summary.ci95.high, summary.largest})
                     fields.push_back(report::format_csv_number(value));
@@ -208,14 +206,14 @@ SweepState check_sweep(const fs::path& folder, const SweepPlan& plan) {
     std::set<std::string> known;
     for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
         const SweepPiece& piece = plan.pieces[i];
-        known.insert(find_sweep_result_file(folder, piece.id).filename().string());
+        known.insert(result_file(folder, piece.id).filename().string());
         try {
-            if (const std::optional<SweepJson> result = read_sweep_result(folder, piece)) {
+            if (const std::optional<SweepJson> result = read_result(folder, piece)) {
                 ++state.finished;
-                add_identity_if_new(state.identities, (*result)["identity"]);
+                add_identity(state.identities, (*result)["identity"]);
                 continue;
             }
-            const bool is_in_work = locks && locks->is_piece_locked_by_other_process(i);
+            const bool is_in_work = locks && locks->is_locked(i);
             (is_in_work ? state.in_work : state.missing).push_back(piece.id);
         } catch (const Error& error) {
             state.broken.emplace_back(piece.id, error.what());
@@ -234,28 +232,28 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
     check(state.is_complete(), Failure::bad_data, folder.string(), ": wanted the results of ",
           state.pieces, " pieces, found ", state.finished, "; 'catoptric sweep check ",
           folder.string(), "' names the others");
-    const std::vector<SweepGroup> groups = read_results_by_sweep_group(folder, plan);
+    const std::vector<SweepGroup> groups = read_groups(folder, plan);
     MergedSweep merged;
     std::map<SweepJson, std::vector<SweepJson>> devices; // identities by the options for the device
     for (const SweepGroup& group : groups)
         for (const SweepJson& result : group.pictures)
-            add_identity_if_new(devices[find_device_options(result["piece"])], result["identity"]);
+            add_identity(devices[device_options(result["piece"])], result["identity"]);
     for (auto& [device, identities] : devices) {
         std::ranges::sort(identities);
         merged.is_mixed = merged.is_mixed || identities.size() > 1;
         check(identities.size() == 1 || across == AcrossIdentities::allowed, Failure::bad_data,
               folder.string(), ": the pictures come from ", identities.size(), " identities (",
-              describe_identity_differences(identities),
+              describe_identities(identities),
               "); --across-identities merges them and says how much their pictures differ");
         for (std::size_t i = 0; i < identities.size(); ++i) {
             for (std::size_t k = i + 1; k < identities.size(); ++k)
-                add_difference_of_identities(folder, plan, device, identities[i], identities[k],
-                                             merged.difference);
-            add_identity_if_new(merged.identities, identities[i]);
+                add_difference(folder, plan, device, identities[i], identities[k],
+                               merged.difference);
+            add_identity(merged.identities, identities[i]);
         }
     }
 
-    const std::vector<std::string> metrics = list_sweep_metrics();
+    const std::vector<std::string> metrics = sweep_metrics();
     OrderedJson document{{"schema", "catoptric/sweep-merged/1"}, {"sweep", plan.sweep}};
     document["identities"] = merged.identities;
     document["identity_difference"] = nullptr;
@@ -263,10 +261,10 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
         document["identity_difference"] = {{"pixels", merged.difference.pixels},
                                            {"share", merged.difference.share()}};
     document["groups"] = report::list_json(
-        groups, [&](const SweepGroup& group) { return make_sweep_group_json(group, metrics); });
-    merged.files = {{"errors.csv", make_errors_csv(groups, metrics)},
-                    {"summary.csv", make_summary_csv(groups, metrics)}};
-    for (auto& [name, content] : make_time_tables(groups))
+        groups, [&](const SweepGroup& group) { return group_json(group, metrics); });
+    merged.files = {{"errors.csv", errors_csv(groups, metrics)},
+                    {"summary.csv", summary_csv(groups, metrics)}};
+    for (auto& [name, content] : time_tables(groups))
         merged.files.emplace_back(std::move(name), std::move(content));
     merged.files.emplace_back("merged.json", report::serialise(document));
     return merged;

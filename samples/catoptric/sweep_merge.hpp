@@ -40,7 +40,7 @@ enum class AcrossIdentities { refused, allowed };
 
 struct MergedSweep {
     /// Names and contents of the merged files: merged.json, errors.csv, summary.csv, and those of
-    /// make_time_tables() if the plan has timing pieces. Except for times, contents depend only on
+    /// time_tables() if the plan has timing pieces. Except for times, contents depend only on
     /// the results.
     std::vector<std::pair<std::string, std::string>> files;
     /// The identities of the picture pieces, for each device that the sweep's options name.

@@ -103,22 +103,21 @@ void check_members(const SweepJson& object, std::initializer_list<std::string_vi
 }
 
 /// Returns the value of a knob or option as command-line text.
-std::string option_value_as_text(const SweepJson& value, const SweepPlace& place) {
+std::string option_text(const SweepJson& value, const SweepPlace& place) {
     place.check(value.is_string() || value.is_number(), "wanted text or a number, found ",
                 describe(value));
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 /// Returns a path from the sweep's file, relative to the folder of the plan.
-std::string make_path_from_plan_folder(const std::string& path, const fs::path& file,
-                                       const fs::path& folder) {
+std::string path_from_plan(const std::string& path, const fs::path& file, const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
     const fs::path whole = real_path(real_path(file).parent_path() / path);
     return whole.lexically_relative(real_path(folder)).string();
 }
 
 /// Returns a path of the plan, relative to the working folder.
-std::string make_path_from_working_folder(const std::string& path, const fs::path& folder) {
+std::string path_from_cwd(const std::string& path, const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
     return (real_path(folder) / path)
         .lexically_normal()
@@ -146,8 +145,8 @@ struct SweepRequest {
     std::int64_t timing_repeats = 1;
 };
 
-void check_option_name(const std::string& name, const CompletionOption*& option,
-                       const std::vector<CompletionOption>& known, const SweepPlace& place) {
+void check_option(const std::string& name, const CompletionOption*& option,
+                  const std::vector<CompletionOption>& known, const SweepPlace& place) {
     const auto found = std::ranges::find(known, "--" + name, &CompletionOption::name);
     place.check(found != known.end(), "'compare' has no option '--", name, "'");
     const bool is_refused = std::ranges::find(kRefusedOptions, name) != std::end(kRefusedOptions) ||
@@ -164,9 +163,9 @@ void check_option_name(const std::string& name, const CompletionOption*& option,
 /// texts. Each path is seen from the folder of the plan.
 SweepJson read_option(const std::string& name, const SweepJson& value, const fs::path& file,
                       const fs::path& folder, const SweepPlace& place) {
-    static const std::vector<CompletionOption> kOptions = list_compare_options();
+    static const std::vector<CompletionOption> kOptions = compare_options();
     const CompletionOption* option = nullptr;
-    check_option_name(name, option, kOptions, place);
+    check_option(name, option, kOptions, place);
     if (!option->takes_value) {
         place.check(value == true, "wanted true, because the option has no value, found ",
                     describe(value));
@@ -175,11 +174,11 @@ SweepJson read_option(const std::string& name, const SweepJson& value, const fs:
     SweepJson list = value.is_array() ? value : SweepJson::array({value});
     place.check(!list.empty(), "wanted at least one value, found an empty list");
     for (SweepJson& entry : list) {
-        std::string text = option_value_as_text(entry, place);
+        std::string text = option_text(entry, place);
         place.check(name != "reference" || !text.ends_with(".exr"),
                     "wanted a technique, found a file");
         place.check(name != "model" || text != "both", "wanted everything or required, found both");
-        if (is_path_option(name, text)) text = make_path_from_plan_folder(text, file, folder);
+        if (is_path_option(name, text)) text = path_from_plan(text, file, folder);
         entry = text;
     }
     return list.size() == 1 ? list.front() : list;
@@ -194,8 +193,7 @@ std::vector<std::string> read_scenes(const SweepJson& document, const fs::path& 
          read_texts(read_list(document, "scenes", place), place.member("scenes"))) {
         place.member("scenes").check(!scene.starts_with('-'), "wanted a scene, found ",
                                      quote(scene));
-        scenes.push_back(is_built_in(scene) ? scene
-                                            : make_path_from_plan_folder(scene, file, folder));
+        scenes.push_back(is_built_in(scene) ? scene : path_from_plan(scene, file, folder));
     }
     return scenes;
 }
@@ -227,8 +225,7 @@ void check_piece_count(const SweepRequest& sweep, const SweepPlace& place) {
                                kMaxPieceCount, " pieces, found more");
 }
 
-SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
-                                const fs::path& folder) {
+SweepRequest read_request(const SweepJson& document, const fs::path& file, const fs::path& folder) {
     const SweepPlace place{file.string()};
     check_members(document,
                   {"schema", "scenes", "techniques", "knobs", "options", "axes", "views", "timing"},
@@ -248,7 +245,7 @@ SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
     for (const auto& [name, values] : knobs.items()) {
         KnobAxis axis{name, {}};
         for (const SweepJson& value : read_list(knobs, name.c_str(), place.member("knobs")))
-            axis.values.push_back(option_value_as_text(value, place.member("knobs." + name)));
+            axis.values.push_back(option_text(value, place.member("knobs." + name)));
         sweep.knobs.push_back(std::move(axis));
     }
     for (const auto& [name, value] : options.items())
@@ -305,21 +302,18 @@ std::vector<SweepJson> list_option_sets(const SweepRequest& sweep) {
 }
 
 SweepPiece make_piece(SweepJson content) {
-    std::string id = compute_sha256(content.dump());
+    std::string id = sha256(content.dump());
     return {std::move(id), std::move(content)};
 }
 
 /// Adds the pieces of one scene with one set of options to the plan.
-void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
-                         const SweepJson& options, const fs::path& folder,
-                         std::vector<SweepPiece>& pieces) {
+void add_pieces(const SweepRequest& sweep, const std::string& scene, const SweepJson& options,
+                const fs::path& folder, std::vector<SweepPiece>& pieces) {
     SweepJson content{{"kind", "picture"}, {"scene", scene}, {"options", options}};
     content["techniques"] = sweep.techniques;
-    study::CompareRequest request =
-        parse_compare_words(make_compare_words_of_piece(content, folder)).request;
+    study::CompareRequest request = parse_compare_words(compare_words(content, folder)).request;
     if (!sweep.knobs.empty())
-        request.base.techniques = expand_techniques_along_axes(request.base.techniques,
-                                                               sweep.knobs);
+        request.base.techniques = expand_axes(request.base.techniques, sweep.knobs);
     study::check_techniques(request.base.techniques);
     study::check_compare_request(request);
     content["techniques"] = request.base.techniques;
@@ -347,14 +341,14 @@ void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
 
 /// Returns the index of the first picture piece for each scene and each device that the options
 /// name.
-std::vector<std::size_t> list_common_pieces(const std::vector<SweepPiece>& pieces) {
+std::vector<std::size_t> common_pieces(const std::vector<SweepPiece>& pieces) {
     std::vector<std::size_t> common;
     std::set<SweepJson> known;
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (!pieces[i].is_timing() &&
             known
                 .insert(SweepJson::array(
-                    {pieces[i].content["scene"], find_device_options(pieces[i].content)}))
+                    {pieces[i].content["scene"], device_options(pieces[i].content)}))
                 .second)
             common.push_back(i);
     return common;
@@ -432,7 +426,7 @@ fs::path find_plan_file(const fs::path& folder) { return folder / "plan.json"; }
 
 } // namespace
 
-std::string compute_sha256(const std::string& text) {
+std::string sha256(const std::string& text) {
     sha256_ctx state;
     sha256_init(&state);
     sha256_update(&state, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
@@ -441,17 +435,16 @@ std::string compute_sha256(const std::string& text) {
     return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
-SweepJson find_device_options(const SweepJson& content) {
+SweepJson device_options(const SweepJson& content) {
     const SweepJson& options = content.at("options");
     return SweepJson::array(
         {options.value("device", SweepJson()), options.value("device-profile", SweepJson())});
 }
 
-std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
-                                                     const fs::path& folder) {
+std::vector<std::string> compare_words(const SweepJson& content, const fs::path& folder) {
     const auto scene = content.at("scene").get<std::string>();
-    std::vector<std::string> words{
-        is_built_in(scene) ? scene : make_path_from_working_folder(scene, folder), "--quiet"};
+    std::vector<std::string> words{is_built_in(scene) ? scene : path_from_cwd(scene, folder),
+                                   "--quiet"};
     for (const auto& [name, value] : content.at("options").items()) {
         const SweepJson list = value.is_array() ? value : SweepJson::array({value});
         for (const SweepJson& entry : list) {
@@ -460,7 +453,7 @@ std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                 continue;
             }
             auto text = entry.get<std::string>();
-            if (is_path_option(name, text)) text = make_path_from_working_folder(text, folder);
+            if (is_path_option(name, text)) text = path_from_cwd(text, folder);
             words.push_back(fmt::format("--{}={}", name, text));
         }
     }
@@ -471,15 +464,15 @@ std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
     return words;
 }
 
-SweepPlan make_sweep_plan(const fs::path& file, const fs::path& folder) {
+SweepPlan make_plan(const fs::path& file, const fs::path& folder) {
     const std::string text = read_json_text(file, "a sweep", kMaxSweepFileBytes);
-    const SweepRequest sweep = read_sweep_request(parse_json<SweepJson>(file.string(), text), file,
-                                                  folder);
+    const SweepRequest sweep = read_request(parse_json<SweepJson>(file.string(), text), file,
+                                            folder);
     SweepPlan plan{nlohmann::ordered_json::parse(text), {}, {}};
     const std::vector<SweepJson> option_sets = list_option_sets(sweep);
     for (const std::string& scene : sweep.scenes)
         for (const SweepJson& options : option_sets) try {
-                add_pieces_of_scene(sweep, scene, options, folder, plan.pieces);
+                add_pieces(sweep, scene, options, folder, plan.pieces);
             } catch (const Error& error) {
                 throw_error(error.failure, file.string() + ": scene " + quote(scene) +
                                                ", options " + options.dump() + ": " + error.what());
@@ -489,11 +482,11 @@ SweepPlan make_sweep_plan(const fs::path& file, const fs::path& folder) {
         check(ids.insert(piece.id).second, Failure::bad_data, file.string(),
               ": wanted different scenes, found ", quote(piece.content["scene"].get<std::string>()),
               " twice");
-    plan.common = list_common_pieces(plan.pieces);
+    plan.common = common_pieces(plan.pieces);
     return plan;
 }
 
-void write_sweep_plan(const SweepPlan& plan, const fs::path& folder) {
+void write_plan(const SweepPlan& plan, const fs::path& folder) {
     nlohmann::ordered_json document{{"schema", "catoptric/sweep-plan/1"}, {"sweep", plan.sweep}};
     document["common"] = plan.common;
     document["pieces"] = nlohmann::ordered_json::array();
@@ -507,7 +500,7 @@ void write_sweep_plan(const SweepPlan& plan, const fs::path& folder) {
     write_file(file, text);
 }
 
-SweepPlan read_sweep_plan(const fs::path& folder) {
+SweepPlan read_plan(const fs::path& folder) {
     const fs::path file = find_plan_file(folder);
     const std::string text = read_json_text(file, "the plan of a sweep", kMaxPlanBytes);
     const auto document = parse_json<SweepJson>(file.string(), text);
@@ -526,12 +519,11 @@ SweepPlan read_sweep_plan(const fs::path& folder) {
     return plan;
 }
 
-fs::path find_sweep_result_file(const fs::path& folder, const std::string& id) {
+fs::path result_file(const fs::path& folder, const std::string& id) {
     return folder / "results" / (id + ".json");
 }
 
-void check_sweep_result(const SweepJson& result, const SweepPiece& piece,
-                        const std::string& place) {
+void check_result(const SweepJson& result, const SweepPiece& piece, const std::string& place) {
     const auto require = [&](bool ok, const std::string& what) {
         check(ok, Failure::bad_data, place, ": wanted the result of piece ", piece.id, " with ",
               what, ", found another document");
@@ -569,13 +561,13 @@ void check_sweep_result(const SweepJson& result, const SweepPiece& piece,
         }
         const SweepJson error = row.value("error", SweepJson());
         require(error.is_object(), what + "errors");
-        for (const std::string& metric : list_sweep_metrics())
+        for (const std::string& metric : sweep_metrics())
             require(error.contains(metric) && is_number(error[metric]),
                     what + "a number or null as " + metric);
     }
 }
 
-std::vector<std::string> list_sweep_metrics() {
+std::vector<std::string> sweep_metrics() {
     std::vector<std::string> names;
     for (const measure::Metric& metric : measure::difference_metrics()) {
         const bool is_count = metric.name == "pixels" || metric.name == "nonfinite";
@@ -587,13 +579,13 @@ std::vector<std::string> list_sweep_metrics() {
     return names;
 }
 
-std::optional<SweepJson> read_sweep_result(const fs::path& folder, const SweepPiece& piece) {
-    const fs::path file = find_sweep_result_file(folder, piece.id);
+std::optional<SweepJson> read_result(const fs::path& folder, const SweepPiece& piece) {
+    const fs::path file = result_file(folder, piece.id);
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return std::nullopt;
     auto result = parse_json<SweepJson>(
         file.string(), read_json_text(file, "the result of a piece", kMaxResultBytes));
-    check_sweep_result(result, piece, file.string());
+    check_result(result, piece, file.string());
     return result;
 }
 

@@ -38,38 +38,36 @@ struct SweepPlan {
 /// Returns the plan of a sweep's file (docs/sweeps.md). Loads each scene once for each value of the
 /// axes. `folder` is the plan's folder, to which files of scenes are relative. Throws `bad_data`
 /// with the file and the member, and as `compare` does for its options.
-SweepPlan make_sweep_plan(const std::filesystem::path& file, const std::filesystem::path& folder);
+SweepPlan make_plan(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 /// Writes plan.json into the folder. Throws `usage` if the folder has the plan of another sweep.
-void write_sweep_plan(const SweepPlan& plan, const std::filesystem::path& folder);
+void write_plan(const SweepPlan& plan, const std::filesystem::path& folder);
 /// Reads plan.json of the folder. Throws `missing_input` without a plan, and `bad_data` for a piece
 /// whose content does not have its id.
-SweepPlan read_sweep_plan(const std::filesystem::path& folder);
+SweepPlan read_plan(const std::filesystem::path& folder);
 
 /// Returns the options of a piece that choose the device and the device profile.
-SweepJson find_device_options(const SweepJson& content);
+SweepJson device_options(const SweepJson& content);
 /// Returns the command-line words of `catoptric compare` for a piece. The words do not choose the
 /// piece's view.
-std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
-                                                     const std::filesystem::path& folder);
+std::vector<std::string> compare_words(const SweepJson& content,
+                                       const std::filesystem::path& folder);
 
 /// Returns the path of the file for the result of a piece.
-std::filesystem::path find_sweep_result_file(const std::filesystem::path& folder,
-                                             const std::string& id);
+std::filesystem::path result_file(const std::filesystem::path& folder, const std::string& id);
 /// Returns the result of a piece, or none if its file does not exist. Throws `bad_data` if the file
 /// is not the result of this piece.
-std::optional<SweepJson> read_sweep_result(const std::filesystem::path& folder,
-                                           const SweepPiece& piece);
+std::optional<SweepJson> read_result(const std::filesystem::path& folder, const SweepPiece& piece);
 
 inline constexpr const char* kResultSchema = "catoptric/sweep-result/1";
 /// Throws `bad_data`, with `place` in front of the message, unless the document is a complete
 /// result of this piece.
-void check_sweep_result(const SweepJson& result, const SweepPiece& piece, const std::string& place);
+void check_result(const SweepJson& result, const SweepPiece& piece, const std::string& place);
 /// Returns the metrics of rows, over their mirrors, that each result must have and that `merge`
 /// summarises.
-std::vector<std::string> list_sweep_metrics();
+std::vector<std::string> sweep_metrics();
 
 /// Returns the SHA-256 of a text, in hexadecimal.
-std::string compute_sha256(const std::string& text);
+std::string sha256(const std::string& text);
 
 } // namespace catoptric::cli

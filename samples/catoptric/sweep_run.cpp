@@ -85,12 +85,12 @@ class SweepRunner {
 public:
     SweepRunner(const fs::path& folder, const SweepPlan& plan, const SweepRunOptions& options)
         : folder_(folder), plan_(plan), options_(options), locks_(folder / "locks"),
-          progress_(options.output_options, ProgressPrinter::ProgressOffTerminal::tenths) {
+          progress_(options.output_options, ProgressPrinter::OffTerminal::tenths) {
         watcher_.stop = &stop_on_signals();
     }
 
     SweepRunCounts run_all() {
-        const std::vector<std::size_t> places = list_pieces_to_run();
+        const std::vector<std::size_t> places = pieces_to_run();
         SweepRunCounts counts;
         std::optional<Error> first_failure;
         std::size_t failures = 0;
@@ -98,11 +98,10 @@ public:
             const SweepPiece& piece = plan_.pieces[places[i]];
             throw_if_stopped(watcher_);
             try {
-                run_sweep_piece(piece, places[i], places.size() - i, counts);
+                run_piece(piece, places[i], places.size() - i, counts);
             } catch (const Error& error) {
                 const std::string what = describe_piece(piece) + ": " + error.what();
-                if (must_failure_end_all_pieces(error.failure) || places.size() == 1)
-                    throw_error(error.failure, what);
+                if (is_fatal(error.failure) || places.size() == 1) throw_error(error.failure, what);
                 progress_.clear();
                 print_message(what);
                 if (!first_failure) first_failure = Error(error.failure, what);
@@ -121,7 +120,7 @@ public:
 private:
     /// Returns whether a failure, such as a missing device, would also make all further pieces
     /// fail.
-    static bool must_failure_end_all_pieces(Failure failure) {
+    static bool is_fatal(Failure failure) {
         return is_signal(failure) || failure == Failure::device_lost ||
                failure == Failure::no_device || failure == Failure::cannot_create ||
                failure == Failure::io || failure == Failure::internal;
@@ -129,9 +128,9 @@ private:
 
     /// Returns the indices of the pieces to run: first picture pieces, then timing pieces, each in
     /// the order of the plan.
-    std::vector<std::size_t> list_pieces_to_run() const {
+    std::vector<std::size_t> pieces_to_run() const {
         using PieceKinds = SweepRunOptions::PieceKinds;
-        const std::vector<std::string> ids = find_full_piece_ids();
+        const std::vector<std::string> ids = full_ids();
         std::vector<std::size_t> places;
         for (const bool timing : {false, true}) {
             if (options_.kinds == (timing ? PieceKinds::pictures : PieceKinds::timings)) continue;
@@ -145,7 +144,7 @@ private:
 
     /// Returns the full ids of the pieces that the user named. A name may be the beginning of an
     /// id, as messages show it.
-    std::vector<std::string> find_full_piece_ids() const {
+    std::vector<std::string> full_ids() const {
         std::vector<std::string> ids;
         for (const std::string& name : options_.pieces) {
             std::size_t found = 0;
@@ -162,9 +161,9 @@ private:
     }
 
     /// `left`: number of pieces from this piece on. Some of them may already be finished.
-    void run_sweep_piece(const SweepPiece& piece, std::size_t place, std::size_t left,
-                         SweepRunCounts& counts) {
-        if (read_sweep_result(folder_, piece)) {
+    void run_piece(const SweepPiece& piece, std::size_t place, std::size_t left,
+                   SweepRunCounts& counts) {
+        if (read_result(folder_, piece)) {
             ++counts.finished_before;
             return;
         }
@@ -173,16 +172,16 @@ private:
                 ++counts.elsewhere;
                 return;
             }
-            wait_for_other_process();
+            wait_for_others();
         }
         try {
-            if (read_sweep_result(folder_, piece)) { // another process finished the piece while
-                                                     // this process waited
+            if (read_result(folder_, piece)) { // another process finished the piece while
+                                               // this process waited
                 ++counts.finished_before;
             } else {
                 progress_.row(describe_piece(piece), counts.run, counts.run + left);
                 progress_.frame(0, 1);
-                print_detail_if_verbose(options_.output_options, "begun: " + piece.id);
+                print_detail(options_.output_options, "begun: " + piece.id);
                 write_result(piece,
                              piece.is_timing() ? measure_times(piece) : measure_errors(piece));
                 ++counts.run;
@@ -194,7 +193,7 @@ private:
         locks_.unlock(place);
     }
 
-    void wait_for_other_process() const {
+    void wait_for_others() const {
         throw_if_stopped(watcher_);
         constexpr useconds_t kPollMicroseconds = 50'000;
         ::usleep(kPollMicroseconds);
@@ -204,8 +203,8 @@ private:
         result["schema"] = kResultSchema;
         result["piece"] = piece.content;
         result["identity"] = identity_;
-        check_sweep_result(result, piece, "this program");
-        write_file(find_sweep_result_file(folder_, piece.id), result.dump(1) + "\n");
+        check_result(result, piece, "this program");
+        write_file(result_file(folder_, piece.id), result.dump(1) + "\n");
     }
 
     /// Returns the engine for a piece's device. The engine of the last piece is used again if its
@@ -216,16 +215,16 @@ private:
         scene_ = {};
         if (engine_ && is_validated_) engine_->check_validation();
         engine_.reset();
-        engine_ = std::make_unique<session::Engine>(make_engine_options(device));
+        engine_ = std::make_unique<session::Engine>(engine_options(device));
         engine_key_ = key;
         is_validated_ = device.validate;
-        print_device_and_warnings(*engine_, options_.output_options);
+        print_device(*engine_, options_.output_options);
         identity_ = make_identity(*engine_);
-        has_drawn_common_pictures_ = false;
+        has_drawn_common_ = false;
         return *engine_;
     }
 
-    static void check_scene_unchanged(const SweepPiece& piece, const scene::Scene& scene) {
+    static void check_scene(const SweepPiece& piece, const scene::Scene& scene) {
         const std::string found = scene::hash_scene(scene),
                           wanted = piece.content["scene_hash"].get<std::string>();
         check(found == wanted, Failure::bad_data,
@@ -234,7 +233,7 @@ private:
     }
 
     /// Returns whether another piece differs from this piece in its camera alone.
-    bool shares_instant_with_other_piece(const SweepPiece& piece) const {
+    bool shares_instant(const SweepPiece& piece) const {
         if (piece.content["view"].is_null()) return false;
         SweepJson key = piece.content;
         key.erase("view");
@@ -252,14 +251,14 @@ private:
         SweepJson key = piece.content;
         key.erase("view");
         if (scene_.session && scene_.key == key) return scene_;
-        CompareWords words = parse_compare_words(make_compare_words_of_piece(key, folder_));
-        check_scene_unchanged(piece, words.request.base.scene);
+        CompareWords words = parse_compare_words(compare_words(key, folder_));
+        check_scene(piece, words.request.base.scene);
         session::Engine& engine = prepare_engine(words.device);
         scene_ = {}; // frees the last scene's memory; stays empty on failure
         SweepScene scene{key, std::move(words.request), nullptr};
         scene.session = std::make_unique<session::Session>(engine, scene.request.base.scene);
         session::resolve_exposure(*scene.session, scene.request.base);
-        if (shares_instant_with_other_piece(piece))
+        if (shares_instant(piece))
             for (std::size_t i = 0; i < scene.request.base.techniques.size(); ++i)
                 scene.row_sessions.push_back(
                     std::make_unique<session::Session>(engine, scene.request.base.scene));
@@ -280,7 +279,7 @@ private:
 
     /// Returns a row for each technique, with its errors in the piece's view. For a common piece,
     /// also writes the pictures.
-    report::Comparison compute_row_errors_in_view(const SweepPiece& piece) {
+    report::Comparison compute_errors(const SweepPiece& piece) {
         SweepScene& scene = open_scene(piece);
         report::Comparison comparison;
         comparison.views = {make_view(piece.content["view"], scene.request.base)};
@@ -306,20 +305,18 @@ private:
     /// Draws the pictures of common pieces that no machine of this identity has drawn yet. Each
     /// result then has common pictures of the same identity.
     void draw_common_pictures() {
-        if (has_drawn_common_pictures_) return;
-        has_drawn_common_pictures_ = true;
-        const SweepJson device = find_device_options(scene_.key);
+        if (has_drawn_common_) return;
+        has_drawn_common_ = true;
+        const SweepJson device = device_options(scene_.key);
         for (const std::size_t place : plan_.common) {
             const SweepPiece& piece = plan_.pieces[place];
-            if (has_common_pictures(piece) || find_device_options(piece.content) != device)
-                continue;
+            if (has_common_pictures(piece) || device_options(piece.content) != device) continue;
             try {
-                compute_row_errors_in_view(piece);
+                compute_errors(piece);
             } catch (const Error& error) {
-                if (must_failure_end_all_pieces(error.failure)) throw;
-                print_detail_if_verbose(options_.output_options,
-                                        describe_piece(piece) +
-                                            ": no common pictures: " + error.what());
+                if (is_fatal(error.failure)) throw;
+                print_detail(options_.output_options,
+                             describe_piece(piece) + ": no common pictures: " + error.what());
             }
         }
     }
@@ -328,7 +325,7 @@ private:
         const MachineLock lock(MachineLock::Use::shared, *watcher_.stop);
         open_scene(piece);
         if (!is_common(piece)) draw_common_pictures();
-        const report::Comparison comparison = compute_row_errors_in_view(piece);
+        const report::Comparison comparison = compute_errors(piece);
         report::Json rows = report::Json::array();
         for (const report::Row& row : comparison.rows) {
             report::Json json{{"label", row.label}};
@@ -340,9 +337,8 @@ private:
 
     SweepJson measure_times(const SweepPiece& piece) {
         const MachineLock lock(MachineLock::Use::alone, *watcher_.stop);
-        CompareWords words = parse_compare_words(
-            make_compare_words_of_piece(piece.content, folder_));
-        check_scene_unchanged(piece, words.request.base.scene);
+        CompareWords words = parse_compare_words(compare_words(piece.content, folder_));
+        check_scene(piece, words.request.base.scene);
         session::Engine& engine = prepare_engine(words.device);
         words.request.watcher = {.stop = watcher_.stop};
         words.request.reference_seconds = 0;
@@ -374,9 +370,7 @@ private:
 
     bool has_common_pictures(const SweepPiece& piece) const {
         std::error_code ignored;
-        return fs::exists(find_common_picture_folder(folder_, identity_, piece.id) /
-                              kCommonPicturesListFile,
-                          ignored);
+        return fs::exists(common_folder(folder_, identity_, piece.id) / kCommonListFile, ignored);
     }
 
     /// Writes the picture of each row, and then the list of pictures. Processes of one identity
@@ -385,9 +379,9 @@ private:
                                const report::Comparison& comparison) const {
         const std::size_t place = plan_.pieces.size() +
                                   static_cast<std::size_t>(&piece - plan_.pieces.data());
-        while (!locks_.try_lock(place)) wait_for_other_process();
+        while (!locks_.try_lock(place)) wait_for_others();
         try {
-            if (!has_common_pictures(piece)) write_common_picture_files(piece, comparison);
+            if (!has_common_pictures(piece)) write_picture_files(piece, comparison);
         } catch (...) {
             locks_.unlock(place);
             throw;
@@ -395,9 +389,8 @@ private:
         locks_.unlock(place);
     }
 
-    void write_common_picture_files(const SweepPiece& piece,
-                                    const report::Comparison& comparison) const {
-        const fs::path folder = find_common_picture_folder(folder_, identity_, piece.id);
+    void write_picture_files(const SweepPiece& piece, const report::Comparison& comparison) const {
+        const fs::path folder = common_folder(folder_, identity_, piece.id);
         report::create_folder(folder);
         write_file(folder.parent_path() / "identity.json", identity_.dump(1) + "\n");
         SweepJson names = SweepJson::array();
@@ -407,7 +400,7 @@ private:
             names.push_back(fmt::format("{}.png", i));
             measure::write_png(worst->display, folder / names.back().get<std::string>());
         }
-        write_file(folder / kCommonPicturesListFile, names.dump() + "\n");
+        write_file(folder / kCommonListFile, names.dump() + "\n");
     }
 
     fs::path folder_;
@@ -418,22 +411,22 @@ private:
     session::Watcher watcher_;
     std::unique_ptr<session::Engine> engine_;
     SweepJson engine_key_;
-    SweepJson identity_;                     ///< identity of the engine
-    bool has_drawn_common_pictures_ = false; ///< whether this process tried to draw the pictures
-                                             ///< for this engine
-    bool is_validated_ = false;              ///< whether the engine reports validation messages
-    SweepScene scene_;                       ///< destroyed before the engine
+    SweepJson identity_;            ///< identity of the engine
+    bool has_drawn_common_ = false; ///< whether this process tried to draw the pictures
+                                    ///< for this engine
+    bool is_validated_ = false;     ///< whether the engine reports validation messages
+    SweepScene scene_;              ///< destroyed before the engine
 };
 
 } // namespace
 
-fs::path find_common_picture_folder(const fs::path& folder, const SweepJson& identity,
-                                    const std::string& piece_id) {
-    return folder / "common" / compute_sha256(identity.dump()).substr(0, 12) / piece_id;
+fs::path common_folder(const fs::path& folder, const SweepJson& identity,
+                       const std::string& piece_id) {
+    return folder / "common" / sha256(identity.dump()).substr(0, 12) / piece_id;
 }
 
-SweepRunCounts run_sweep_pieces(const fs::path& folder, const SweepPlan& plan,
-                                const SweepRunOptions& options) {
+SweepRunCounts run_pieces(const fs::path& folder, const SweepPlan& plan,
+                          const SweepRunOptions& options) {
     report::create_folder(folder / "results");
     return SweepRunner(folder, plan, options).run_all();
 }

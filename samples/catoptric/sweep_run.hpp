@@ -17,7 +17,7 @@ struct SweepRunOptions {
     OutputOptions output_options;
 };
 
-/// Number of pieces by what `run_sweep_pieces` found or did.
+/// Number of pieces by what `run_pieces` found or did.
 struct SweepRunCounts {
     std::size_t finished_before = 0, run = 0;
     std::size_t elsewhere = 0; ///< pieces that another process is running
@@ -31,15 +31,14 @@ struct SweepRunCounts {
 /// fails, the function prints the error, runs the other pieces and throws the error at the end. It
 /// throws at once if the other pieces would fail as well (no device, no place to write). Throws
 /// `usage` for an unknown id, and `bad_data` for a scene that changed after planning.
-SweepRunCounts run_sweep_pieces(const std::filesystem::path& folder, const SweepPlan& plan,
-                                const SweepRunOptions& options);
+SweepRunCounts run_pieces(const std::filesystem::path& folder, const SweepPlan& plan,
+                          const SweepRunOptions& options);
 
 /// Name of the file that lists the pictures of a common piece. The list is written after the
 /// pictures.
-inline constexpr const char* kCommonPicturesListFile = "pictures.json";
+inline constexpr const char* kCommonListFile = "pictures.json";
 /// Returns the folder for the pictures of a common piece that machines of one identity drew.
-std::filesystem::path find_common_picture_folder(const std::filesystem::path& folder,
-                                                 const SweepJson& identity,
-                                                 const std::string& piece_id);
+std::filesystem::path common_folder(const std::filesystem::path& folder, const SweepJson& identity,
+                                    const std::string& piece_id);
 
 } // namespace catoptric::cli

@@ -33,7 +33,7 @@ struct SweepTime {
 };
 
 /// Returns a member of an identity as text; empty if the member is no text.
-std::string identity_member_as_text(const SweepJson& identity, const char* member) {
+std::string identity_text(const SweepJson& identity, const char* member) {
     const SweepJson value = identity.value(member, SweepJson());
     return value.is_string() ? value.get<std::string>() : "";
 }
@@ -41,7 +41,7 @@ std::string identity_member_as_text(const SweepJson& identity, const char* membe
 /// Adds the table cells of an identity: device, driver and commit.
 void add_identity_fields(std::vector<std::string>& fields, const SweepJson& identity) {
     for (const char* member : {"device", "driver", "commit"})
-        fields.push_back(identity_member_as_text(identity, member));
+        fields.push_back(identity_text(identity, member));
 }
 
 std::vector<SweepTime> list_times(const SweepGroup& group) {
@@ -72,7 +72,7 @@ std::vector<SweepTime> list_times(const SweepGroup& group) {
 
 /// The times of one row on several machines of one identity. Each machine counts once, however many
 /// pieces it ran.
-struct SweepMachinesTime {
+struct MachinesTime {
     SweepJson identity;
     std::string label;
     std::vector<double> ms;     ///< each machine's median time
@@ -81,23 +81,23 @@ struct SweepMachinesTime {
 };
 
 /// Returns the times of each row over machines, for identities with at least two machines.
-std::vector<SweepMachinesTime> list_times_over_machines(const SweepGroup& group) {
-    std::vector<SweepMachinesTime> list;
+std::vector<MachinesTime> machine_times(const SweepGroup& group) {
+    std::vector<MachinesTime> list;
     for (const SweepTime& time : list_times(group)) {
-        const auto known = std::ranges::find_if(list, [&](const SweepMachinesTime& machines) {
+        const auto known = std::ranges::find_if(list, [&](const MachinesTime& machines) {
             return machines.label == time.label && machines.identity == time.identity;
         });
-        SweepMachinesTime& machines = known != list.end() ? *known : list.emplace_back();
+        MachinesTime& machines = known != list.end() ? *known : list.emplace_back();
         machines.label = time.label, machines.identity = time.identity;
         machines.ms.push_back(time.summary().median);
         machines.ratios.push_back(summarise(time.ratios).median);
         machines.noisy = machines.noisy || time.noisy;
     }
-    std::erase_if(list, [](const SweepMachinesTime& machines) { return machines.ms.size() < 2; });
+    std::erase_if(list, [](const MachinesTime& machines) { return machines.ms.size() < 2; });
     return list;
 }
 
-OrderedJson make_machines_summary_json(const std::vector<double>& values) {
+OrderedJson machines_json(const std::vector<double>& values) {
     const SweepSummary summary = summarise(values);
     return {{"median", report::number_json(summary.median)},
             {"ci95", report::interval_json(summary.ci95)},
@@ -106,7 +106,7 @@ OrderedJson make_machines_summary_json(const std::vector<double>& values) {
             {"machines", report::numbers_json(values)}};
 }
 
-OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
+OrderedJson times_json(const std::vector<SweepGroup>& groups) {
     OrderedJson list = OrderedJson::array();
     for (const SweepGroup& group : groups)
         for (const SweepTime& time : list_times(group)) {
@@ -127,27 +127,27 @@ OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
         }
     OrderedJson over_machines = OrderedJson::array();
     for (const SweepGroup& group : groups)
-        for (const SweepMachinesTime& machines : list_times_over_machines(group))
+        for (const MachinesTime& machines : machine_times(group))
             over_machines.push_back({{"scene", group.scene},
                                      {"options", group.options},
                                      {"label", machines.label},
                                      {"identity", machines.identity},
-                                     {"ms", make_machines_summary_json(machines.ms)},
-                                     {"ratio", make_machines_summary_json(machines.ratios)},
+                                     {"ms", machines_json(machines.ms)},
+                                     {"ratio", machines_json(machines.ratios)},
                                      {"noisy", machines.noisy}});
     return {
         {"schema", "catoptric/sweep-times/1"}, {"times", list}, {"over_machines", over_machines}};
 }
 
-std::string make_times_csv(const std::vector<SweepGroup>& groups) {
-    const std::vector<std::string> axes = list_axis_names(groups);
+std::string times_csv(const std::vector<SweepGroup>& groups) {
+    const std::vector<std::string> axes = axis_names(groups);
     CsvTable table;
     table.add_line(make_header(axes, {"label", "machine", "device", "driver", "commit", "ms",
                                       "ms_low", "ms_high", "pieces", "rounds", "noisy"}));
     for (const SweepGroup& group : groups)
         for (const SweepTime& time : list_times(group)) {
             const SweepSummary summary = time.summary();
-            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
+            std::vector<std::string> fields = group_fields(group, axes);
             fields.insert(fields.end(), {time.label, time.machine.get<std::string>()});
             add_identity_fields(fields, time.identity);
             for (const double value : {summary.median, summary.ci95.low, summary.ci95.high})
@@ -160,16 +160,16 @@ std::string make_times_csv(const std::vector<SweepGroup>& groups) {
     return table.text();
 }
 
-std::string make_machines_csv(const std::vector<SweepGroup>& groups) {
-    const std::vector<std::string> axes = list_axis_names(groups);
+std::string machines_csv(const std::vector<SweepGroup>& groups) {
+    const std::vector<std::string> axes = axis_names(groups);
     CsvTable table;
     table.add_line(
         make_header(axes, {"label", "device", "driver", "commit", "machines", "ms", "ms_low",
                            "ms_high", "ms_least", "ms_largest", "ratio", "ratio_low", "ratio_high",
                            "ratio_least", "ratio_largest", "noisy"}));
     for (const SweepGroup& group : groups)
-        for (const SweepMachinesTime& machines : list_times_over_machines(group)) {
-            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
+        for (const MachinesTime& machines : machine_times(group)) {
+            std::vector<std::string> fields = group_fields(group, axes);
             fields.push_back(machines.label);
             add_identity_fields(fields, machines.identity);
             fields.push_back(std::to_string(machines.ms.size()));
@@ -217,24 +217,23 @@ struct SweepSiteRow {
 };
 
 /// Returns the rows of a group that were timed on the machine and with the identity of `machine`.
-std::vector<SweepSiteRow> list_site_rows(const SweepGroup& group,
-                                         const std::vector<SweepTime>& times,
-                                         const SweepTime& machine) {
+std::vector<SweepSiteRow> site_rows(const SweepGroup& group, const std::vector<SweepTime>& times,
+                                    const SweepTime& machine) {
     std::vector<SweepSiteRow> rows;
     for (std::size_t row = 0; row < group.labels.size(); ++row)
         for (const SweepTime& time : times)
             if (time.label == group.labels[row] && time.machine == machine.machine &&
                 time.identity == machine.identity)
                 rows.push_back({time.label, time.summary(),
-                                summarise_metric(group, list_metric_values(group, row, "flip")),
-                                summarise_metric(group, list_metric_values(group, row, "rmse")),
+                                summarise_metric(group, metric_values(group, row, "flip")),
+                                summarise_metric(group, metric_values(group, row, "rmse")),
                                 time.is_ranked});
     return rows;
 }
 
 /// Returns the indices of the rows that no other row beats in both median time and median FLIP.
 /// Rows that leave mirrors black are never among them.
-std::vector<std::size_t> find_front_of_medians(const std::vector<SweepSiteRow>& rows) {
+std::vector<std::size_t> find_front(const std::vector<SweepSiteRow>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double ms = rows[i].ms.median, flip = rows[i].flip.median;
@@ -247,7 +246,7 @@ std::vector<std::size_t> find_front_of_medians(const std::vector<SweepSiteRow>& 
     return front;
 }
 
-OrderedJson make_site_row_json(const SweepSiteRow& row) {
+OrderedJson site_row_json(const SweepSiteRow& row) {
     return {{"label", row.label},
             {"gpu_ms",
              {{"median", report::number_json(row.ms.median)},
@@ -258,27 +257,27 @@ OrderedJson make_site_row_json(const SweepSiteRow& row) {
             {"flip_ci95", report::interval_json(row.flip.ci95)}};
 }
 
-OrderedJson make_results_json(const std::vector<SweepGroup>& groups) {
-    const std::vector<std::string> axes = list_axis_names(groups);
+OrderedJson results_json(const std::vector<SweepGroup>& groups) {
+    const std::vector<std::string> axes = axis_names(groups);
     OrderedJson comparisons = OrderedJson::array();
     for (const SweepGroup& group : groups) {
         const std::vector<SweepTime> times = list_times(group);
         for (const SweepTime& machine : times) {
             if (machine.label != group.labels.front()) continue; // each machine once
-            const std::vector<SweepSiteRow> rows = list_site_rows(group, times, machine);
+            const std::vector<SweepSiteRow> rows = site_rows(group, times, machine);
             const SweepJson& content = group.timing_pieces.front()->content;
             OrderedJson json;
             json["scene"] = {{"name", group.scene}, {"hash", content["scene_hash"]}};
-            json["device"] = {{"name", identity_member_as_text(machine.identity, "device")},
-                              {"driver", identity_member_as_text(machine.identity, "driver")}};
+            json["device"] = {{"name", identity_text(machine.identity, "device")},
+                              {"driver", identity_text(machine.identity, "driver")}};
             json["machine"] = machine.machine;
             for (const char* name : {"commit", "version"})
-                json[name] = identity_member_as_text(machine.identity, name);
+                json[name] = identity_text(machine.identity, name);
             json["date"] = machine.date;
             json["setting"] = describe_sweep_setting(group, axes);
             json["section"] = describe_axis_values(group, axes);
-            json["rows"] = report::list_json(rows, make_site_row_json);
-            json["pareto"] = find_front_of_medians(rows);
+            json["rows"] = report::list_json(rows, site_row_json);
+            json["pareto"] = find_front(rows);
             comparisons.push_back(json);
         }
     }
@@ -288,13 +287,13 @@ OrderedJson make_results_json(const std::vector<SweepGroup>& groups) {
 } // namespace
 
 std::vector<std::pair<std::string, std::string>>
-make_time_tables(const std::vector<SweepGroup>& groups) {
+time_tables(const std::vector<SweepGroup>& groups) {
     if (std::ranges::all_of(groups, [](const SweepGroup& group) { return group.timings.empty(); }))
         return {};
-    return {{"times.json", report::serialise(make_times_json(groups))},
-            {"times.csv", make_times_csv(groups)},
-            {"machines.csv", make_machines_csv(groups)},
-            {"results.json", report::serialise(make_results_json(groups))}};
+    return {{"times.json", report::serialise(times_json(groups))},
+            {"times.csv", times_csv(groups)},
+            {"machines.csv", machines_csv(groups)},
+            {"results.json", report::serialise(results_json(groups))}};
 }
 
 } // namespace catoptric::cli

@@ -74,7 +74,7 @@ std::string align_columns(const std::vector<std::vector<std::string>>& rows,
     return text;
 }
 
-std::string make_compare_table(const report::Comparison& comparison) {
+std::string compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
         {"technique", "R", measure::judged_time(comparison) == "cpu_ms" ? "cpu ms" : "ms", "[95 %]",
          "place", "flip", "off %", "mae", "rmse", "mean"}};

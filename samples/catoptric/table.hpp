@@ -14,6 +14,6 @@ std::string align_columns(const std::vector<std::vector<std::string>>& rows,
                           std::size_t text_from = std::string::npos);
 
 /// Returns the output of `compare`: a line about the device, then one line per row.
-std::string make_compare_table(const report::Comparison& comparison);
+std::string compare_table(const report::Comparison& comparison);
 
 } // namespace catoptric::cli

@@ -8,8 +8,7 @@
 
 namespace catoptric::cli {
 
-void add_technique_options(CommandVerb& verb, TechniqueOption& drawn,
-                           const std::string& otherwise) {
+void add_technique_options(Verb& verb, TechniqueOption& drawn, const std::string& otherwise) {
     const auto store = [](const char* option, std::string& value) {
         return [option, &value](const std::string& text) {
             check(!text.empty(), Failure::usage, option, ": wanted a name, found ''");
@@ -28,13 +27,13 @@ void add_technique_options(CommandVerb& verb, TechniqueOption& drawn,
         store("--plan", drawn.plan));
 }
 
-std::string check_technique_choice(const TechniqueOption& drawn, const std::string& verb) {
+std::string check_choice(const TechniqueOption& drawn, const std::string& verb) {
     const auto& [technique, plan] = drawn;
     check(technique.empty() || plan.empty(), Failure::usage,
           "--technique and --plan: wanted one of them, found both");
     if (plan.empty()) {
-        throw_unless_option_given(!technique.empty(), verb, "--technique T",
-                                  "see 'catoptric list techniques'; or --plan");
+        require_option(!technique.empty(), verb, "--technique T",
+                       "see 'catoptric list techniques'; or --plan");
         const auto parse = [&] { return session::parse_technique(technique); };
         check(parse_option("--technique", parse).technique != "plan", Failure::usage,
               "--technique: wanted one technique for all mirrors, found '", technique,

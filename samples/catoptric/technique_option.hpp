@@ -13,12 +13,11 @@ struct TechniqueOption {
 
 /// Adds --technique and --plan. `drawn` must outlive the parsing. `otherwise` is the technique that
 /// the verb takes without both; empty: it takes none.
-void add_technique_options(CommandVerb& verb, TechniqueOption& drawn,
-                           const std::string& otherwise = "");
+void add_technique_options(Verb& verb, TechniqueOption& drawn, const std::string& otherwise = "");
 
 /// Returns the technique or plan that was given, as session::FrameSpec::techniques takes it. Throws
 /// `usage` if none or both were given or the text is invalid, and as reading a plan's file does
 /// (session/plan_file.hpp).
-std::string check_technique_choice(const TechniqueOption& drawn, const std::string& verb);
+std::string check_choice(const TechniqueOption& drawn, const std::string& verb);
 
 } // namespace catoptric::cli

@@ -48,7 +48,7 @@ std::vector<measure::View> list_views(const session::Request& request, int count
     return views;
 }
 
-Json make_views_document(const session::Request& request, const std::vector<measure::View>& views) {
+Json views_document(const session::Request& request, const std::vector<measure::View>& views) {
     Json document{{"schema", "catoptric/views/1"},
                   {"version", session::version()},
                   {"commit", session::commit()}};
@@ -68,7 +68,7 @@ Json make_views_document(const session::Request& request, const std::vector<meas
 Json number_list(std::initializer_list<double> numbers) { return Json(numbers); }
 
 /// Returns the camera of glTF 2.0 (section 5.12).
-Json make_gltf_camera(const measure::CameraFacts& camera, const std::string& name, uvec2 size) {
+Json gltf_camera(const measure::CameraFacts& camera, const std::string& name, uvec2 size) {
     const double ratio = static_cast<double>(size.x) / size.y;
     const double near = 1e-4 * std::max(glm::distance(camera.eye, camera.target), 1e-3);
     if (camera.orthographic_height > 0)
@@ -88,7 +88,7 @@ Json make_gltf_camera(const measure::CameraFacts& camera, const std::string& nam
 }
 
 /// Returns a node that places camera `index`, which looks along its own -z with y up.
-Json make_gltf_camera_node(const measure::View& view, std::size_t index) {
+Json camera_node(const measure::View& view, std::size_t index) {
     const measure::CameraFacts& camera = view.camera;
     const dvec3 back = glm::normalize(camera.eye - camera.target),
                 right = glm::normalize(glm::cross(camera.up, back));
@@ -100,12 +100,12 @@ Json make_gltf_camera_node(const measure::View& view, std::size_t index) {
             {"extras", {{"time", view.time}}}};
 }
 
-Json make_views_gltf(const std::vector<measure::View>& views, uvec2 size) {
+Json views_gltf(const std::vector<measure::View>& views, uvec2 size) {
     Json document{{"asset", {{"version", "2.0"}, {"generator", "catoptric views"}}}, {"scene", 0}};
     Json nodes = Json::array(), cameras = Json::array(), roots = Json::array();
     for (std::size_t i = 0; i < views.size(); ++i) {
-        cameras.push_back(make_gltf_camera(views[i].camera, study::view_picture_name(i), size));
-        nodes.push_back(make_gltf_camera_node(views[i], i));
+        cameras.push_back(gltf_camera(views[i].camera, study::view_picture_name(i), size));
+        nodes.push_back(camera_node(views[i], i));
         roots.push_back(i);
     }
     document["scenes"] = {{{"nodes", roots}}};
@@ -115,7 +115,7 @@ Json make_views_gltf(const std::vector<measure::View>& views, uvec2 size) {
 
 /// Returns the table of views as text: a header and one line for each view, with tabs between the
 /// columns.
-std::string make_views_text(const std::vector<measure::View>& views) {
+std::string views_text(const std::vector<measure::View>& views) {
     std::string text = "name\ttime\teye_x\teye_y\teye_z\ttarget_x\ttarget_y\ttarget_z\tup_x\tup_y\t"
                        "up_z\tvertical_fov_degrees\torthographic_height\n";
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -130,25 +130,23 @@ std::string make_views_text(const std::vector<measure::View>& views) {
 
 int run_views(const ViewsOptions& options) {
     scene::check_exists(options.common.scene);
-    throw_unless_option_given(!options.folder.empty(), "views", "-o DIR",
-                              "the folder for the views");
-    const session::Request request = make_render_request_of_options(options.common);
+    require_option(!options.folder.empty(), "views", "-o DIR", "the folder for the views");
+    const session::Request request = make_request(options.common);
     const std::vector<measure::View> views = list_views(request, options.count);
     const std::filesystem::path folder = options.folder;
     std::vector<std::filesystem::path> files;
     for (const char* name : {"views.json", "views.gltf", "views.txt"})
         files.push_back(folder / name);
-    check_outputs_differ_from_inputs(files, request.scene.files);
+    check_distinct(files, request.scene.files);
     report::create_folder(folder);
-    const std::string document = report::serialise(make_views_document(request, views));
-    write_file(files[2], make_views_text(views));
-    write_file(files[1], report::serialise(make_views_gltf(views, request.size)));
+    const std::string document = report::serialise(views_document(request, views));
+    write_file(files[2], views_text(views));
+    write_file(files[1], report::serialise(views_gltf(views, request.size)));
     write_file(files[0], document);
     if (options.common.output_options.json) print_result(document);
-    print_note_unless_quiet(options.common.output_options,
-                            fmt::format("written: {}; render {} pictures of {}x{} there",
-                                        options.folder, views.size(), request.size.x,
-                                        request.size.y));
+    print_note(options.common.output_options,
+               fmt::format("written: {}; render {} pictures of {}x{} there", options.folder,
+                           views.size(), request.size.x, request.size.y));
     return 0;
 }
 
@@ -156,11 +154,11 @@ int run_views(const ViewsOptions& options) {
 
 void add_views_verb(CommandLine& program) {
     const auto options = std::make_shared<ViewsOptions>();
-    CommandVerb& verb = program.add_command_verb(
+    Verb& verb = program.add_verb(
         "views", "write the views of a comparison, to render them with another renderer");
     verb.examples(kViewsExamples);
     verb.argument("SCENE", "built-in scene or .glb, .gltf or .obj file (cornell-mirrors)",
-                  options->common.scene, CommandVerb::VerbArgumentNeed::optional);
+                  options->common.scene, Verb::Need::optional);
     verb.option("-o,--output", "DIR", "folder for the views, created if missing; required",
                 options->folder);
     const study::Study& study = study::find_study("views");
@@ -172,9 +170,9 @@ void add_views_verb(CommandLine& program) {
                     study.check_count("--count", options->count);
                 });
     add_view_options(verb, options->common);
-    add_scene_override_options(verb, options->common);
+    add_override_options(verb, options->common);
     add_output_options(verb, options->common.output_options);
-    verb.set_verb_action([options] { return run_views(*options); });
+    verb.action([options] { return run_views(*options); });
 }
 
 } // namespace catoptric::cli

@@ -12,20 +12,20 @@ using namespace catoptric;
 
 namespace {
 
-constexpr std::uint32_t kPictureSideInPixels = 160;
+constexpr std::uint32_t kSide = 160;
 
-void throw_unless_vulkan_success(VkResult result) {
+void check_vk(VkResult result) {
     if (result != VK_SUCCESS) throw std::runtime_error("Vulkan: " + std::to_string(result));
 }
 
-embed::Device make_vulkan_device() {
+embed::Device make_device() {
     embed::Device made; // made with queue family 0, which has all needed features on the drivers
                         // tested so far
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                         .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo instance{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                         .pApplicationInfo = &application};
-    throw_unless_vulkan_success(vkCreateInstance(&instance, nullptr, &made.instance));
+    check_vk(vkCreateInstance(&instance, nullptr, &made.instance));
     std::uint32_t one = 1;
     if (vkEnumeratePhysicalDevices(made.instance, &one, &made.physical) < 0 || one == 0)
         throw std::runtime_error("no Vulkan device");
@@ -38,13 +38,13 @@ embed::Device make_vulkan_device() {
                                     .pNext = &features.core,
                                     .queueCreateInfoCount = 1,
                                     .pQueueCreateInfos = &queue};
-    throw_unless_vulkan_success(vkCreateDevice(made.physical, &device, nullptr, &made.device));
+    check_vk(vkCreateDevice(made.physical, &device, nullptr, &made.device));
     vkGetDeviceQueue(made.device, 0, 0, &made.queue);
     return made;
 }
 
-VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequirements& wants,
-                                   bool host) {
+VkDeviceMemory allocate_memory(const embed::Device& own, const VkMemoryRequirements& wants,
+                               bool host) {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(own.physical, &memory);
     const VkMemoryPropertyFlags flags = host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
@@ -57,7 +57,7 @@ VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequi
                                                 .allocationSize = wants.size,
                                                 .memoryTypeIndex = i};
             VkDeviceMemory made = VK_NULL_HANDLE;
-            throw_unless_vulkan_success(vkAllocateMemory(own.device, &allocate, nullptr, &made));
+            check_vk(vkAllocateMemory(own.device, &allocate, nullptr, &made));
             return made;
         }
     throw std::runtime_error("no memory of this kind");
@@ -66,44 +66,44 @@ VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequi
 /// Reads back the contents of the image, which is in the layout TRANSFER_SRC_OPTIMAL.
 measure::Picture read_back_image(const embed::Device& own, VkImage image) {
     const VkBufferCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                    .size = 4 * kPictureSideInPixels * kPictureSideInPixels,
+                                    .size = 4 * kSide * kSide,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     VkBuffer buffer = VK_NULL_HANDLE;
-    throw_unless_vulkan_success(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
+    check_vk(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
     VkMemoryRequirements wants;
     vkGetBufferMemoryRequirements(own.device, buffer, &wants);
-    const VkDeviceMemory memory = allocate_memory_for(own, wants, true);
-    throw_unless_vulkan_success(vkBindBufferMemory(own.device, buffer, memory, 0));
+    const VkDeviceMemory memory = allocate_memory(own, wants, true);
+    check_vk(vkBindBufferMemory(own.device, buffer, memory, 0));
 
     const VkCommandPoolCreateInfo pools{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     VkCommandPool pool = VK_NULL_HANDLE;
-    throw_unless_vulkan_success(vkCreateCommandPool(own.device, &pools, nullptr, &pool));
+    check_vk(vkCreateCommandPool(own.device, &pools, nullptr, &pool));
     const VkCommandBufferAllocateInfo allocate{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
         .commandPool = pool,
         .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    throw_unless_vulkan_success(vkAllocateCommandBuffers(own.device, &allocate, &commands));
+    check_vk(vkAllocateCommandBuffers(own.device, &allocate, &commands));
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    throw_unless_vulkan_success(vkBeginCommandBuffer(commands, &begin));
+    check_vk(vkBeginCommandBuffer(commands, &begin));
     const VkBufferImageCopy all{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                .imageExtent = {kPictureSideInPixels, kPictureSideInPixels, 1}};
+                                .imageExtent = {kSide, kSide, 1}};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &all);
     const VkMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                          &to_host, 0, nullptr, 0, nullptr);
-    throw_unless_vulkan_success(vkEndCommandBuffer(commands));
+    check_vk(vkEndCommandBuffer(commands));
     const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                               .commandBufferCount = 1,
                               .pCommandBuffers = &commands};
-    throw_unless_vulkan_success(vkQueueSubmit(own.queue, 1, &submit, VK_NULL_HANDLE));
-    throw_unless_vulkan_success(vkQueueWaitIdle(own.queue));
+    check_vk(vkQueueSubmit(own.queue, 1, &submit, VK_NULL_HANDLE));
+    check_vk(vkQueueWaitIdle(own.queue));
 
     void* bytes = nullptr;
-    throw_unless_vulkan_success(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
-    measure::Picture picture(kPictureSideInPixels, kPictureSideInPixels);
+    check_vk(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
+    measure::Picture picture(kSide, kSide);
     const auto* texel = static_cast<const unsigned char*>(bytes);
     for (vec3& pixel : picture.pixels) {
         pixel = vec3(texel[0], texel[1], texel[2]) / 255.f;
@@ -118,28 +118,28 @@ measure::Picture read_back_image(const embed::Device& own, VkImage image) {
 } // namespace
 
 int main() try {
-    const embed::Device own = make_vulkan_device();
+    const embed::Device own = make_device();
     const VkImageCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                    .imageType = VK_IMAGE_TYPE_2D,
                                    .format = VK_FORMAT_R8G8B8A8_SRGB,
-                                   .extent = {kPictureSideInPixels, kPictureSideInPixels, 1},
+                                   .extent = {kSide, kSide, 1},
                                    .mipLevels = 1,
                                    .arrayLayers = 1,
                                    .samples = VK_SAMPLE_COUNT_1_BIT,
                                    .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     VkImage image = VK_NULL_HANDLE;
-    throw_unless_vulkan_success(vkCreateImage(own.device, &wanted, nullptr, &image));
+    check_vk(vkCreateImage(own.device, &wanted, nullptr, &image));
     VkMemoryRequirements wants;
     vkGetImageMemoryRequirements(own.device, image, &wants);
-    const VkDeviceMemory memory = allocate_memory_for(own, wants, false);
-    throw_unless_vulkan_success(vkBindImageMemory(own.device, image, memory, 0));
+    const VkDeviceMemory memory = allocate_memory(own, wants, false);
+    check_vk(vkBindImageMemory(own.device, image, memory, 0));
     {
         session::Engine engine = embed::make_engine(own);
         session::Session session(engine, scene::load("cornell-mirrors"), 2);
         const session::FrameSpec spec{.techniques = {"parallax:face=64"},
                                       .camera = session.scene().cameras.front(),
-                                      .size = {kPictureSideInPixels, kPictureSideInPixels}};
+                                      .size = {kSide, kSide}};
         const embed::Target target{image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
         for (int k = 0; k < 5; ++k) embed::render_into(session, spec, target);
         const session::Frame last = embed::render_into(session, spec, target);

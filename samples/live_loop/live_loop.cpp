@@ -12,7 +12,7 @@ using namespace catoptric;
 
 namespace {
 
-scene::Camera turn_camera_along_path(scene::Camera camera, double turn) {
+scene::Camera turn_camera(scene::Camera camera, double turn) {
     const dvec3 arm = camera.eye - camera.target;
     camera.eye = camera.target + dvec3(std::cos(turn) * arm.x + std::sin(turn) * arm.z, arm.y,
                                        std::cos(turn) * arm.z - std::sin(turn) * arm.x);
@@ -45,7 +45,7 @@ void run_live_loop(session::Engine& engine, const char* plan_file) {
         dmat4 place = rest;
         place[3].y += 10 * std::sin(.2 * k); // as high as the scene's units have it
         session.change(scene::move(ball, place));
-        spec.camera = turn_camera_along_path(camera, .005 * k);
+        spec.camera = turn_camera(camera, .005 * k);
         if (audit) spec.techniques = {audit->plan()};
         const session::Frame frame = under_way.emplace_back(session.frame(spec));
         finish_frames(1);

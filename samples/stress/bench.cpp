@@ -17,7 +17,7 @@ namespace catoptric::stress {
 namespace {
 
 /// Returns the text as a file name of letters, digits and single hyphens.
-std::string make_picture_file_name(const std::string& text) {
+std::string picture_name(const std::string& text) {
     std::string name;
     for (const char c : text)
         if (std::isalnum(static_cast<unsigned char>(c)))
@@ -29,22 +29,21 @@ std::string make_picture_file_name(const std::string& text) {
 
 } // namespace
 
-bool is_resource_refusal(const Error& error) {
+bool is_refusal(const Error& error) {
     static const std::regex kLimitWord(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
     return error.failure == Failure::exhausted &&
            std::regex_search(std::string(error.what()), kLimitWord);
 }
 
-bool StressTestBench::is_error_that_ends_run(const Error& error) const {
+bool Bench::ends_run(const Error& error) const {
     const bool is_fault = error.failure == Failure::device_lost ||
                           error.failure == Failure::no_device ||
-                          (error.failure == Failure::exhausted && !is_resource_refusal(error));
+                          (error.failure == Failure::exhausted && !is_refusal(error));
     return is_fault || is_signal(error.failure) || !bench_engine_.usable();
 }
 
-session::Request StressTestBench::make_stress_request(const scene::Scene& scene,
-                                                      const std::string& technique,
-                                                      int frames) const {
+session::Request Bench::make_request(const scene::Scene& scene, const std::string& technique,
+                                     int frames) const {
     session::Request request;
     request.scene = scene;
     request.techniques = {technique};
@@ -55,14 +54,14 @@ session::Request StressTestBench::make_stress_request(const scene::Scene& scene,
     return request;
 }
 
-session::TechniqueResult StressTestBench::render_technique(const session::Request& request) {
+session::TechniqueResult Bench::render_technique(const session::Request& request) {
     session::Session session(bench_engine_, request.scene);
     session::FrameLoop frames(session, request);
     while (frames.render_next()) throw_if_stopped(watcher_);
     return frames.frame().read();
 }
 
-std::string StressTestBench::fit_captures(const std::string& technique) const {
+std::string Bench::fit_captures(const std::string& technique) const {
     if (!has_small_pictures()) return technique;
     const std::vector<session::TechniqueInfo> infos = session::techniques();
     const auto info = std::ranges::find(infos, technique.substr(0, technique.find(':')),
@@ -78,76 +77,72 @@ std::string StressTestBench::fit_captures(const std::string& technique) const {
     return fitted;
 }
 
-void StressTestBench::plan_stress_technique(const session::Request& request) {
+void Bench::plan_technique(const session::Request& request) {
     session::Session session(bench_engine_, request.scene);
     session::Access::format_plan(session, request, session::PlanFormat::text);
 }
 
-void StressTestBench::add_mean_flip_case(const std::string& what,
-                                         const session::TechniqueResult& found,
-                                         const session::TechniqueResult& wanted, double limit,
-                                         const std::string& seen) {
+void Bench::add_flip(const std::string& what, const session::TechniqueResult& found,
+                     const session::TechniqueResult& wanted, double limit,
+                     const std::string& seen) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
-    row_.cases.push_back({what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit,
-                          !seen.empty(), seen});
+    row_.cases.push_back(
+        {what, count_nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit, !seen.empty(), seen});
     if (row_.cases.back().is_within_limit()) return;
-    const std::string name = row_.id + "-" + make_picture_file_name(what);
+    const std::string name = row_.id + "-" + picture_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
         row_.pictures.push_back({name + which, part->display.width, part->display.height,
                                  measure::encode_png(part->display)});
 }
 
-void StressTestBench::add_nonfinite_pixel_case(const std::string& what,
-                                               const session::TechniqueResult& part) {
-    add_measured_case(what + ": pixels that are no numbers",
-                      static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
+void Bench::add_nonfinite(const std::string& what, const session::TechniqueResult& part) {
+    add_case(what + ": pixels that are no numbers", static_cast<double>(count_nonfinite(part.hdr)),
+             0);
 }
 
-bool StressTestBench::add_case_of_success_or_refusal(const std::string& what,
-                                                     const std::function<void()>& work) {
+bool Bench::add_attempt(const std::string& what, const std::function<void()>& work) {
     try {
         work();
-        add_measured_case(what + ": done", 0, 0);
+        add_case(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
-        if (is_error_that_ends_run(error)) throw;
-        if (is_resource_refusal(error))
-            add_skipped_part(what, error);
+        if (ends_run(error)) throw;
+        if (is_refusal(error))
+            add_skipped(what, error);
         else
-            add_measured_case(what + ": fails: " + error.what(), 1, 0);
+            add_case(what + ": fails: " + error.what(), 1, 0);
         return false;
     }
 }
 
-void StressTestBench::add_expected_error(const std::string& what, Failure failure,
-                                         const std::string& limit,
-                                         const std::function<void()>& work) {
+void Bench::add_expected_error(const std::string& what, Failure failure, const std::string& limit,
+                               const std::function<void()>& work) {
     std::string text = "not refused";
     try {
         work();
     } catch (const Error& error) {
-        if (is_error_that_ends_run(error)) throw;
+        if (ends_run(error)) throw;
         text = error.what();
         if (error.failure == failure && text.find(limit) != text.npos)
-            return add_measured_case(what + ": refused: " + text, 0, 0);
+            return add_case(what + ": refused: " + text, 0, 0);
     }
-    add_measured_case(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
+    add_case(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
 }
 
-std::size_t count_nonfinite_pixels(const measure::Picture& picture) {
+std::size_t count_nonfinite(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& pixel) {
         return !(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));
     }));
 }
 
-double find_brightest_channel(const measure::Picture& picture) {
+double brightest_channel(const measure::Picture& picture) {
     double most = 0;
     for (const vec3& pixel : picture.pixels)
         most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
-    return count_nonfinite_pixels(picture) > 0 ? std::nan("") : most;
+    return count_nonfinite(picture) > 0 ? std::nan("") : most;
 }
 
-std::size_t count_different_pixels(const measure::Picture& a, const measure::Picture& b) {
+std::size_t count_different(const measure::Picture& a, const measure::Picture& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
     return count;

@@ -26,7 +26,7 @@ vec3 choose_ball_colour(int ball) {
 
 /// Returns balls in cells of one colour each, open to the front and the back. There is no light:
 /// with an ambient light of 1, a wall shows its colour.
-scene::Scene make_room_of_coloured_boxes() {
+scene::Scene make_box_room() {
     constexpr double kHalfWallCellWidth = .48, kCellFront = -.3, kCellBack = .8;
     scene::Scene scene{.name = "cells"};
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
@@ -43,22 +43,22 @@ scene::Scene make_room_of_coloured_boxes() {
                 a[axis] = c[axis] = at[axis];
                 dvec3 b = a, d = c;
                 b.z = c.z, d.z = a.z;
-                add_stress_quad(scene, wall, a, b, c, d);
+                add_quad(scene, wall, a, b, c, d);
             }
-        add_stress_ball(scene, mirror, {centre, .35}, 2);
+        add_ball(scene, mirror, {centre, .35}, 2);
     }
     scene.cameras.push_back({.eye = {0, 0, -40}, .target = {0, 0, 0}, .vertical_fov_degrees = 29});
     return scene;
 }
 
 /// Adds the number of mirrors in which no pixel shows the colour of their own cell.
-void judge_mirrors_in_cells(StressTestBench& bench) {
-    const scene::Scene scene = make_room_of_coloured_boxes();
+void judge_mirror_cells(Bench& bench) {
+    const scene::Scene scene = make_box_room();
     std::vector<std::uint32_t> hits;
     std::vector<std::string> techniques{"raytrace:depth=1", "reuse:face=8"};
     if (!bench.has_small_pictures()) techniques.push_back("parallax:face=8");
     for (const std::string& technique : techniques) {
-        session::Request request = bench.make_stress_request(scene, technique, 1);
+        session::Request request = bench.make_request(scene, technique, 1);
         request.size = kCrowdPictureSize;
         request.ambient = 1;
         const session::TechniqueResult part = bench.render_technique(request);
@@ -71,17 +71,16 @@ void judge_mirrors_in_cells(StressTestBench& bench) {
                 part.hdr.pixels[i] / choose_ball_colour(static_cast<int>(mirror) - 1) - vec3(1));
             own[mirror - 1] += std::max({off.x, off.y, off.z}) <= .002f;
         }
-        bench.add_nonfinite_pixel_case(technique, part);
-        bench.add_measured_case(
-            fmt::format("{}: mirrors of {} in which no pixel shows what is around them", technique,
-                        own.size()),
-            double(std::ranges::count(own, 0)), 0);
+        bench.add_nonfinite(technique, part);
+        bench.add_case(fmt::format("{}: mirrors of {} in which no pixel shows what is around them",
+                                   technique, own.size()),
+                       double(std::ranges::count(own, 0)), 0);
     }
 }
 
-const RegisteredStressProperty kMirrorCellsProperty{
+const RegisteredProperty kMirrorCellsProperty{
     {"C14", "400 mirrors, each in a cell of another colour", "each shows its own cell",
-     judge_mirrors_in_cells, "first_array_only"}};
+     judge_mirror_cells, "first_array_only"}};
 
 } // namespace
 

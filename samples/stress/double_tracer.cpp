@@ -11,7 +11,7 @@ constexpr double kTracerRayOffset = 1e-9; // offset of rays, for scenes about 1 
 
 } // namespace
 
-dvec3 pixel_ray_direction(const scene::Camera& camera, uvec2 size, double x, double y) {
+dvec3 ray_direction(const scene::Camera& camera, uvec2 size, double x, double y) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up)),
                 up = glm::cross(right, forward);
@@ -21,8 +21,8 @@ dvec3 pixel_ray_direction(const scene::Camera& camera, uvec2 size, double x, dou
     return glm::normalize(forward + u * right + v * up);
 }
 
-DoublePrecisionTracer::DoublePrecisionTracer(const scene::Scene& scene, double ambient)
-    : traced_scene_(scene), ambient_(ambient) {
+DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient)
+    : scene_(scene), ambient_(ambient) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Mesh& mesh = scene.meshes[object.mesh];
@@ -32,20 +32,18 @@ DoublePrecisionTracer::DoublePrecisionTracer(const scene::Scene& scene, double a
         };
         for (const uvec3& t : mesh.triangles)
             triangles_.push_back({corner(t.x), corner(t.y), corner(t.z), i});
-        if (scene.materials[object.material].emission != vec3(0))
-            add_double_tracer_lamp(object, mesh);
+        if (scene.materials[object.material].emission != vec3(0)) add_lamp(object, mesh);
     }
 }
 
-dvec3 DoublePrecisionTracer::trace_pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x,
-                                         std::uint32_t y, int depth) const {
-    return radiance(camera.eye, pixel_ray_direction(camera, size, x, y), depth);
+dvec3 DoubleTracer::trace_pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x,
+                                std::uint32_t y, int depth) const {
+    return radiance(camera.eye, ray_direction(camera, size, x, y), depth);
 }
 
 /// Adds one flat lamp: mean of its corners, normal, and area.
-void DoublePrecisionTracer::add_double_tracer_lamp(const scene::Object& object,
-                                                   const scene::Mesh& mesh) {
-    DoubleTracerLamp lamp{dvec3(0), dvec3(0), dvec3(0)};
+void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh) {
+    Lamp lamp{dvec3(0), dvec3(0), dvec3(0)};
     std::vector<dvec3> corners;
     for (const dvec3& p : mesh.positions)
         corners.emplace_back(object.world_from_object * dvec4(p, 1));
@@ -56,16 +54,15 @@ void DoublePrecisionTracer::add_double_tracer_lamp(const scene::Object& object,
         area += glm::length(twice) / 2;
         lamp.normal = glm::normalize(twice);
     }
-    lamp.power = dvec3(traced_scene_.materials[object.material].emission) * area;
+    lamp.power = dvec3(scene_.materials[object.material].emission) * area;
     lamps_.push_back(lamp);
 }
 
-DoublePrecisionTracer::DoubleTracerHit
-DoublePrecisionTracer::find_closest_hit(dvec3 origin, dvec3 direction, double most,
-                                        bool for_shadow) const {
-    DoubleTracerHit hit;
+DoubleTracer::Hit DoubleTracer::find_closest_hit(dvec3 origin, dvec3 direction, double most,
+                                                 bool for_shadow) const {
+    Hit hit;
     hit.t = most;
-    for (const DoubleTracerTriangle& triangle : triangles_) {
+    for (const Triangle& triangle : triangles_) {
         if (for_shadow && material_of_object(triangle.object).emission != vec3(0)) continue;
         const dvec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a,
                     p = glm::cross(direction, ac);
@@ -77,8 +74,8 @@ DoublePrecisionTracer::find_closest_hit(dvec3 origin, dvec3 direction, double mo
         if (u < 0 || v < 0 || u + v > 1 || t <= kTracerRayOffset || t >= hit.t) continue;
         hit = {t, glm::normalize(glm::cross(ab, ac)), triangle.object};
     }
-    for (std::size_t i = 0; i < traced_scene_.objects.size(); ++i) {
-        const auto& sphere = traced_scene_.objects[i].sphere;
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+        const auto& sphere = scene_.objects[i].sphere;
         if (!sphere) continue;
         const dvec3 f = origin - sphere->centre;
         const double b = glm::dot(f, direction),
@@ -91,11 +88,11 @@ DoublePrecisionTracer::find_closest_hit(dvec3 origin, dvec3 direction, double mo
     return hit;
 }
 
-dvec3 DoublePrecisionTracer::radiance(dvec3 origin, dvec3 direction, int depth) const {
+dvec3 DoubleTracer::radiance(dvec3 origin, dvec3 direction, int depth) const {
     dvec3 weight(1);
     for (int bounce = 0;; ++bounce) {
         const double infinity = std::numeric_limits<double>::infinity();
-        const DoubleTracerHit hit = find_closest_hit(origin, direction, infinity, false);
+        const Hit hit = find_closest_hit(origin, direction, infinity, false);
         if (hit.t == infinity) return dvec3(0);
         const dvec3 x = origin + hit.t * direction;
         const scene::Material& surface = material_of_object(hit.object);
@@ -107,11 +104,10 @@ dvec3 DoublePrecisionTracer::radiance(dvec3 origin, dvec3 direction, int depth) 
     }
 }
 
-dvec3 DoublePrecisionTracer::shade_hit(const scene::Material& surface, dvec3 x,
-                                       dvec3 normal) const {
+dvec3 DoubleTracer::shade_hit(const scene::Material& surface, dvec3 x, dvec3 normal) const {
     const dvec3 kd(surface.albedo);
     dvec3 result = dvec3(surface.emission) + kd * ambient_;
-    for (const DoubleTracerLamp& lamp : lamps_) {
+    for (const Lamp& lamp : lamps_) {
         const double t = glm::length(lamp.position - x);
         const dvec3 w = (lamp.position - x) / t;
         const double at_lamp = -glm::dot(w, lamp.normal), at_surface = glm::dot(normal, w);

@@ -12,7 +12,7 @@ namespace catoptric::stress {
 namespace {
 
 void add_wall_cell(scene::Mesh& mesh, const LetterRoom& room, int face,
-                   const LetterRoom::LetterStroke& cell) {
+                   const LetterRoom::Stroke& cell) {
     const scene::Mesh quad = scene::quad(
         "", room.wall_point(face, cell.u0, cell.v0), room.wall_point(face, cell.u1, cell.v0),
         room.wall_point(face, cell.u1, cell.v1), room.wall_point(face, cell.u0, cell.v1));
@@ -32,7 +32,7 @@ void add_letter_wall(scene::Scene& scene, const LetterRoom& room, int face) {
         for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
             const double um = (us[i] + us[i + 1]) / 2, vm = (vs[j] + vs[j + 1]) / 2;
             const bool inked = std::ranges::any_of(
-                LetterRoom::kLetterStrokes, [&](const LetterRoom::LetterStroke& s) {
+                LetterRoom::kStrokes, [&](const LetterRoom::Stroke& s) {
                     return um > s.u0 && um < s.u1 && vm > s.v0 && vm < s.v1;
                 });
             add_wall_cell(meshes[inked], room, face, {us[i], us[i + 1], vs[j], vs[j + 1]});
@@ -40,20 +40,19 @@ void add_letter_wall(scene::Scene& scene, const LetterRoom& room, int face) {
     const auto glowing = [&](const char* name, const vec3& colour) {
         return add_material(scene, {.name = name, .emission = colour, .two_sided = true});
     };
-    add_mesh(scene, std::move(meshes[0]), glowing("wall", LetterRoom::colour_of_wall(face)));
-    add_mesh(scene, std::move(meshes[1]),
-             glowing("glyph", LetterRoom::letter_colour_of_wall(face)));
+    add_mesh(scene, std::move(meshes[0]), glowing("wall", LetterRoom::wall_colour(face)));
+    add_mesh(scene, std::move(meshes[1]), glowing("glyph", LetterRoom::letter_colour(face)));
 }
 
 } // namespace
 
 LetterRoom::LetterRoom() {
-    const scene::Scene made = make_letter_room_scene();
+    const scene::Scene made = make_scene();
     centre = scene::bounds(made, made.objects.back()).centre();
 }
 
-LetterRoom::SeenWallPoint LetterRoom::seen_wall_point(dvec3 direction) const {
-    SeenWallPoint seen{0, false, std::numeric_limits<double>::infinity(), 1};
+LetterRoom::WallPoint LetterRoom::seen_point(dvec3 direction) const {
+    WallPoint seen{0, false, std::numeric_limits<double>::infinity(), 1};
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double t = ((face % 2 ? lo : hi)[axis] - centre[axis]) / direction[axis];
@@ -63,7 +62,7 @@ LetterRoom::SeenWallPoint LetterRoom::seen_wall_point(dvec3 direction) const {
     seen.distance *= glm::length(direction);
     const double u = place[(seen.face / 2 + 1) % 3], v = place[(seen.face / 2 + 2) % 3];
     seen.margin = std::min({u, 1 - u, v, 1 - v});
-    for (const LetterStroke& s : kLetterStrokes) {
+    for (const Stroke& s : kStrokes) {
         const double inside = std::min({u - s.u0, s.u1 - u, v - s.v0, s.v1 - v});
         seen.glyph = seen.glyph || inside > 0;
         seen.margin = std::min(seen.margin, std::abs(inside));
@@ -80,7 +79,7 @@ dvec3 LetterRoom::wall_point(int face, double u, double v) const {
     return point;
 }
 
-scene::Scene LetterRoom::make_letter_room_scene() const {
+scene::Scene LetterRoom::make_scene() const {
     scene::Scene scene{.name = "glyphs"};
     for (int face = 0; face < 6; ++face) add_letter_wall(scene, *this, face);
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});

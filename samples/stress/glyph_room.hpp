@@ -16,24 +16,24 @@ struct LetterRoom {
 
     LetterRoom();
 
-    static vec3 colour_of_wall(int face) {
+    static vec3 wall_colour(int face) {
         return vec3(0.125f * static_cast<float>(face + 1), 0.25f, 0.0f);
     }
-    static vec3 letter_colour_of_wall(int face) {
+    static vec3 letter_colour(int face) {
         return vec3(0.0f, 0.125f * static_cast<float>(face + 1), 1.0f);
     }
 
     /// Stroke of the F, in shares of the wall's two axes. These are (first + 1) % 3 and (first + 2)
     /// % 3, where `first` is the face's own axis. The F has an upright and two arms of different
     /// length and lies off the centre.
-    struct LetterStroke {
+    struct Stroke {
         double u0, u1, v0, v1;
     };
-    static constexpr std::array<LetterStroke, 3> kLetterStrokes{
+    static constexpr std::array<Stroke, 3> kStrokes{
         {{.30, .40, .20, .80}, {.40, .70, .70, .80}, {.40, .55, .45, .55}}};
 
     /// The wall point that a ray from the mirror's centre meets.
-    struct SeenWallPoint {
+    struct WallPoint {
         int face;
         bool glyph;
         double distance; ///< world units
@@ -41,18 +41,18 @@ struct LetterRoom {
         /// the wall.
         double margin;
     };
-    SeenWallPoint seen_wall_point(dvec3 direction) const;
+    WallPoint seen_point(dvec3 direction) const;
 
     /// Returns the point of a wall at shares u, v of its two axes.
     dvec3 wall_point(int face, double u, double v) const;
 
-    static vec3 colour_of_wall_point(const SeenWallPoint& seen) {
-        return seen.glyph ? letter_colour_of_wall(seen.face) : colour_of_wall(seen.face);
+    static vec3 point_colour(const WallPoint& seen) {
+        return seen.glyph ? letter_colour(seen.face) : wall_colour(seen.face);
     }
 
     /// Returns the scene of walls, letters and the mirror. The letters are cut out of the walls, so
     /// that no two surfaces coincide.
-    scene::Scene make_letter_room_scene() const;
+    scene::Scene make_scene() const;
 };
 
 } // namespace catoptric::stress

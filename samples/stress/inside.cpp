@@ -21,8 +21,7 @@ struct TestedEyePosition {
     bool inside;
 };
 
-void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
-                         const scene::Sphere& ball) {
+void judge_eye_positions(Bench& bench, const scene::Scene& scene, const scene::Sphere& ball) {
     const dvec3 out = normalize(dvec3(.3, .4, .8)), along = normalize(cross(out, dvec3(0, 1, 0)));
     const auto eye = [&](double radii, const dvec3& direction) {
         const dvec3 place = ball.centre + radii * ball.radius * out;
@@ -37,41 +36,39 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         {"on the surface, looking at it", eye(1, -out), false}};
     for (const TestedEyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
-            session::Request request = bench.make_stress_request(scene, technique);
-            request.size = bench.picture_size_of_at_least(64);
+            session::Request request = bench.make_request(scene, technique);
+            request.size = bench.size_at_least(64);
             request.camera = place.camera;
             return bench.render_technique(request);
         };
         const session::TechniqueResult traced = render("raytrace:depth=16");
         if (place.inside)
-            bench.add_measured_case(fmt::format("{}, raytrace: brightest of 0", place.what),
-                                    find_brightest_channel(traced.hdr), 0);
+            bench.add_case(fmt::format("{}, raytrace: brightest of 0", place.what),
+                           brightest_channel(traced.hdr), 0);
         // The correction by one distance fails where a ball fills the picture and something stands
         // before the wall that it reflects.
         const session::TechniqueResult corrected = render("parallax");
-        bench.add_mean_flip_case(fmt::format("{}, parallax", place.what), corrected, traced, .03,
-                                 place.inside
-                                     ? ""
-                                     : "a ball close to the camera shows what stands before "
-                                       "its walls in the wrong place; searches correct it");
+        bench.add_flip(fmt::format("{}, parallax", place.what), corrected, traced, .03,
+                       place.inside ? ""
+                                    : "a ball close to the camera shows what stands before "
+                                      "its walls in the wrong place; searches correct it");
         for (const std::string technique : {"pyramid", "hybrid"})
-            bench.add_mean_flip_case(fmt::format("{}, {}", place.what, technique),
-                                     render(technique), traced, .03);
+            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced,
+                           .03);
         const session::TechniqueResult plain = render("reuse");
-        if (place.inside)
-            bench.add_mean_flip_case(fmt::format("{}, reuse", place.what), plain, traced, .03);
+        if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .03);
         // From outside, a look-up without parallax correction is wrong for every camera, and most
         // wrong if the ball fills the picture.
         else {
             const auto error = [&](const session::TechniqueResult& part) {
                 return measure::flip_mean(measure::flip(part.display, traced.display));
             };
-            bench.add_warning_case(
+            bench.add_warning(
                 fmt::format("{}, reuse", place.what), error(plain), .05,
                 "a ball close to the camera shows the room as from its own centre, so that "
                 "reflections stand in the wrong place; parallax and later searches correct it");
             // The correction may fail, but then no worse than none.
-            bench.add_measured_case(
+            bench.add_case(
                 fmt::format("{}, parallax: FLIP above both .03 and that of reuse", place.what),
                 std::max(0.0, error(corrected) - std::max(.03, error(plain))), .002);
         }
@@ -80,7 +77,7 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
 
 /// Judges a ball that moves over the camera. A frame must be black exactly while the camera is
 /// inside the ball.
-void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
+void judge_ball_over_eye(Bench& bench, scene::Scene scene) {
     constexpr int kSettlingFrames = 16;
     scene::Object& object = scene.objects.back();
     // The ball and the camera on its way stay in the room, whose middle is 0.
@@ -89,8 +86,8 @@ void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);
     for (const std::string technique : {"raytrace", "parallax"}) {
-        session::Request request = bench.make_stress_request(scene, bench.fit_captures(technique),
-                                                             kSettlingFrames);
+        session::Request request = bench.make_request(scene, bench.fit_captures(technique),
+                                                      kSettlingFrames);
         request.camera = camera;
         session::Session session(bench.bench_engine(), scene);
         int wrong = 0, inside = 0;
@@ -102,27 +99,27 @@ void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
                                          object.sphere->radius;
             if (std::abs(depth) < .01) continue; // the eye is between the mesh and its sphere
             inside += depth > 0;
-            wrong += (find_brightest_channel(frame.hdr()) == 0) != (depth > 0);
+            wrong += (brightest_channel(frame.hdr()) == 0) != (depth > 0);
         }
-        bench.add_measured_case(
+        bench.add_case(
             fmt::format(
                 "a ball moves over the eye, {}: frames that are black outside or lit inside",
                 technique),
             wrong, 0);
-        bench.add_measured_case(
+        bench.add_case(
             fmt::format("a ball moves over the eye, {}: too few frames inside or outside",
                         technique),
             inside < 4 || inside > kSettlingFrames - 4 ? 1 : 0, 0);
     }
 }
 
-void judge_eye_inside_mirror(StressTestBench& bench) {
-    const scene::Scene scene = make_stress_room(bench, 2);
+void judge_eye_inside_mirror(Bench& bench) {
+    const scene::Scene scene = make_room(bench, 2);
     judge_eye_positions(bench, scene, *scene.objects.back().sphere);
     judge_ball_over_eye(bench, scene);
 }
 
-const RegisteredStressProperty kEyeInsideMirrorProperty{
+const RegisteredProperty kEyeInsideMirrorProperty{
     {"C5", "camera inside a ball, at its centre, touching it; a ball moves over it",
      "a closed mirror is black from inside, in both worlds (FLIP)", judge_eye_inside_mirror,
      "mirrors_one_sided",

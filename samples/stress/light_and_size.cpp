@@ -22,8 +22,8 @@ scene::Scene move_lamp_corners(scene::Scene scene, const std::function<dvec3(dve
     return scene;
 }
 
-void judge_lamp_position(StressTestBench& bench) {
-    const scene::Scene scene = make_stress_room(bench, 2);
+void judge_lamp_position(Bench& bench) {
+    const scene::Scene scene = make_room(bench, 2);
     dvec3 ball(0), lamp(0);
     for (const scene::Object& object : scene.objects) {
         if (object.sphere) ball = object.sphere->centre;
@@ -42,8 +42,8 @@ void judge_lamp_position(StressTestBench& bench) {
          })}};
     for (const auto& [what, moved] : places)
         for (const std::string technique : {"raytrace", "parallax"})
-            bench.add_nonfinite_pixel_case(std::string(what) + ", " + technique,
-                                           bench.render_technique(moved, technique));
+            bench.add_nonfinite(std::string(what) + ", " + technique,
+                                bench.render_technique(moved, technique));
     // The lamp is above the ceiling and shines upwards, so only ambient light remains in the room.
     scene::Scene away = move_lamp_corners(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
@@ -60,43 +60,43 @@ void judge_lamp_position(StressTestBench& bench) {
         for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i)
             differ += a.hdr.pixels[i] != b.hdr.pixels[i] &&
                       a.hdr.pixels[i].x < 1; // the lamp itself may be seen
-        bench.add_measured_case("facing away, " + technique + ": lit pixels", double(differ), 0);
+        bench.add_case("facing away, " + technique + ": lit pixels", double(differ), 0);
     }
 }
 
-void judge_picture_sizes(StressTestBench& bench) {
-    const scene::Scene scene = make_stress_room(bench, 1);
+void judge_picture_sizes(Bench& bench) {
+    const scene::Scene scene = make_room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
         for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-            session::Request request = bench.make_stress_request(scene, technique, 2);
+            session::Request request = bench.make_request(scene, technique, 2);
             request.size = size;
-            bench.add_nonfinite_pixel_case(fmt::format("{}x{}, {}", size.x, size.y, technique),
-                                           bench.render_technique(request));
+            bench.add_nonfinite(fmt::format("{}x{}, {}", size.x, size.y, technique),
+                                bench.render_technique(request));
         }
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
         bench.add_expected_error(
             fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1", [&] {
-                session::Request request = bench.make_stress_request(scene, "raytrace");
+                session::Request request = bench.make_request(scene, "raytrace");
                 request.size = size;
                 bench.render_technique(request);
             });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
         bench.add_expected_error(
             fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_", [&] {
-                session::Request request = bench.make_stress_request(scene, "raytrace");
+                session::Request request = bench.make_request(scene, "raytrace");
                 request.size = size;
-                bench.plan_stress_technique(request);
+                bench.plan_technique(request);
             });
     for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-        session::Request request = bench.make_stress_request(scene, technique, 1);
+        session::Request request = bench.make_request(scene, technique, 1);
         request.size = {16384, 16384};
-        bench.add_case_of_success_or_refusal("16384x16384, " + technique + ", planned",
-                                             [&] { bench.plan_stress_technique(request); });
+        bench.add_attempt("16384x16384, " + technique + ", planned",
+                          [&] { bench.plan_technique(request); });
     }
-    session::Request large = bench.make_stress_request(scene, "raytrace", 1);
+    session::Request large = bench.make_request(scene, "raytrace", 1);
     large.size = uvec2(bench.has_small_pictures() ? 2048 : 4096);
-    bench.add_nonfinite_pixel_case(fmt::format("{0}x{0}, raytrace", large.size.x),
-                                   bench.render_technique(large));
+    bench.add_nonfinite(fmt::format("{0}x{0}, raytrace", large.size.x),
+                        bench.render_technique(large));
 }
 
 /// Returns the number of black pixels in the middle ninth of a picture.
@@ -126,7 +126,7 @@ scene::Mesh make_rippled_grid(std::uint32_t n) {
     return mesh;
 }
 
-void judge_triangle_counts(StressTestBench& bench) {
+void judge_triangle_counts(Bench& bench) {
     scene::Scene empty{.name = "empty"};
     empty.cameras.push_back({.eye = {0, 0, -3}, .target = {0, 0, 0}});
     scene::Scene one = empty, many = empty;
@@ -136,20 +136,20 @@ void judge_triangle_counts(StressTestBench& bench) {
                           {{0, 0, -1}, {0, 0, -1}, {0, 0, -1}},
                           {{0, 1, 2}}});
     one.objects.push_back({.name = "triangle", .mesh = 0, .material = hot});
-    add_stress_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1},
-                    9); // 4^10 triangles
+    add_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1},
+             9); // 4^10 triangles
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
             const session::TechniqueResult part = bench.render_technique(scene, technique, 2);
-            bench.add_nonfinite_pixel_case(what + ", " + technique, part);
+            bench.add_nonfinite(what + ", " + technique, part);
             double bright = 0;
             for (const vec3& pixel : part.hdr.pixels) bright += pixel.x > .5f;
             return bright / double(part.hdr.pixels.size());
         };
-        bench.add_measured_case("empty, " + technique + ": pixels that are not background",
-                                sum(empty, "empty"), 0);
-        bench.add_measured_case("one triangle, " + technique + ": not seen",
-                                sum(one, "one triangle") > .1 ? 0 : 1, 0);
+        bench.add_case("empty, " + technique + ": pixels that are not background",
+                       sum(empty, "empty"), 0);
+        bench.add_case("one triangle, " + technique + ": not seen",
+                       sum(one, "one triangle") > .1 ? 0 : 1, 0);
     }
     const bool on_processor = bench.bench_engine().device().type == "cpu";
     const auto start = std::chrono::steady_clock::now();
@@ -160,13 +160,13 @@ void judge_triangle_counts(StressTestBench& bench) {
         on_processor
             ? double(std::clock() - start_of_processor) / CLOCKS_PER_SEC
             : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    bench.add_measured_case(fmt::format("1,048,576 triangles, raytrace: {} from mesh to picture",
-                                        on_processor ? "seconds of processor time" : "seconds"),
-                            seconds, 30);
-    bench.add_nonfinite_pixel_case("1,048,576 triangles, raytrace", part);
+    bench.add_case(fmt::format("1,048,576 triangles, raytrace: {} from mesh to picture",
+                               on_processor ? "seconds of processor time" : "seconds"),
+                   seconds, 30);
+    bench.add_nonfinite("1,048,576 triangles, raytrace", part);
     constexpr std::uint32_t kLeastEdgeForTenMillion = 128;
     if (glm::min(bench.picture_size().x, bench.picture_size().y) < kLeastEdgeForTenMillion)
-        return bench.add_skipped_part(
+        return bench.add_skipped(
             "10,008,338 triangles, raytrace",
             Error(Failure::usage, fmt::format("takes 20 s of processor time, so only pictures of "
                                               "{0}x{0} and more draw it",
@@ -174,23 +174,22 @@ void judge_triangle_counts(StressTestBench& bench) {
     scene::Scene ten = empty;
     add_mesh(ten, make_rippled_grid(2237),
              add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
-    bench.add_case_of_success_or_refusal("10,008,338 triangles, raytrace", [&] {
+    bench.add_attempt("10,008,338 triangles, raytrace", [&] {
         const session::TechniqueResult seen = bench.render_technique(ten, "raytrace", 1);
-        bench.add_nonfinite_pixel_case("10,008,338 triangles, raytrace", seen);
-        bench.add_measured_case(
-            "10,008,338 triangles, raytrace: pixels of the middle that show none",
-            count_black_pixels(seen.hdr), 0);
+        bench.add_nonfinite("10,008,338 triangles, raytrace", seen);
+        bench.add_case("10,008,338 triangles, raytrace: pixels of the middle that show none",
+                       count_black_pixels(seen.hdr), 0);
     });
 }
 
-const RegisteredStressProperty kLampPositionProperty{
+const RegisteredProperty kLampPositionProperty{
     {"L1", "light inside a ball, on the ceiling, at the camera, facing away",
      "finite; unlit where it faces away", judge_lamp_position, "lamp_without_normal"}};
-const RegisteredStressProperty kPictureSizesProperty{
+const RegisteredProperty kPictureSizesProperty{
     {"Z1", "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
      "works, or is refused with the limit", judge_picture_sizes, "no_width_taken",
      "rendering 16384x16384, which is planned only"}};
-const RegisteredStressProperty kTriangleCountsProperty{
+const RegisteredProperty kTriangleCountsProperty{
     {"Z2", "empty scene, one triangle, a million, ten million",
      "background; finite; a million in 30 s (of a processor: its time); runs or names the limit",
      judge_triangle_counts, "places_in_22_bits"}};

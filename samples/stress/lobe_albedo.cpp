@@ -11,14 +11,14 @@ namespace {
 
 /// Returns Smith's Lambda: the area of microfacets that hide others from a direction, over the area
 /// that the direction sees. `z` is the cosine between the direction and the normal.
-double compute_smith_lambda(double alpha, double z) {
+double smith_lambda(double alpha, double z) {
     const double slope = alpha * std::sqrt(1 / (z * z) - 1);
     return (std::sqrt(1 + slope * slope) - 1) / 2;
 }
 
 } // namespace
 
-double compute_lobe_albedo(double roughness, double degrees) {
+double lobe_albedo(double roughness, double degrees) {
     constexpr int kMicrofacetSlopeSteps = 512, kTurnSteps = 512;
     const double alpha = roughness * roughness, angle = degrees * std::numbers::pi / 180;
     const dvec3 to_eye(std::sin(angle), 0, std::cos(angle));
@@ -37,8 +37,7 @@ double compute_lobe_albedo(double roughness, double degrees) {
             if (cosine <= 0 || to_light.z <= 0) continue;
             const double seen_area = cosine / (facet.z * to_eye.z);
             sum += share * seen_area /
-                   (1 + compute_smith_lambda(alpha, to_eye.z) +
-                    compute_smith_lambda(alpha, to_light.z));
+                   (1 + smith_lambda(alpha, to_eye.z) + smith_lambda(alpha, to_light.z));
         }
     }
     return sum;

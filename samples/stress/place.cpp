@@ -16,50 +16,47 @@ constexpr const char* kCaptureTechniques[] = {"reuse", "parallax", "pyramid", "h
 /// Compares the picture of the scene under each root transform with the picture of the original
 /// scene. `traced` is the error limit of ray tracing, and `cubes` is the limit of all other
 /// techniques.
-void compare_scene_under_transforms(StressTestBench& bench,
-                                    const std::vector<std::pair<std::string, dmat4>>& roots,
-                                    double traced, double cubes) {
-    const scene::Scene scene = make_stress_room(bench, 3);
+void compare_transforms(Bench& bench, const std::vector<std::pair<std::string, dmat4>>& roots,
+                        double traced, double cubes) {
+    const scene::Scene scene = make_room(bench, 3);
     const auto with = [&](const std::string& technique, double limit) {
         const session::TechniqueResult plain = bench.render_technique(scene, technique);
         for (const auto& [what, root] : roots)
-            bench.add_mean_flip_case(
-                technique + ", " + what,
-                bench.render_technique(transform_scene(scene, root), technique), plain, limit);
+            bench.add_flip(technique + ", " + what,
+                           bench.render_technique(transform_scene(scene, root), technique), plain,
+                           limit);
     };
     with("raytrace", traced);
     for (const char* technique : kCaptureTechniques) with(technique, cubes);
 }
 
-void judge_scene_scale(StressTestBench& bench) {
+void judge_scene_scale(Bench& bench) {
     std::vector<std::pair<std::string, dmat4>> roots;
     for (const double factor : {1e-6, 1e-3, 1e3, 1e6})
-        roots.emplace_back(fmt::format("times {}", factor), make_scale_matrix(factor));
-    compare_scene_under_transforms(bench, roots, .0005, .001);
+        roots.emplace_back(fmt::format("times {}", factor), scale_matrix(factor));
+    compare_transforms(bench, roots, .0005, .001);
 }
 
-void judge_scene_position(StressTestBench& bench) {
+void judge_scene_position(Bench& bench) {
     std::vector<std::pair<std::string, dmat4>> roots;
     for (const double distance : {1e5, 1e7})
         roots.emplace_back(fmt::format("{} away", distance),
-                           make_translation_matrix(normalize(dvec3(1, -.5, .7)) * distance));
-    compare_scene_under_transforms(bench, roots, .0005, .0005);
+                           translation_matrix(normalize(dvec3(1, -.5, .7)) * distance));
+    compare_transforms(bench, roots, .0005, .0005);
 }
 
-void judge_scene_rotation(StressTestBench& bench) {
-    const double angle = bench.draw_random_number(.3, 2.8);
-    const dvec3 axis(bench.draw_random_number(-1, 1), bench.draw_random_number(.2, 1),
-                     bench.draw_random_number(-1, 1));
-    compare_scene_under_transforms(
-        bench,
-        {{fmt::format("turned {:.1f} degrees", angle * 180 / 3.14159265358979),
-          make_rotation_matrix(angle, axis)}},
-        .0005, .005);
+void judge_scene_rotation(Bench& bench) {
+    const double angle = bench.random(.3, 2.8);
+    const dvec3 axis(bench.random(-1, 1), bench.random(.2, 1), bench.random(-1, 1));
+    compare_transforms(bench,
+                       {{fmt::format("turned {:.1f} degrees", angle * 180 / 3.14159265358979),
+                         rotation_matrix(angle, axis)}},
+                       .0005, .005);
 }
 
 /// Judges the scene and camera mirrored at the root: the picture must be mirrored.
-void judge_mirrored_scene(StressTestBench& bench) {
-    const scene::Scene scene = make_stress_room(bench, 3);
+void judge_mirrored_scene(Bench& bench) {
+    const scene::Scene scene = make_room(bench, 3);
     dmat4 root(1);
     root[0][0] = -1;
     for (const std::string technique : {"raytrace", "pyramid"}) {
@@ -67,44 +64,43 @@ void judge_mirrored_scene(StressTestBench& bench) {
         for (int y = 0; y < plain.display.height; ++y)
             for (int x = 0; x < plain.display.width / 2; ++x)
                 std::swap(plain.display.at(x, y), plain.display.at(plain.display.width - 1 - x, y));
-        bench.add_mean_flip_case(technique + ", mirrored",
-                                 bench.render_technique(transform_scene(scene, root), technique),
-                                 plain, .001);
+        bench.add_flip(technique + ", mirrored",
+                       bench.render_technique(transform_scene(scene, root), technique), plain,
+                       .001);
     }
 }
 
 /// Judges walls so far away that the ball is a point in comparison. Parallax correction must then
 /// have no effect.
-void judge_distant_walls(StressTestBench& bench) {
+void judge_distant_walls(Bench& bench) {
     for (const double width : {1e5, 1e6}) {
-        scene::Scene scene = transform_scene(make_stress_room(bench, 0),
-                                             make_scale_matrix(width / 4));
+        scene::Scene scene = transform_scene(make_room(bench, 0), scale_matrix(width / 4));
         const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
-        add_stress_ball(scene, mirror, {{0, 0, 0}, 1});
+        add_ball(scene, mirror, {{0, 0, 0}, 1});
         scene.cameras.front() = {
             .eye = {.5, .3, -6}, .target = {0, 0, 0}, .vertical_fov_degrees = 30};
         const session::TechniqueResult plain = bench.render_technique(scene, "reuse"),
                                        corrected = bench.render_technique(scene, "parallax");
         const std::string what = fmt::format("{} wide", width);
-        bench.add_nonfinite_pixel_case(what, corrected);
-        bench.add_mean_flip_case(what + ", parallax against reuse", corrected, plain, .0005);
+        bench.add_nonfinite(what, corrected);
+        bench.add_flip(what + ", parallax against reuse", corrected, plain, .0005);
     }
 }
 
-const RegisteredStressProperty kSceneScaleProperty{{"N1", "scene times 1e-6, 1e-3, 1e3, 1e6",
-                                                    "the picture is that at 1 (FLIP)",
-                                                    judge_scene_scale, "area_of_lamp_unscaled"}};
-const RegisteredStressProperty kScenePositionProperty{{"N2", "scene moved by 1e5 and 1e7",
-                                                       "the picture is that at 0 (FLIP)",
-                                                       judge_scene_position, "eye_rounded_first"}};
-const RegisteredStressProperty kSceneRotationProperty{
-    {"N3", "scene and camera turned by an odd angle", "the picture stays (FLIP)",
-     judge_scene_rotation, "lamp_not_turned"}};
-const RegisteredStressProperty kMirroredSceneProperty{
+const RegisteredProperty kSceneScaleProperty{{"N1", "scene times 1e-6, 1e-3, 1e3, 1e6",
+                                              "the picture is that at 1 (FLIP)", judge_scene_scale,
+                                              "area_of_lamp_unscaled"}};
+const RegisteredProperty kScenePositionProperty{{"N2", "scene moved by 1e5 and 1e7",
+                                                 "the picture is that at 0 (FLIP)",
+                                                 judge_scene_position, "eye_rounded_first"}};
+const RegisteredProperty kSceneRotationProperty{{"N3", "scene and camera turned by an odd angle",
+                                                 "the picture stays (FLIP)", judge_scene_rotation,
+                                                 "lamp_not_turned"}};
+const RegisteredProperty kMirroredSceneProperty{
     {"N4", "negative scale at the root", "the picture is mirrored, no face is missing (FLIP)",
      judge_mirrored_scene, "order_of_corners_kept",
      "a thousand nested nodes, which a test of files judges"}};
-const RegisteredStressProperty kDistantWallsProperty{
+const RegisteredProperty kDistantWallsProperty{
     {"N13", "room 1e5 and 1e6 units wide around a ball of 1",
      "finite; the correction tends to none (FLIP)", judge_distant_walls, "distance_ends_near"}};
 

@@ -10,10 +10,10 @@
 /// A property is one row that registers itself, so no other file lists it.
 namespace catoptric::stress {
 
-struct StressProperty {
+struct Property {
     std::string_view id, stimulus, property;
     /// Renders its scenes and adds cases to the row.
-    void (*judge)(StressTestBench& bench) = nullptr;
+    void (*judge)(Bench& bench) = nullptr;
     /// Name of the rule in tests/mutations/rules.toml whose wrong code makes this row fail.
     std::string_view turned_red_by = {};
     std::string_view not_covered = {}; ///< part of the property that `judge` does not check
@@ -21,13 +21,13 @@ struct StressProperty {
 
 /// Registers a property. Define it at namespace scope: the property enters the table while the
 /// program starts.
-struct RegisteredStressProperty {
-    explicit RegisteredStressProperty(const StressProperty& property);
+struct RegisteredProperty {
+    explicit RegisteredProperty(const Property& property);
 };
 
 /// Returns all properties in the order of their ids: letter, then number.
-std::vector<const StressProperty*> list_stress_properties();
+std::vector<const Property*> properties();
 /// Returns the property with this id. Throws `Failure::usage` with the nearest id if there is none.
-const StressProperty& find_stress_property(std::string_view id);
+const Property& find_property(std::string_view id);
 
 } // namespace catoptric::stress

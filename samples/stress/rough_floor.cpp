@@ -51,8 +51,8 @@ scene::Scene make_rough_floor(const scene::Material& material, double degrees, b
         scene::Material strip = material;
         strip.roughness = static_cast<float>(roughness);
         const double right = left + kFloorWidth;
-        add_stress_quad(scene, add_material(scene, strip), {left, 0, depth}, {right, 0, depth},
-                        {right, 0, -depth}, {left, 0, -depth});
+        add_quad(scene, add_material(scene, strip), {left, 0, depth}, {right, 0, depth},
+                 {right, 0, -depth}, {left, 0, -depth});
         scene.objects.back().mirror = is_mirror;
         left = right;
     }
@@ -66,8 +66,8 @@ scene::Scene make_rough_floor(const scene::Material& material, double degrees, b
 }
 
 std::array<double, kFloorStripRoughness.size()>
-measure_strips(StressTestBench& bench, const scene::Scene& floor, const std::string& technique) {
-    session::Request request = bench.make_stress_request(floor, technique, 2);
+measure_strips(Bench& bench, const scene::Scene& floor, const std::string& technique) {
+    session::Request request = bench.make_request(floor, technique, 2);
     request.size = kFloorPictureSize;
     request.ambient = 0;
     const measure::Picture picture = bench.render_technique(request).hdr;

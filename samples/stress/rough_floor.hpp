@@ -23,6 +23,6 @@ scene::Material make_white_plastic();
 /// Returns the mean radiance of each strip in a picture of the floor that `technique` renders
 /// without ambient light. NaN if a pixel of the strip is not finite.
 std::array<double, kFloorStripRoughness.size()>
-measure_strips(StressTestBench& bench, const scene::Scene& floor, const std::string& technique);
+measure_strips(Bench& bench, const scene::Scene& floor, const std::string& technique);
 
 } // namespace catoptric::stress

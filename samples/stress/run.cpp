@@ -13,7 +13,7 @@ namespace catoptric::stress {
 
 namespace {
 
-report::StressVerdict judge_stress_row(const report::StressRow& row) {
+report::StressVerdict judge_row(const report::StressRow& row) {
     if (row.cases.empty()) return report::StressVerdict::unsupported;
     bool looks_worse = false;
     for (const report::StressCase& one : row.cases) {
@@ -24,8 +24,8 @@ report::StressVerdict judge_stress_row(const report::StressRow& row) {
     return looks_worse ? report::StressVerdict::quality_warning : report::StressVerdict::pass;
 }
 
-report::StressRow judge_stress_property(session::Engine& engine, const StressRequest& request,
-                                        const StressProperty& property) {
+report::StressRow judge_property(session::Engine& engine, const StressRequest& request,
+                                 const Property& property) {
     report::StressRow row{std::string(property.id),
                           std::string(property.stimulus),
                           std::string(property.property),
@@ -37,18 +37,18 @@ report::StressRow judge_stress_property(session::Engine& engine, const StressReq
                           {},
                           std::string(property.turned_red_by)};
     const auto start = std::chrono::steady_clock::now();
-    StressTestBench bench(engine, request.watcher, request.size, request.seed, row);
+    Bench bench(engine, request.watcher, request.size, request.seed, row);
     try {
         property.judge(bench);
         check(!row.cases.empty() || !row.not_run.empty(), Failure::internal, "property ", row.id,
               " judged nothing");
-        row.verdict = judge_stress_row(row);
+        row.verdict = judge_row(row);
         if (row.cases.empty()) row.remark = "nothing of it could be run";
     } catch (const Error& error) {
-        if (bench.is_error_that_ends_run(error)) throw;
+        if (bench.ends_run(error)) throw;
         row.remark = error.what();
         // If the row has an error from before the device ran out of memory, the row stays an error.
-        if (is_resource_refusal(error) && judge_stress_row(row) != report::StressVerdict::fail) {
+        if (is_refusal(error) && judge_row(row) != report::StressVerdict::fail) {
             row.verdict = report::StressVerdict::unsupported;
             row.cases.clear(), row.pictures.clear(), row.not_run.clear();
         } else {
@@ -61,11 +61,11 @@ report::StressRow judge_stress_property(session::Engine& engine, const StressReq
 
 } // namespace
 
-report::StressResults run_stress_properties(session::Engine& engine, const StressRequest& request) {
+report::StressResults run_properties(session::Engine& engine, const StressRequest& request) {
     const session::WatchedWork watched(request.watcher);
-    std::vector<const StressProperty*> chosen;
-    for (const std::string& id : request.only) chosen.push_back(&find_stress_property(id));
-    if (chosen.empty()) chosen = list_stress_properties();
+    std::vector<const Property*> chosen;
+    for (const std::string& id : request.only) chosen.push_back(&find_property(id));
+    if (chosen.empty()) chosen = properties();
     report::StressResults stress{session::version(),
                                  session::commit(),
                                  request.command,
@@ -80,7 +80,7 @@ report::StressResults run_stress_properties(session::Engine& engine, const Stres
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             report_row(request.watcher, std::string(chosen[i]->id), i, chosen.size());
-            stress.rows.push_back(judge_stress_property(engine, request, *chosen[i]));
+            stress.rows.push_back(judge_property(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }
         stress.complete = true;

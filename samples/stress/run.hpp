@@ -21,6 +21,6 @@ struct StressRequest {
 /// that text and no measured value. An error that ends the run (a signal, a lost device, no memory,
 /// `on_finished_row`) is stored in `stopped` of the rows so far. Without any row such an error is
 /// thrown unless it was a signal. Throws `usage` for an unknown id.
-report::StressResults run_stress_properties(session::Engine& engine, const StressRequest& request);
+report::StressResults run_properties(session::Engine& engine, const StressRequest& request);
 
 } // namespace catoptric::stress

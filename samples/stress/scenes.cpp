@@ -9,7 +9,7 @@ namespace catoptric::stress {
 
 namespace {
 
-bool is_ball_apart_from_objects(const scene::Scene& scene, const MirrorBall& ball) {
+bool is_apart(const scene::Scene& scene, const MirrorBall& ball) {
     for (const scene::Object& object : scene.objects)
         if (object.sphere &&
             length(object.sphere->centre - ball.centre) < object.sphere->radius + ball.radius + .05)
@@ -19,59 +19,53 @@ bool is_ball_apart_from_objects(const scene::Scene& scene, const MirrorBall& bal
 
 } // namespace
 
-void add_stress_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3 c,
-                     dvec3 d) {
+void add_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
     scene::add_quad(scene, "quad" + std::to_string(scene.objects.size()), material, a, b, c, d);
 }
 
-void add_stress_ball(scene::Scene& scene, std::size_t material, const MirrorBall& ball,
-                     int levels) {
+void add_ball(scene::Scene& scene, std::size_t material, const MirrorBall& ball, int levels) {
     scene::add_ball(scene, "ball" + std::to_string(scene.objects.size()), material, ball.centre,
                     ball.radius, levels);
 }
 
-scene::Scene make_stress_room(StressTestBench& bench, int balls) {
+scene::Scene make_room(Bench& bench, int balls) {
     scene::Scene scene{.name = "room"};
     const auto colour = [&] {
-        return vec3(bench.draw_random_number(.1, .8), bench.draw_random_number(.1, .8),
-                    bench.draw_random_number(.1, .8));
+        return vec3(bench.random(.1, .8), bench.random(.1, .8), bench.random(.1, .8));
     };
-    const dvec3 hi(bench.draw_random_number(1.8, 2.2), bench.draw_random_number(1.6, 2.0),
-                   bench.draw_random_number(1.8, 2.4)),
+    const dvec3 hi(bench.random(1.8, 2.2), bench.random(1.6, 2.0), bench.random(1.8, 2.4)),
         lo = -hi;
     for (int face = 0; face < 5; ++face)
         add_mesh(scene, scene::make_box_wall(face, lo, hi),
                  add_material(scene, {.name = "wall", .albedo = colour()}));
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = vec3(6, 5, 4)});
-    const double x = bench.draw_random_number(-.5, .5), z = bench.draw_random_number(-.5, .5),
-                 y = hi.y - .01;
-    add_stress_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5},
-                    {x - .5, y, z + .5});
+    const double x = bench.random(-.5, .5), z = bench.random(-.5, .5), y = hi.y - .01;
+    add_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5},
+             {x - .5, y, z + .5});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int made = 0; made < balls;) {
-        const double radius = bench.draw_random_number(.2, .5);
-        const MirrorBall ball{{bench.draw_random_number(lo.x + radius + .05, hi.x - radius - .05),
-                               lo.y + radius + bench.draw_random_number(.01, .6),
-                               bench.draw_random_number(lo.z + radius + .05, hi.z - radius - .05)},
+        const double radius = bench.random(.2, .5);
+        const MirrorBall ball{{bench.random(lo.x + radius + .05, hi.x - radius - .05),
+                               lo.y + radius + bench.random(.01, .6),
+                               bench.random(lo.z + radius + .05, hi.z - radius - .05)},
                               radius};
-        if (!is_ball_apart_from_objects(scene, ball)) continue;
-        add_stress_ball(scene, mirror, ball);
+        if (!is_apart(scene, ball)) continue;
+        add_ball(scene, mirror, ball);
         ++made;
     }
-    scene.cameras.push_back(
-        {.eye = {bench.draw_random_number(-.4, .4), bench.draw_random_number(-.3, .3), lo.z - 4},
-         .target = {0, -.3, 0},
-         .vertical_fov_degrees = 42});
+    scene.cameras.push_back({.eye = {bench.random(-.4, .4), bench.random(-.3, .3), lo.z - 4},
+                             .target = {0, -.3, 0},
+                             .vertical_fov_degrees = 42});
     return scene;
 }
 
-scene::Scene make_white_furnace_scene(const std::vector<MirrorBall>& balls) {
+scene::Scene make_white_furnace(const std::vector<MirrorBall>& balls) {
     scene::Scene scene{.name = "furnace"};
     const std::size_t hot = add_material(scene, {.name = "hot", .emission = vec3(1)});
     for (int face = 0; face < 6; ++face)
         add_mesh(scene, scene::make_box_wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
-    for (const MirrorBall& ball : balls) add_stress_ball(scene, mirror, ball);
+    for (const MirrorBall& ball : balls) add_ball(scene, mirror, ball);
     scene.cameras.push_back(
         {.eye = {.2, .1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});
     return scene;
@@ -79,10 +73,10 @@ scene::Scene make_white_furnace_scene(const std::vector<MirrorBall>& balls) {
 
 scene::Scene make_plane_with_lamp() {
     scene::Scene scene{.name = "plane"};
-    add_stress_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}),
-                    {-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
-    add_stress_quad(scene, add_material(scene, {.name = "lamp", .emission = vec3(40)}),
-                    {-.2, 4, -.2}, {.2, 4, -.2}, {.2, 4, .2}, {-.2, 4, .2});
+    add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10},
+             {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
+    add_quad(scene, add_material(scene, {.name = "lamp", .emission = vec3(40)}), {-.2, 4, -.2},
+             {.2, 4, -.2}, {.2, 4, .2}, {-.2, 4, .2});
     scene.cameras.push_back({.eye = {0, 3, -9}, .target = {0, 0, 0}, .vertical_fov_degrees = 50});
     return scene;
 }
@@ -107,19 +101,19 @@ scene::Scene transform_scene(const scene::Scene& scene, const dmat4& root) {
     return result;
 }
 
-dmat4 make_scale_matrix(double factor) {
+dmat4 scale_matrix(double factor) {
     dmat4 matrix(factor);
     matrix[3][3] = 1;
     return matrix;
 }
 
-dmat4 make_translation_matrix(dvec3 by) {
+dmat4 translation_matrix(dvec3 by) {
     dmat4 matrix(1);
     matrix[3] = dvec4(by, 1);
     return matrix;
 }
 
-dmat4 make_rotation_matrix(double radians, dvec3 axis) {
+dmat4 rotation_matrix(double radians, dvec3 axis) {
     const dvec3 n = normalize(axis);
     const double c = std::cos(radians), s = std::sin(radians);
     dmat4 matrix(1);

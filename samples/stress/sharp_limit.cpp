@@ -16,8 +16,7 @@ namespace {
 
 /// Returns the room with a ball of roughness .3 and two balls of `material`. The rough ball makes
 /// the scene one with lobes, whatever the roughness of the others.
-scene::Scene make_room_of_smooth_and_rough_objects(const scene::Scene& room,
-                                                   const scene::Material& material) {
+scene::Scene make_mixed_room(const scene::Scene& room, const scene::Material& material) {
     scene::Scene scene = room;
     scene.mirror_max_roughness = 1;
     const std::size_t smooth = add_material(scene, material);
@@ -34,7 +33,7 @@ scene::Scene make_room_of_smooth_and_rough_objects(const scene::Scene& room,
 
 /// Returns the largest difference of a channel, or NaN if a pixel is not finite.
 double largest_channel_difference(const measure::Picture& a, const measure::Picture& b) {
-    if (count_nonfinite_pixels(a) + count_nonfinite_pixels(b) > 0) return std::nan("");
+    if (count_nonfinite(a) + count_nonfinite(b) > 0) return std::nan("");
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         const vec3 off = abs(a.pixels[i] - b.pixels[i]);
@@ -51,8 +50,8 @@ struct SharpLimitRow {
     double most_below, most_above;
 };
 
-void judge_sharp_limit(StressTestBench& bench) {
-    const scene::Scene room = make_stress_room(bench, 3);
+void judge_sharp_limit(Bench& bench) {
+    const scene::Scene room = make_room(bench, 3);
     for (const auto& [technique, frames, most_below, most_above] :
          {SharpLimitRow{"raytrace:rays=64,depth=3", 1, 0, .005},
           SharpLimitRow{"reuse:face=64", 4, .005, .005},
@@ -60,14 +59,14 @@ void judge_sharp_limit(StressTestBench& bench) {
         const auto render = [&, &technique = technique,
                              &frames = frames](scene::Material material) {
             material.name = "smooth";
-            session::Request request = bench.make_stress_request(
-                make_room_of_smooth_and_rough_objects(room, material), technique, frames);
+            session::Request request = bench.make_request(make_mixed_room(room, material),
+                                                          technique, frames);
             request.size = {96, 96};
             return bench.render_technique(request);
         };
         const session::TechniqueResult wanted = render({.mirror = true});
         for (const float roughness : {0.f, 1e-8f, .01f, shared::kMaxSharpRoughness})
-            bench.add_measured_case(
+            bench.add_case(
                 fmt::format("{}, roughness {}: largest difference from a perfect mirror", technique,
                             roughness),
                 largest_channel_difference(
@@ -75,16 +74,16 @@ void judge_sharp_limit(StressTestBench& bench) {
                     wanted.hdr),
                 most_below);
         const float above = shared::kMaxSharpRoughness + 1e-4f;
-        bench.add_mean_flip_case(
+        bench.add_flip(
             fmt::format("{}, roughness {:.4f}, against a perfect mirror", technique, above),
             render({.albedo = vec3(1), .metallic = 1, .roughness = above}), wanted, most_above);
     }
 }
 
-const RegisteredStressProperty kSharpLimitProperty{
-    {"S5", "metal of roughness 0, 1e-8, .01, .04 and .0401",
-     "a perfect mirror up to .04, nearly one above (FLIP)", judge_sharp_limit,
-     "lobes_below_limit"}};
+const RegisteredProperty kSharpLimitProperty{{"S5",
+                                              "metal of roughness 0, 1e-8, .01, .04 and .0401",
+                                              "a perfect mirror up to .04, nearly one above (FLIP)",
+                                              judge_sharp_limit, "lobes_below_limit"}};
 
 } // namespace
 

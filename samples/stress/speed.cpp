@@ -25,17 +25,15 @@ struct CameraMotionMeasurement {
 };
 
 /// Renders `moving` frames at instants far from whole periods, then `resting` frames at rest.
-CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
-                                                    const scene::Scene& scene,
-                                                    const std::string& technique, int moving,
-                                                    int resting) {
-    session::Request request = bench.make_stress_request(scene, bench.fit_captures(technique), 1);
+CameraMotionMeasurement measure_motion(Bench& bench, const scene::Scene& scene,
+                                       const std::string& technique, int moving, int resting) {
+    session::Request request = bench.make_request(scene, bench.fit_captures(technique), 1);
     session::Session session(bench.bench_engine(), scene);
     CameraMotionMeasurement seen;
     for (int k = 1 - moving; k <= resting; ++k) {
         request.time = k < 1 ? .17 * (1 - k) : 0;
         seen.last = bench.render_frame(session, request).hdr();
-        const double most = find_brightest_channel(seen.last);
+        const double most = brightest_channel(seen.last);
         if (!(most <= seen.brightest)) seen.brightest = most;
     }
     return seen;
@@ -43,34 +41,32 @@ CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
 
 /// Judges one technique. If mirrors see each other, light of earlier positions remains for some
 /// frames. Otherwise the first frame at rest must equal the picture of a ball that never moved.
-void judge_speed_of_technique(StressTestBench& bench, const scene::Scene& scene, int balls,
-                              const std::string& technique) {
+void judge_speed(Bench& bench, const scene::Scene& scene, int balls, const std::string& technique) {
     const int resting = technique == "raytrace" || balls == 1 ? 1 : kRestingCameraFrames;
-    const CameraMotionMeasurement wanted = measure_technique_in_motion(bench, scene, technique, 0,
-                                                                       resting);
+    const CameraMotionMeasurement wanted = measure_motion(bench, scene, technique, 0, resting);
     for (const double distance : {1.0, 1e6}) {
-        const CameraMotionMeasurement found = measure_technique_in_motion(
+        const CameraMotionMeasurement found = measure_motion(
             bench, add_ball_motion(scene, distance), technique, kMovingCameraFrames, resting);
         const std::string what = fmt::format("{} balls, {}, one goes {} a frame", balls, technique,
                                              distance);
-        bench.add_measured_case(what + ": brightest of the lamp",
-                                found.brightest / kBrightestRoomValue, 1.002);
-        bench.add_measured_case(
+        bench.add_case(what + ": brightest of the lamp", found.brightest / kBrightestRoomValue,
+                       1.002);
+        bench.add_case(
             fmt::format("{}: frame {} at rest, pixels unlike one that never moved", what, resting),
-            double(count_different_pixels(found.last, wanted.last)), 0);
+            double(count_different(found.last, wanted.last)), 0);
     }
 }
 
-void judge_moving_mirror(StressTestBench& bench) {
+void judge_moving_mirror(Bench& bench) {
     for (const int balls : {1, 3}) {
-        const scene::Scene scene = make_stress_room(bench, balls);
+        const scene::Scene scene = make_room(bench, balls);
         for (const std::string technique : {"raytrace", "reuse:face=64", "parallax:face=64",
                                             "pyramid:face=64", "layered:face=64"})
-            judge_speed_of_technique(bench, scene, balls, technique);
+            judge_speed(bench, scene, balls, technique);
     }
 }
 
-const RegisteredStressProperty kMovingMirrorProperty{
+const RegisteredProperty kMovingMirrorProperty{
     {"T1", "a mirror that goes 1 and 1e6 units from frame to frame, and rests",
      "finite, no brighter than the lamp, then as if it had never moved", judge_moving_mirror,
      "capture_stays_behind"}};

@@ -8,29 +8,29 @@ namespace catoptric::stress {
 
 namespace {
 
-std::vector<StressProperty>& get_property_table() {
-    static std::vector<StressProperty> rows;
+std::vector<Property>& property_table() {
+    static std::vector<Property> rows;
     return rows;
 }
 
 } // namespace
 
-RegisteredStressProperty::RegisteredStressProperty(const StressProperty& property) {
-    get_property_table().push_back(property);
+RegisteredProperty::RegisteredProperty(const Property& property) {
+    property_table().push_back(property);
 }
 
-std::vector<const StressProperty*> list_stress_properties() {
-    std::vector<const StressProperty*> rows;
-    for (const StressProperty& property : get_property_table()) rows.push_back(&property);
-    std::ranges::sort(rows, {}, [](const StressProperty* row) {
+std::vector<const Property*> properties() {
+    std::vector<const Property*> rows;
+    for (const Property& property : property_table()) rows.push_back(&property);
+    std::ranges::sort(rows, {}, [](const Property* row) {
         return std::pair(row->id[0], std::stoi(std::string(row->id.substr(1))));
     });
     return rows;
 }
 
-const StressProperty& find_stress_property(std::string_view id) {
+const Property& find_property(std::string_view id) {
     std::vector<std::string> ids;
-    for (const StressProperty* row : list_stress_properties()) {
+    for (const Property* row : properties()) {
         if (row->id == id) return *row;
         ids.emplace_back(row->id);
     }

@@ -9,7 +9,7 @@ namespace catoptric::stress {
 /// Calls look(direction, face, x, y) for the centre of each texel of a cube map with faces of
 /// `edge` texels. The largest component of the direction is 1.
 template <typename Look>
-void for_each_cube_texel(std::uint32_t edge, const Look& look) {
+void for_each_texel(std::uint32_t edge, const Look& look) {
     for (int face = 0; face < 6; ++face)
         for (std::uint32_t y = 0; y < edge; ++y)
             for (std::uint32_t x = 0; x < edge; ++x) {

@@ -16,7 +16,7 @@ constexpr double kMaxCameraPitch = 1.5533; // 89 degrees, so that up stays up
 constexpr double kWheelNotchFactor = .9;   // factor on the distance per wheel notch
 
 /// Returns the unit viewing direction turned by pixels of the mouse.
-dvec3 turn_direction_by_mouse(const dvec3& direction, const dvec2& pixels) {
+dvec3 turn_by_mouse(const dvec3& direction, const dvec2& pixels) {
     const double pitch = std::clamp(std::asin(std::clamp(direction.y, -1., 1.)) +
                                         kRadiansPerPixel * pixels.y,
                                     -kMaxCameraPitch, kMaxCameraPitch);
@@ -25,7 +25,7 @@ dvec3 turn_direction_by_mouse(const dvec3& direction, const dvec2& pixels) {
 }
 
 /// Returns how many world units a pixel covers at the target.
-double world_size_of_pixel_at_target(const scene::Camera& camera, double distance, double height) {
+double pixel_size_at(const scene::Camera& camera, double distance, double height) {
     if (camera.orthographic_height > 0) return camera.orthographic_height / height;
     const double half = camera.vertical_fov_degrees * std::numbers::pi / 360;
     return 2 * distance * std::tan(half) / height;
@@ -47,10 +47,10 @@ scene::Camera move_camera(const scene::Camera& camera, const CameraMoves& moves,
     double distance = glm::length(next.target - next.eye);
     dvec3 forward = (next.target - next.eye) / distance;
     if (flies) {
-        forward = turn_direction_by_mouse(forward, {-moves.turned.x, -moves.turned.y});
+        forward = turn_by_mouse(forward, {-moves.turned.x, -moves.turned.y});
         next.target = next.eye + forward * distance;
     } else {
-        forward = turn_direction_by_mouse(forward, {-moves.turned.x, -moves.turned.y});
+        forward = turn_by_mouse(forward, {-moves.turned.x, -moves.turned.y});
         distance *= std::pow(kWheelNotchFactor, moves.wheel);
         if (next.orthographic_height > 0)
             next.orthographic_height *= std::pow(kWheelNotchFactor, moves.wheel);
@@ -58,7 +58,7 @@ scene::Camera move_camera(const scene::Camera& camera, const CameraMoves& moves,
     }
     const dvec3 right = glm::normalize(glm::cross(forward, next.up)),
                 up = glm::cross(right, forward);
-    const double pixel = world_size_of_pixel_at_target(next, distance, height);
+    const double pixel = pixel_size_at(next, distance, height);
     dvec3 shift = (-moves.shifted.x * right + moves.shifted.y * up) * pixel;
     shift += (moves.flown.x * right + moves.flown.y * up + moves.flown.z * forward) * (reach / 3);
     if (flies) shift += forward * (moves.wheel * reach / 20);

@@ -18,8 +18,8 @@ constexpr std::array<std::string_view, 16> kReplacedOptions{
     "--camera",    "--time",   "--size",        "--technique",    "--plan",   "--model",
     "--frames",    "--warmup", "--screenshot",  "--exposure",     "--timing", "--progress",
     "--budget-ms", "--audit",  "--audit-every", "--audit-percent"};
-constexpr std::array<std::string_view, 5> kFlagsWithoutMeaningInCommands{
-    "--animate", "--validate", "--json", "--quiet", "--verbose"};
+constexpr std::array<std::string_view, 5> kIgnoredFlags{"--animate", "--validate", "--json",
+                                                        "--quiet", "--verbose"};
 
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& names, std::string_view word) {
@@ -34,9 +34,8 @@ bool is_quiet_or_verbose_flag(const std::string& word) {
 
 } // namespace
 
-std::vector<std::string> make_render_words(const std::vector<std::string>& words,
-                                           const ViewState& state, const std::string& camera,
-                                           uvec2 size) {
+std::vector<std::string> render_words(const std::vector<std::string>& words, const ViewState& state,
+                                      const std::string& camera, uvec2 size) {
     std::vector<std::string> made{"render"};
     const auto end = std::ranges::find(words,
                                        "--"); // end of the options; the scene's name may follow
@@ -44,17 +43,15 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
     for (std::size_t i = 0; i < options; ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
-        if (is_one_of(kFlagsWithoutMeaningInCommands, word) || is_quiet_or_verbose_flag(word))
-            continue;
+        if (is_one_of(kIgnoredFlags, word) || is_quiet_or_verbose_flag(word)) continue;
         if (is_one_of(kReplacedOptions, name)) {
             if (name == word) ++i; // the next word is the option's value
             continue;
         }
         made.push_back(word);
     }
-    for (const std::string& word : make_plan_option_words(
-             state.mode == ViewMode::answers ? set_knob_in_plan(state.plan, "show", "state")
-                                             : state.plan))
+    for (const std::string& word : plan_words(
+             state.mode == ViewMode::answers ? set_knob(state.plan, "show", "state") : state.plan))
         made.push_back(word);
     made.insert(made.end(), {"--camera", camera, "--time", fmt::format("{}", state.motion.time),
                              "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
@@ -73,10 +70,10 @@ std::string quote_for_shell(const std::string& word) {
     return is_plain ? word : session::quote_for_shell(word);
 }
 
-std::string make_render_command(const std::vector<std::string>& words, const ViewState& state,
-                                const std::string& camera, uvec2 size) {
+std::string render_command(const std::vector<std::string>& words, const ViewState& state,
+                           const std::string& camera, uvec2 size) {
     std::string text = "catoptric";
-    for (const std::string& word : make_render_words(words, state, camera, size))
+    for (const std::string& word : render_words(words, state, camera, size))
         text += " " + quote_for_shell(word);
     return text;
 }

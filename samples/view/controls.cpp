@@ -42,7 +42,7 @@ ImGuiControls::~ImGuiControls() {
     ImGui::DestroyContext();
 }
 
-void ImGuiControls::upload_overlay_font(session::WindowScreen& screen) const {
+void ImGuiControls::upload_font(session::WindowScreen& screen) const {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
@@ -84,7 +84,7 @@ session::WindowOverlay ImGuiControls::end() {
     return overlay;
 }
 
-bool ImGuiControls::does_panel_take_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool ImGuiControls::does_panel_take_keyboard() const { return ImGui::GetIO().WantTextInput; }
+bool ImGuiControls::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool ImGuiControls::takes_keyboard() const { return ImGui::GetIO().WantTextInput; }
 
 } // namespace catoptric::view

@@ -15,15 +15,15 @@ public:
     ImGuiControls& operator=(const ImGuiControls&) = delete;
 
     /// Gives the font to a screen. Needed once per new screen.
-    void upload_overlay_font(session::WindowScreen& screen) const;
+    void upload_font(session::WindowScreen& screen) const;
     /// Begins and ends the controls of a frame. ImGui:: calls in between add controls. `window` is
     /// the window's size in pixels. `inputs` supplies the mouse.
     void begin(uvec2 window, const UserInput& inputs);
     session::WindowOverlay end();
-    /// Returns whether, in the last frame, the mouse was over controls (`does_panel_take_mouse`) or
-    /// a text was being typed (`does_panel_take_keyboard`).
-    bool does_panel_take_mouse() const;
-    bool does_panel_take_keyboard() const;
+    /// Returns whether, in the last frame, the mouse was over controls (`takes_mouse`) or
+    /// a text was being typed (`takes_keyboard`).
+    bool takes_mouse() const;
+    bool takes_keyboard() const;
 };
 
 } // namespace catoptric::view

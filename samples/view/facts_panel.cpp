@@ -10,7 +10,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_time_row(const TimeTableRow& line, double most) {
+void draw_time_row(const TimeRow& line, double most) {
     std::string text = fmt::format("{:.2f} ms", line.median);
     if (line.ci95.is_known())
         text += fmt::format(" [{:.2f} {:.2f}]", line.ci95.low, line.ci95.high);
@@ -20,10 +20,10 @@ void draw_time_row(const TimeTableRow& line, double most) {
     ImGui::TextUnformatted(line.name.c_str());
 }
 
-void draw_time_rows(const std::vector<TimeTableRow>& lines) {
+void draw_time_rows(const std::vector<TimeRow>& lines) {
     double most = 0;
-    for (const TimeTableRow& line : lines) most = std::max(most, line.median);
-    for (const TimeTableRow& line : lines) draw_time_row(line, most);
+    for (const TimeRow& line : lines) most = std::max(most, line.median);
+    for (const TimeRow& line : lines) draw_time_row(line, most);
 }
 
 void draw_mirror_facts(const scene::Object& object, std::size_t number) {
@@ -34,7 +34,7 @@ void draw_mirror_facts(const scene::Object& object, std::size_t number) {
 } // namespace
 
 void draw_frame_times(const SceneViewer& viewer) {
-    const TimeStatistics& times = viewer.time_statistics();
+    const TimeStatistics& times = viewer.times();
     draw_time_row(times.gpu(), times.frame().median);
     if (ImGui::TreeNodeEx("passes", ImGuiTreeNodeFlags_DefaultOpen)) {
         draw_time_rows(times.list_pass_times());
@@ -48,7 +48,7 @@ void draw_frame_times(const SceneViewer& viewer) {
                         times.frame_count() == 1 ? "frame" : "frames");
 }
 
-void draw_scene_facts(const scene::Scene& scene, PanelButtonRequests& wants) {
+void draw_scene_facts(const scene::Scene& scene, PanelRequests& wants) {
     ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
                 scene::triangle_count(scene), scene.materials.size());
     if (ImGui::TreeNode("objects", "objects (%zu)", scene.objects.size())) {

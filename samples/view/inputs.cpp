@@ -15,7 +15,7 @@ constexpr double kMaxClickMovement = 3;  // most pixels that the mouse moves dur
 
 } // namespace
 
-const std::vector<KeyBinding>& list_key_bindings() {
+const std::vector<KeyBinding>& key_bindings() {
     static const std::vector<KeyBinding> kKeyBindings{
         {GLFW_KEY_F1, KeyAction::keys, 0, "F1", "this list"},
         {GLFW_KEY_TAB, KeyAction::panels, 0, "Tab", "controls come and go"},
@@ -54,25 +54,25 @@ uvec2 choose_picture_size(uvec2 window, bool shows_panels) {
             std::max(window.y, kMinPictureSide)};
 }
 
-MouseDragState::MouseDraggedObject
-MouseDragState::begin_drag(const UserInput& inputs, const ViewState& state, uvec2 size) const {
+MouseDrag::Dragged MouseDrag::begin_drag(const UserInput& inputs, const ViewState& state,
+                                         uvec2 size) const {
     const double divider = state.divider * size.x;
-    if (inputs.on_controls || inputs.mouse.x >= size.x) return MouseDraggedObject::controls;
-    if (inputs.down[1] || inputs.down[2]) return MouseDraggedObject::shifting;
+    if (inputs.on_controls || inputs.mouse.x >= size.x) return Dragged::controls;
+    if (inputs.down[1] || inputs.down[2]) return Dragged::shifting;
     const bool on_divider = state.mode == ViewMode::split &&
                             std::abs(inputs.mouse.x - divider) <= kDividerGripPixels;
-    return on_divider ? MouseDraggedObject::divider : MouseDraggedObject::turning;
+    return on_divider ? Dragged::divider : Dragged::turning;
 }
 
-std::optional<uvec2> MouseDragState::apply_drag(const UserInput& inputs, ViewState& state,
-                                                uvec2 size, double reach) {
+std::optional<uvec2> MouseDrag::apply_drag(const UserInput& inputs, ViewState& state, uvec2 size,
+                                           double reach) {
     const bool is_down = inputs.down[0] || inputs.down[1] || inputs.down[2];
     std::optional<uvec2> clicked;
     if (!is_down) {
-        if (holds_ == MouseDraggedObject::turning && !strayed_)
+        if (holds_ == Dragged::turning && !strayed_)
             clicked = glm::min(uvec2(glm::max(pressed_, dvec2(0))), size - 1u);
-        holds_ = MouseDraggedObject::nothing;
-    } else if (holds_ == MouseDraggedObject::nothing) {
+        holds_ = Dragged::nothing;
+    } else if (holds_ == Dragged::nothing) {
         holds_ = begin_drag(inputs, state, size);
         last_ = pressed_ = inputs.mouse;
         strayed_ = false;
@@ -80,13 +80,12 @@ std::optional<uvec2> MouseDragState::apply_drag(const UserInput& inputs, ViewSta
     strayed_ |= is_down && glm::length(inputs.mouse - pressed_) > kMaxClickMovement;
     CameraMoves moves;
     const dvec2 dragged = inputs.mouse - last_;
-    if (holds_ == MouseDraggedObject::turning && strayed_) moves.turned = dragged;
-    if (holds_ == MouseDraggedObject::shifting) moves.shifted = dragged;
-    if (holds_ == MouseDraggedObject::divider)
-        state.divider = std::clamp(inputs.mouse.x / size.x, 0., 1.);
+    if (holds_ == Dragged::turning && strayed_) moves.turned = dragged;
+    if (holds_ == Dragged::shifting) moves.shifted = dragged;
+    if (holds_ == Dragged::divider) state.divider = std::clamp(inputs.mouse.x / size.x, 0., 1.);
     if (!inputs.on_controls) moves.wheel = inputs.wheel;
     moves.flown = inputs.flies * inputs.seconds;
-    if (holds_ != MouseDraggedObject::turning || strayed_) last_ = inputs.mouse;
+    if (holds_ != Dragged::turning || strayed_) last_ = inputs.mouse;
     if (moves.any())
         state.camera = move_camera(scene::camera_at(state.camera, state.motion.time), moves,
                                    state.flies, size.y, reach);

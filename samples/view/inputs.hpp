@@ -36,7 +36,7 @@ struct KeyBinding {
     const char* name;
     const char* does;
 };
-const std::vector<KeyBinding>& list_key_bindings();
+const std::vector<KeyBinding>& key_bindings();
 
 /// User input since the previous frame.
 struct UserInput {
@@ -54,7 +54,7 @@ struct UserInput {
 };
 
 /// The object that a drag moves, kept from frame to frame.
-class MouseDragState {
+class MouseDrag {
 public:
     /// Moves the divider or the camera of `state`. `size` is the picture's size; `reach` is that of
     /// `moved`. Returns the pixel that was clicked without dragging, if any.
@@ -62,11 +62,10 @@ public:
                                     double reach);
 
 private:
-    enum class MouseDraggedObject { nothing, controls, divider, turning, shifting };
-    MouseDraggedObject begin_drag(const UserInput& inputs, const ViewState& state,
-                                  uvec2 size) const;
+    enum class Dragged { nothing, controls, divider, turning, shifting };
+    Dragged begin_drag(const UserInput& inputs, const ViewState& state, uvec2 size) const;
 
-    MouseDraggedObject holds_ = MouseDraggedObject::nothing;
+    Dragged holds_ = Dragged::nothing;
     dvec2 last_{0}, pressed_{0};
     bool strayed_ = false;
 };

@@ -15,7 +15,7 @@ namespace {
 /// Returns the camera as text for --camera: numbers, or the scene's own camera if numbers do not
 /// describe it fully. The scene's camera is given by a unique name, because a scene file may order
 /// cameras otherwise.
-std::string make_camera_option_text(const scene::Scene& scene, const scene::Camera& camera) {
+std::string camera_option(const scene::Scene& scene, const scene::Camera& camera) {
     std::string text = scene::format_camera(camera);
     try {
         scene::Camera typed = scene::find_camera(text, {});
@@ -31,8 +31,8 @@ std::string make_camera_option_text(const scene::Scene& scene, const scene::Came
 }
 
 /// Returns "view-1", or the first such name for which no file with any of the extensions exists.
-std::filesystem::path find_free_file_name(const std::string& stem,
-                                          const std::vector<std::string>& extensions) {
+std::filesystem::path find_free_name(const std::string& stem,
+                                     const std::vector<std::string>& extensions) {
     for (int i = 1;; ++i) {
         const std::string name = stem + "-" + std::to_string(i);
         const auto exists = [&](const std::string& extension) {
@@ -45,26 +45,24 @@ std::filesystem::path find_free_file_name(const std::string& stem,
 
 /// Returns the plan without the settings for single mirrors, because another scene has other
 /// mirrors.
-EditedPlanState remove_mirror_settings(EditedPlanState plan) {
+EditedPlan remove_mirror_settings(EditedPlan plan) {
     plan.own.clear();
-    return plan.typed.empty() || plan.typed == "auto" ? plan : EditedPlanState{};
+    return plan.typed.empty() || plan.typed == "auto" ? plan : EditedPlan{};
 }
 
 } // namespace
 
 void ViewLoop::show_message(const std::string& text) {
     state_.said = text;
-    cli::print_note_unless_quiet(view_options_.common.output_options, text);
+    cli::print_note(options_.common.output_options, text);
 }
 
 std::string ViewLoop::command() const {
-    std::vector<std::string> words = view_options_.words;
-    const std::vector<std::string> roughness = make_roughness_option_words(request_.scene,
-                                                                           state_.roughness);
+    std::vector<std::string> words = options_.words;
+    const std::vector<std::string> roughness = roughness_words(request_.scene, state_.roughness);
     words.insert(std::ranges::find(words, "--"), roughness.begin(), roughness.end());
-    return make_render_command(words, state_,
-                               make_camera_option_text(request_.scene, state_.camera),
-                               viewer_->make_frame_spec().size);
+    return render_command(words, state_, camera_option(request_.scene, state_.camera),
+                          viewer_->make_frame_spec().size);
 }
 
 void ViewLoop::select_camera(std::size_t index) {
@@ -72,7 +70,7 @@ void ViewLoop::select_camera(std::size_t index) {
     if (!cameras.empty()) state_.camera = cameras[index % cameras.size()];
 }
 
-void ViewLoop::perform_key_action(const KeyBinding& key) {
+void ViewLoop::perform(const KeyBinding& key) {
     ScenePlayback& motion = state_.motion;
     const std::vector<scene::Camera>& cameras = request_.scene.cameras;
     switch (key.act) {
@@ -85,10 +83,10 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
     case KeyAction::gain: state_.gain = state_.gain >= 64 ? 1 : 2 * state_.gain; break;
     case KeyAction::mode: state_.mode = static_cast<ViewMode>(key.mode); break;
     case KeyAction::quit: ends_ = true; break;
-    case KeyAction::copy: perform_panel_requests({.copies = true}); break;
-    case KeyAction::picture: perform_panel_requests({.writes = true}); break;
-    case KeyAction::save_plan: perform_panel_requests({.saves_plan = true}); break;
-    case KeyAction::cut: perform_panel_requests({.cuts = true}); break;
+    case KeyAction::copy: perform_requests({.copies = true}); break;
+    case KeyAction::picture: perform_requests({.writes = true}); break;
+    case KeyAction::save_plan: perform_requests({.saves_plan = true}); break;
+    case KeyAction::cut: perform_requests({.cuts = true}); break;
     case KeyAction::against:
         state_.against = state_.against == ComparisonPicture::other ? ComparisonPicture::reference
                                                                     : ComparisonPicture::other;
@@ -106,23 +104,23 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
     }
 }
 
-void ViewLoop::perform_panel_requests(const PanelButtonRequests& wants) try {
-    if (wants.cuts) viewer_->discard_frame_history();
+void ViewLoop::perform_requests(const PanelRequests& wants) try {
+    if (wants.cuts) viewer_->discard_history();
     if (wants.camera) select_camera(*wants.camera);
     if (wants.copies) {
         window_.copy_to_clipboard(command());
         show_message("copied: " + command());
     }
     if (wants.writes) {
-        const std::string name = find_free_file_name("view", {".png", ".exr"});
+        const std::string name = find_free_name("view", {".png", ".exr"});
         viewer_->write_picture(name + ".png");
         viewer_->write_picture(name + ".exr");
         show_message("written: " + name + ".png, " + name + ".exr");
     }
     if (wants.saves_plan) {
-        const EditedPlanState plan = resolve_plan_by_mirror(state_.plan, entries_);
+        const EditedPlan plan = resolve_plan(state_.plan, entries_);
         check(plan.typed.empty(), Failure::usage, "a plan is saved once it was drawn");
-        const std::string file = find_free_file_name("view-plan", {".json"}).string() + ".json";
+        const std::string file = find_free_name("view-plan", {".json"}).string() + ".json";
         write_file(file, plan_to_json(plan));
         show_message("written: " + file);
     }
@@ -134,22 +132,21 @@ void ViewLoop::perform_panel_requests(const PanelButtonRequests& wants) try {
 /// Loads another scene in place of this one. If the scene cannot be read or does not fit the
 /// device, the current scene stays.
 void ViewLoop::load(const std::string& file) {
-    const ViewOptions options = view_options_;
+    const ViewOptions options = options_;
     const session::Request request = request_;
     const ViewState state = state_;
     try {
         const cli::CommonOptions defaults;
-        cli::CommonOptions& common = view_options_.common;
+        cli::CommonOptions& common = options_.common;
         common.scene = file, common.overrides = {};
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
-        view_options_.words = {file};
-        view_options_.audit.clear(); // the certificate of the plan is for the earlier scene
+        options_.words = {file};
+        options_.audit.clear(); // the certificate of the plan is for the earlier scene
         for (const auto& [option, value] : {std::pair{"--device", common.device.name},
                                             {"--device-profile", common.device.profile}})
-            if (!value.empty())
-                view_options_.words.insert(view_options_.words.end(), {option, value});
-        request_ = resolve_view_request(view_options_).request;
+            if (!value.empty()) options_.words.insert(options_.words.end(), {option, value});
+        request_ = resolve_view_request(options_).request;
         state_.plan = remove_mirror_settings(state_.plan),
         state_.other = remove_mirror_settings(state_.other);
         state_.roughness.clear();
@@ -158,7 +155,7 @@ void ViewLoop::load(const std::string& file) {
         show_message("loaded: " + file);
     } catch (const Error& error) {
         const bool is_open = viewer_ != nullptr && viewer_->viewer_engine().usable();
-        view_options_ = options, request_ = request, state_ = state;
+        options_ = options, request_ = request, state_ = state;
         if (!is_open) open(SceneChangeOrigin::same);
         show_message(error.what());
     }

@@ -17,7 +17,7 @@ namespace catoptric::view {
 namespace {
 
 /// Returns the diagonal of the scene's bounds, in world units.
-double compute_scene_diagonal(const scene::Scene& scene) {
+double scene_diagonal(const scene::Scene& scene) {
     const Bounds<double> bounds = scene::bounds(scene);
     return bounds.empty() ? 1 : std::max(glm::length(bounds.hi - bounds.lo), 1e-9);
 }
@@ -25,13 +25,12 @@ double compute_scene_diagonal(const scene::Scene& scene) {
 } // namespace
 
 ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
-    : view_options_(options), driver_(driver),
-      settings_(is_user_simulated() ? SavedViewerSettings()
-                                    : load_viewer_settings(settings_file_path())),
-      request_(resolve_view_request(options).request), window_("Catoptric", initial_window_size()),
+    : options_(options), driver_(driver),
+      settings_(is_simulated() ? ViewerSettings() : load_settings(settings_file())),
+      request_(resolve_view_request(options).request), window_("Catoptric", initial_size()),
       controls_(window_) {
-    state_.plan = parse_plan_text(options.technique);
-    state_.other = parse_plan_text("raytrace");
+    state_.plan = parse_plan(options.technique);
+    state_.other = parse_plan("raytrace");
     state_.shows_panels = settings_.shows_panels, state_.flies = settings_.flies;
     state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
     state_.model = request_.model;
@@ -42,14 +41,14 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
 /// Starts the audit for which the options name a file of plans.
 void ViewLoop::start_audit() {
     audit_.reset();
-    if (view_options_.audit.empty()) return;
+    if (options_.audit.empty()) return;
     study::AuditOptions options;
-    options.every = view_options_.audit_every;
-    options.most_time = view_options_.audit_percent / 100;
-    options.before_audit = [this] { viewer_->collect_finished_frames(0); };
-    audit_.emplace(view_options_.audit, std::move(options));
+    options.every = options_.audit_every;
+    options.most_time = options_.audit_percent / 100;
+    options.before_audit = [this] { viewer_->collect_frames(0); };
+    audit_.emplace(options_.audit, std::move(options));
     if (!audit_->is_for(request_.scene))
-        cli::print_warning("--audit " + view_options_.audit +
+        cli::print_warning("--audit " + options_.audit +
                            ": its plans were proved for another scene");
     audit_->prepare(viewer_->viewer_session(), request_);
 }
@@ -57,39 +56,39 @@ void ViewLoop::start_audit() {
 /// Audits the last frame before the next frame is rendered. After an alarm, changes the plan of the
 /// window.
 void ViewLoop::audit_last_frame(const UserInput& inputs) {
-    seconds_ += is_user_simulated() ? kFrameStepSeconds : inputs.seconds;
+    seconds_ += is_simulated() ? kFrameStepSeconds : inputs.seconds;
     if (!audit_) return;
     if (viewer_->cut_count() != audited_cuts_) audit_->wait_until_settled();
     audited_cuts_ = viewer_->cut_count();
     const study::AuditState audited = viewer_->audit_last_frame(*audit_, seconds_);
-    if (audited.has_new_plan) state_.plan = parse_plan_text(audit_->plan());
+    if (audited.has_new_plan) state_.plan = parse_plan(audit_->plan());
     if (!audited.message.empty()) show_message(audited.message);
 }
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop
 /// units.
-uvec2 ViewLoop::initial_window_size() const {
+uvec2 ViewLoop::initial_size() const {
     const bool is_size_said = std::ranges::any_of(
-        view_options_.words, [](const std::string& word) { return word.starts_with("--size"); });
+        options_.words, [](const std::string& word) { return word.starts_with("--size"); });
     if (!is_size_said && settings_.window.x > 0) return settings_.window;
-    return view_options_.common.size + uvec2(settings_.shows_panels ? kPanelWidth : 0, 0);
+    return options_.common.size + uvec2(settings_.shows_panels ? kPanelWidth : 0, 0);
 }
 
 /// Opens engine, screen and session for the requested scene.
 void ViewLoop::open(SceneChangeOrigin scene) {
     viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
-    const session::EngineOptions options = cli::make_engine_options(view_options_.common.device);
+    const session::EngineOptions options = cli::engine_options(options_.common.device);
     viewer_ = std::make_unique<SceneViewer>(window_, options, request_);
-    controls_.upload_overlay_font(viewer_->window_screen());
+    controls_.upload_font(viewer_->screen());
     if (scene == SceneChangeOrigin::same) return; // the state stays the same
-    cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.output_options);
+    cli::print_device(viewer_->viewer_engine(), options_.common.output_options);
     session::resolve_exposure(viewer_->viewer_session(), request_);
     state_.camera = request_.camera;
     state_.exposure = request_.exposure;
     state_.motion.time = request_.time;
     state_.motion.plays = request_.animate;
-    reach_ = compute_scene_diagonal(request_.scene);
+    reach_ = scene_diagonal(request_.scene);
     period_ = scene::scene_period(request_.scene);
     good_ = state_;
 }
@@ -97,16 +96,15 @@ void ViewLoop::open(SceneChangeOrigin scene) {
 /// Renders a frame of the state.
 void ViewLoop::render(const UserInput& inputs, session::WindowOverlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
-    const uvec2 size = is_user_simulated() && is_first &&
-                               state_.shows_panels == settings_.shows_panels
+    const uvec2 size = is_simulated() && is_first && state_.shows_panels == settings_.shows_panels
                            ? request_.size
                            : choose_picture_size(last_, state_.shows_panels);
-    const bool is_seen = inputs.window != uvec2(0) && viewer_->window_screen().fit(inputs.window);
-    waits_ = !is_seen && !is_user_simulated();
+    const bool is_seen = inputs.window != uvec2(0) && viewer_->screen().fit(inputs.window);
+    waits_ = !is_seen && !is_simulated();
     if (waits_) return;
     viewer_->render_frame(state_, size, std::move(overlay), is_seen);
     good_ = state_, losses_ = 0;
-    const std::string text = technique_text_of_plan(state_.plan) + " " +
+    const std::string text = technique_text(state_.plan) + " " +
                              std::to_string(viewer_->cut_count());
     if (text != entries_of_) { // a suggested plan may change after each cut
         entries_ = state_.plan.typed.empty() ? std::vector<PlanEntry>() : viewer_->entries();
@@ -117,7 +115,7 @@ void ViewLoop::render(const UserInput& inputs, session::WindowOverlay overlay) {
 /// Recovers from an error. After a refused frame, it restores the state of the last good frame.
 /// After a device loss, it opens engine, screen and session again. Must be called while `error` is
 /// handled, and rethrows it if recovery fails.
-void ViewLoop::recover_from_error(const Error& error) {
+void ViewLoop::recover(const Error& error) {
     constexpr int kMaxDeviceLosses = 2; // device losses without a frame in between
     const auto asked = [](const ViewState& state) {
         return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
@@ -142,16 +140,15 @@ void ViewLoop::recover_from_error(const Error& error) {
 
 void ViewLoop::show_frame(const UserInput& inputs) {
     audit_last_frame(inputs);
-    PanelButtonRequests wants;
+    PanelRequests wants;
     controls_.begin(glm::max(last_, uvec2(1)), inputs);
-    draw_control_panels(state_,
-                        {request_.scene, *viewer_, entries_, period_, audit_ ? &*audit_ : nullptr},
-                        last_, wants);
+    draw_panels(state_, {request_.scene, *viewer_, entries_, period_, audit_ ? &*audit_ : nullptr},
+                last_, wants);
     session::WindowOverlay overlay = controls_.end();
-    perform_panel_requests(wants);
+    perform_requests(wants);
     render(inputs, std::move(overlay));
     ++frame_;
-    if (viewer_->window_screen().lost()) {
+    if (viewer_->screen().lost()) {
         cli::print_warning("the window's surface was lost; a new session is made");
         open(SceneChangeOrigin::same);
     }
@@ -159,57 +156,56 @@ void ViewLoop::show_frame(const UserInput& inputs) {
 }
 
 /// Runs one frame, which may be refused. Returns false after the last frame.
-bool ViewLoop::run_one_frame() try {
+bool ViewLoop::run_frame() try {
     UserInput inputs = window_.poll_events(waits_);
-    inputs.on_controls = controls_.does_panel_take_mouse();
-    if (controls_.does_panel_take_keyboard()) inputs.acts.clear(), inputs.flies = {};
+    inputs.on_controls = controls_.takes_mouse();
+    if (controls_.takes_keyboard()) inputs.acts.clear(), inputs.flies = {};
     if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
     if (frame_ == 0) first_ = inputs.window;
     if (inputs.window != uvec2(0)) last_ = inputs.window, scale_ = inputs.scale;
-    for (const KeyBinding& key : inputs.acts) perform_key_action(key);
+    for (const KeyBinding& key : inputs.acts) perform(key);
     for (const std::string& file : inputs.dropped) load(file);
     const uvec2 size = choose_picture_size(last_, state_.shows_panels);
     if (const auto clicked = hand_.apply_drag(inputs, state_, size, reach_))
-        state_.chosen = viewer_->mirror_number_at_pixel(*clicked);
-    if (is_user_simulated() && state_.motion.plays)
+        state_.chosen = viewer_->mirror_at(*clicked);
+    if (is_simulated() && state_.motion.plays)
         state_.motion.time = request_.instant(static_cast<int>(frame_) + 1);
     else
-        state_.motion.time = advance_playback_time(state_.motion, inputs.seconds);
+        state_.motion.time = advance_time(state_.motion, inputs.seconds);
     if (ends_ || inputs.closes || cli::stop_on_signals().load() != 0) return false;
-    if (inputs.window == uvec2(0) && !is_user_simulated()) {
+    if (inputs.window == uvec2(0) && !is_simulated()) {
         waits_ = true; // minimised: no frame is rendered until the window comes back
         return true;
     }
     show_frame(inputs);
-    return !is_user_simulated() || frame_ < static_cast<std::size_t>(*view_options_.common.frames);
+    return !is_simulated() || frame_ < static_cast<std::size_t>(*options_.common.frames);
 } catch (const Error& error) {
-    recover_from_error(error);
+    recover(error);
     return true;
 }
 
 /// Prints the times of the last frames, with -v.
 void ViewLoop::print_times() const {
-    const TimeStatistics& times = viewer_->time_statistics();
-    std::vector<TimeTableRow> lines = times.list_pass_times();
-    for (const TimeTableRow& line : times.host()) lines.push_back(line);
+    const TimeStatistics& times = viewer_->times();
+    std::vector<TimeRow> lines = times.list_pass_times();
+    for (const TimeRow& line : times.host()) lines.push_back(line);
     lines.push_back(times.gpu());
     lines.push_back(times.frame());
-    for (const TimeTableRow& line : lines)
-        cli::print_detail_if_verbose(view_options_.common.output_options,
-                                     fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
+    for (const TimeRow& line : lines)
+        cli::print_detail(options_.common.output_options,
+                          fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
 
-int ViewLoop::finish_view_run() {
+int ViewLoop::finish() {
     print_times();
-    if (audit_)
-        cli::print_note_unless_quiet(view_options_.common.output_options, audit_->describe());
-    if (!view_options_.screenshot.empty()) viewer_->write_picture(view_options_.screenshot);
-    if (view_options_.common.device.validate) viewer_->viewer_engine().check_validation();
-    if (is_user_simulated()) return 0;
+    if (audit_) cli::print_note(options_.common.output_options, audit_->describe());
+    if (!options_.screenshot.empty()) viewer_->write_picture(options_.screenshot);
+    if (options_.common.device.validate) viewer_->viewer_engine().check_validation();
+    if (is_simulated()) return 0;
     try {
-        save_viewer_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels,
-                              state_.flies, state_.motion.speed, state_.gain},
-                             settings_file_path());
+        save_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels, state_.flies,
+                       state_.motion.speed, state_.gain},
+                      settings_file());
     } catch (const Error& error) { // no reason for the whole run to fail
         cli::print_warning(error.what());
     }
@@ -219,22 +215,22 @@ int ViewLoop::finish_view_run() {
 int ViewLoop::run() {
     constexpr unsigned kMostSecondsAfterSignal = 2;
     cli::limit_time_after_signal(kMostSecondsAfterSignal);
-    while (run_one_frame()) {
+    while (run_frame()) {
     }
-    const int code = finish_view_run();
+    const int code = finish();
     const int signal = cli::stop_on_signals().load();
     return signal == 0 ? code : 128 + signal;
 }
 
-int run_view_window(const ViewOptions& options, const SimulatedUser& driver) {
+int run_window(const ViewOptions& options, const SimulatedUser& driver) {
     return ViewLoop(options, driver).run();
 }
 
-int run_view_program(int argc, char** argv) {
+int run_program(int argc, char** argv) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    return cli::run_program_catching_errors("catoptric-view", [&] {
-        return parse_view_command(
-            words, [](const ViewOptions& options) { return run_view_window(options); })();
+    return cli::run_catching("catoptric-view", [&] {
+        return parse_view_command(words,
+                                  [](const ViewOptions& options) { return run_window(options); })();
     });
 }
 

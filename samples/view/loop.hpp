@@ -23,9 +23,9 @@ struct SimulatedUser {
 };
 
 /// Runs the window from opening to closing. Returns the exit code. Throws as its parts do.
-int run_view_window(const ViewOptions& options, const SimulatedUser& driver = {});
+int run_window(const ViewOptions& options, const SimulatedUser& driver = {});
 
 /// Runs the whole program and turns errors into exit codes. May be called once per process.
-int run_view_program(int argc, char** argv);
+int run_program(int argc, char** argv);
 
 } // namespace catoptric::view

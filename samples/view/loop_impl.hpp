@@ -15,34 +15,34 @@ public:
     int run();
 
 private:
-    bool is_user_simulated() const { return view_options_.common.frames.has_value(); }
-    uvec2 initial_window_size() const;
+    bool is_simulated() const { return options_.common.frames.has_value(); }
+    uvec2 initial_size() const;
     enum class SceneChangeOrigin { another, same };
     void open(SceneChangeOrigin scene);
-    bool run_one_frame();
-    void perform_key_action(const KeyBinding& key);
-    void perform_panel_requests(const PanelButtonRequests& wants);
+    bool run_frame();
+    void perform(const KeyBinding& key);
+    void perform_requests(const PanelRequests& wants);
     void load(const std::string& file);
     void start_audit();
     void show_frame(const UserInput& inputs);
     void render(const UserInput& inputs, session::WindowOverlay overlay);
     void audit_last_frame(const UserInput& inputs);
-    void recover_from_error(const Error& error);
+    void recover(const Error& error);
     void show_message(const std::string& text);
     std::string command() const;
     void select_camera(std::size_t index);
     void print_times() const;
-    int finish_view_run();
+    int finish();
 
-    ViewOptions view_options_;
+    ViewOptions options_;
     const SimulatedUser& driver_;
-    SavedViewerSettings settings_;
+    ViewerSettings settings_;
     session::Request request_;
     ViewState state_, good_; ///< good: state of the last frame that could be rendered
     ViewWindow window_;
     ImGuiControls controls_;
     std::unique_ptr<SceneViewer> viewer_;
-    MouseDragState hand_;
+    MouseDrag hand_;
     std::vector<PlanEntry> entries_;
     std::string entries_of_;
     uvec2 first_, last_{0, 0}; ///< window sizes: at the start and last seen

@@ -10,4 +10,4 @@ namespace {
 
 } // namespace
 
-int main(int argc, char** argv) { return catoptric::view::run_view_program(argc, argv); }
+int main(int argc, char** argv) { return catoptric::view::run_program(argc, argv); }

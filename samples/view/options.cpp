@@ -29,7 +29,7 @@ void check_screenshot_options(const ViewOptions& options) {
     check(options.screenshot.ends_with(".exr") || options.screenshot.ends_with(".png"),
           Failure::usage, "--screenshot: wanted a name ending in .exr or .png, found '",
           options.screenshot, "'");
-    cli::check_file_can_be_made(options.screenshot);
+    cli::check_output_file(options.screenshot);
 }
 
 /// Returns the technique or plan that the window shows first.
@@ -42,10 +42,10 @@ std::string choose_first_technique(const ViewOptions& options) {
         return study::PlanAudit(options.audit).plan();
     }
     if (!is_given) drawn.technique = "secant";
-    return check_technique_choice(drawn, "catoptric-view");
+    return check_choice(drawn, "catoptric-view");
 }
 
-void add_audit_options(cli::CommandVerb& verb, ViewOptions& options) {
+void add_audit_options(cli::Verb& verb, ViewOptions& options) {
     verb.option("--audit", "FILE",
                 "run the plan of this file of 'catoptric choose', compare drawn frames with ray "
                 "tracing, and change to a surer plan if too many break the limit",
@@ -71,7 +71,7 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
         "catoptric-view " + session::version() + " (" + session::commit() + ")", kViewExamples);
     const auto options = std::make_shared<ViewOptions>();
     options->words = words;
-    cli::CommandVerb& verb = program->only_command_verb();
+    cli::Verb& verb = program->only_verb();
     add_technique_options(verb, options->drawn);
     verb.option("--screenshot", "OUT",
                 "file OUT.png or OUT.exr for the picture of the last of --frames, without controls",
@@ -79,7 +79,7 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
     add_audit_options(verb, *options);
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
-    verb.set_verb_action([options, run] {
+    verb.action([options, run] {
         options->technique = choose_first_technique(*options);
         check(!options->common.both_models, Failure::usage,
               "--model both: wanted everything or required, of which a picture has one");
@@ -92,12 +92,11 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
 }
 
 cli::ResolvedRequest resolve_view_request(const ViewOptions& options) {
-    cli::ResolvedRequest asked = make_resolved_request(options.common);
+    cli::ResolvedRequest asked = resolve_request(options.common);
     session::Request& request = asked.request;
     request.techniques = {options.technique};
     request.model = options.common.model.value_or(session::RenderedWork::required);
-    if (!options.screenshot.empty())
-        cli::check_outputs_differ_from_inputs({options.screenshot}, request.scene.files);
+    if (!options.screenshot.empty()) cli::check_distinct({options.screenshot}, request.scene.files);
     return asked;
 }
 

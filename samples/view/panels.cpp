@@ -19,7 +19,7 @@ void draw_mode_controls(ViewState& state) {
     for (int i = 0; i < kViewModeCount; ++i) {
         const auto mode = static_cast<ViewMode>(i);
         if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * 115);
-        if (ImGui::RadioButton(view_mode_name(mode), state.mode == mode)) state.mode = mode;
+        if (ImGui::RadioButton(mode_name(mode), state.mode == mode)) state.mode = mode;
     }
     const bool compares = state.mode == ViewMode::split || state.mode == ViewMode::difference;
     if (compares) {
@@ -39,7 +39,7 @@ void draw_mode_controls(ViewState& state) {
         state.gain = 1 << power;
     }
     if (state.mode == ViewMode::causes)
-        for (const ErrorCauseLabel& cause : list_cause_labels())
+        for (const CauseLabel& cause : cause_labels())
             if (ImGui::RadioButton(cause.name, state.cause == cause.bit)) state.cause = cause.bit;
     if (state.mode == ViewMode::answers)
         ImGui::TextWrapped(state.plan.typed.empty()
@@ -66,14 +66,12 @@ void draw_playback_controls(ViewState& state, double period) {
     if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
 }
 
-void draw_error_figures(ViewState& state, const SceneViewer& viewer,
-                        const study::PlanAudit* audit) {
+void draw_errors(ViewState& state, const SceneViewer& viewer, const study::PlanAudit* audit) {
     if (audit != nullptr) ImGui::TextWrapped("%s", audit->describe().c_str());
     ImGui::Checkbox("errors against the traced reference", &state.judges);
-    const int passes = viewer.progressive_reference().rendered_pass_count();
+    const int passes = viewer.progressive_reference().pass_count();
     if (passes > 0)
-        ImGui::Text("reference: %d of %d passes", passes,
-                    ProgressiveReference::kMaxReferencePasses);
+        ImGui::Text("reference: %d of %d passes", passes, ProgressiveReference::kMaxPasses);
     if (!viewer.measured_error()) return;
     const measure::Difference& error = *viewer.measured_error();
     ImGui::Text("mirrors: FLIP %.4f  RMSE %.4f", error.flip, error.rmse);
@@ -86,16 +84,15 @@ void draw_culled_work(ViewState& state, const SceneViewer& viewer) {
     ImGui::SameLine();
     ImGui::RadioButton("everything", &model, 0);
     state.model = model ? session::RenderedWork::required : session::RenderedWork::everything;
-    if (viewer.capture_budget_of_technique())
-        ImGui::TextWrapped("%s",
-                           session::describe_budget(*viewer.capture_budget_of_technique()).c_str());
+    if (viewer.capture_budget())
+        ImGui::TextWrapped("%s", session::describe_budget(*viewer.capture_budget()).c_str());
     for (const require::CulledWork& left : viewer.culled_work())
         ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
                            left.saves.c_str());
     if (viewer.culled_work().empty()) ImGui::TextDisabled("nothing is left out");
 }
 
-void draw_action_buttons(PanelButtonRequests& wants) {
+void draw_action_buttons(PanelRequests& wants) {
     wants.copies |= ImGui::Button("copy command");
     ImGui::SameLine();
     wants.writes |= ImGui::Button("screenshot");
@@ -111,7 +108,7 @@ void draw_key_help(uvec2 window) {
         {0, 0}, {static_cast<float>(window.x), static_cast<float>(window.y)});
     ImGui::Begin("Keys", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    for (const KeyBinding& key : list_key_bindings()) {
+    for (const KeyBinding& key : key_bindings()) {
         ImGui::TextUnformatted(key.name);
         ImGui::SameLine(70);
         ImGui::TextUnformatted(key.does);
@@ -125,8 +122,7 @@ void draw_key_help(uvec2 window) {
 
 } // namespace
 
-void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 window,
-                         PanelButtonRequests& wants) {
+void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants) {
     if (state.shows_keys) draw_key_help(window);
     if (!state.shows_panels) return;
     ImGui::SetNextWindowPos({static_cast<float>(window.x) - kPanelWidth, 0});
@@ -134,7 +130,7 @@ void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 win
     ImGui::Begin("Catoptric", nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoTitleBar);
-    const TimeStatistics& times = seen.viewer.time_statistics();
+    const TimeStatistics& times = seen.viewer.times();
     ImGui::Text("%s  %.1f ms a frame, %.1f FPS", seen.scene.name.c_str(), times.frame().median,
                 times.fps());
     draw_action_buttons(wants);
@@ -143,7 +139,7 @@ void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 win
         return ImGui::CollapsingHeader(name, is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     };
     if (section("View")) draw_mode_controls(state);
-    if (section("Errors")) draw_error_figures(state, seen.viewer, seen.audit);
+    if (section("Errors")) draw_errors(state, seen.viewer, seen.audit);
     if (section("Plan")) draw_plan_controls(state, seen.scene, seen.entries);
     if (section("Motion")) draw_playback_controls(state, seen.period);
     if (section("Times")) draw_frame_times(seen.viewer);

@@ -6,7 +6,7 @@
 namespace catoptric::view {
 
 /// Data that panels show in addition to the state.
-struct PanelShownData {
+struct PanelData {
     const scene::Scene& scene;
     const SceneViewer& viewer;
     const std::vector<PlanEntry>& entries; ///< entries of the plan as the user typed it
@@ -15,22 +15,21 @@ struct PanelShownData {
 };
 
 /// Requests from the buttons of the panels.
-struct PanelButtonRequests {
+struct PanelRequests {
     bool copies = false, writes = false, saves_plan = false, cuts = false;
     std::optional<std::size_t> camera; ///< index of a camera in the scene
 };
 
 /// Draws the controls at the right of the window and edits the state. Call between
 /// ImGuiControls::begin and end.
-void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 window,
-                         PanelButtonRequests& wants);
+void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants);
 
-// Parts of draw_control_panels, one file each.
+// Parts of draw_panels, one file each.
 /// `entries` are those of the plan as the user typed it. `scene` is the scene without changes of
 /// roughness.
 void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                         const std::vector<PlanEntry>& entries);
 void draw_frame_times(const SceneViewer& viewer);
-void draw_scene_facts(const scene::Scene& scene, PanelButtonRequests& wants);
+void draw_scene_facts(const scene::Scene& scene, PanelRequests& wants);
 
 } // namespace catoptric::view

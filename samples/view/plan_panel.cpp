@@ -12,7 +12,7 @@ namespace catoptric::view {
 namespace {
 
 void draw_choice_knob(TechniqueSettings& drawing, const session::KnobInfo& knob) {
-    const std::string value = find_knob_value(drawing, knob);
+    const std::string value = knob_value(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
         if (ImGui::Selectable(choice.c_str(), choice == value)) set(drawing, knob, choice);
@@ -22,7 +22,7 @@ void draw_choice_knob(TechniqueSettings& drawing, const session::KnobInfo& knob)
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
 void draw_number_knob(TechniqueSettings& drawing, const session::KnobInfo& knob) {
     constexpr int kMaxSliderRange = 64;
-    const std::string text = find_knob_value(drawing, knob);
+    const std::string text = knob_value(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
     const int low = static_cast<int>(knob.low), high = static_cast<int>(knob.high);
     int value = is_special ? low : std::atoi(text.c_str());
@@ -53,7 +53,7 @@ void draw_number_knob(TechniqueSettings& drawing, const session::KnobInfo& knob)
 }
 
 void draw_knob_controls(TechniqueSettings& drawing) {
-    const session::TechniqueInfo* technique = find_technique_info(drawing.technique);
+    const session::TechniqueInfo* technique = technique_info(drawing.technique);
     if (!technique) return;
     for (const session::KnobInfo& knob : technique->knobs) {
         ImGui::PushID(knob.name.c_str());
@@ -68,7 +68,7 @@ void draw_knob_controls(TechniqueSettings& drawing) {
 
 void draw_technique_controls(TechniqueSettings& drawing) {
     if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
-        for (const session::TechniqueInfo& technique : list_technique_infos()) {
+        for (const session::TechniqueInfo& technique : technique_infos()) {
             if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
                 technique.name != drawing.technique)
                 drawing = {technique.name, {}};
@@ -79,15 +79,14 @@ void draw_technique_controls(TechniqueSettings& drawing) {
     draw_knob_controls(drawing);
 }
 
-void draw_mirror_technique(EditedPlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
+void draw_mirror_technique(EditedPlan& plan, std::uint32_t& chosen, const scene::Scene& scene,
                            const std::vector<PlanEntry>& entries) {
     if (!plan.typed.empty()) {
         ImGui::TextWrapped("%s", plan.typed.c_str());
         for (const PlanEntry& entry : entries)
             ImGui::TextWrapped("%u %s: %s (%s)", entry.mirror, entry.name.c_str(),
                                entry.technique.c_str(), entry.why.c_str());
-        if (ImGui::SmallButton("edit it mirror by mirror"))
-            plan = resolve_plan_by_mirror(plan, entries);
+        if (ImGui::SmallButton("edit it mirror by mirror")) plan = resolve_plan(plan, entries);
         return;
     }
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);

@@ -27,18 +27,18 @@ nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& dr
 
 } // namespace
 
-const std::vector<session::TechniqueInfo>& list_technique_infos() {
+const std::vector<session::TechniqueInfo>& technique_infos() {
     static const std::vector<session::TechniqueInfo> kTechniqueInfos = session::techniques();
     return kTechniqueInfos;
 }
 
-const session::TechniqueInfo* find_technique_info(const std::string& technique) {
-    const auto found = std::ranges::find(list_technique_infos(), technique,
+const session::TechniqueInfo* technique_info(const std::string& technique) {
+    const auto found = std::ranges::find(technique_infos(), technique,
                                          &session::TechniqueInfo::name);
-    return found == list_technique_infos().end() ? nullptr : &*found;
+    return found == technique_infos().end() ? nullptr : &*found;
 }
 
-std::string technique_text_of_settings(const TechniqueSettings& drawing) {
+std::string technique_text(const TechniqueSettings& drawing) {
     std::string text = drawing.technique;
     char before = ':';
     for (const auto& [knob, value] : drawing.knobs) {
@@ -48,37 +48,35 @@ std::string technique_text_of_settings(const TechniqueSettings& drawing) {
     return text;
 }
 
-std::string technique_text_of_plan(const EditedPlanState& plan) {
+std::string technique_text(const EditedPlan& plan) {
     if (!plan.typed.empty()) return plan.typed;
     std::string text;
     for (const auto& [mirror, drawing] : plan.own)
         if (!(drawing == plan.rest))
-            text += std::to_string(mirror) + "=" + technique_text_of_settings(drawing) + " ";
-    return text.empty() ? technique_text_of_settings(plan.rest)
-                        : text + "*=" + technique_text_of_settings(plan.rest);
+            text += std::to_string(mirror) + "=" + technique_text(drawing) + " ";
+    return text.empty() ? technique_text(plan.rest) : text + "*=" + technique_text(plan.rest);
 }
 
-std::vector<std::string> make_plan_option_words(const EditedPlanState& plan) {
+std::vector<std::string> plan_words(const EditedPlan& plan) {
     constexpr std::string_view kPlanFilePrefix = "plan:";
-    const std::string text = technique_text_of_plan(plan);
+    const std::string text = technique_text(plan);
     if (text.starts_with(kPlanFilePrefix)) return {"--plan", text.substr(kPlanFilePrefix.size())};
     return {session::parse_technique(text).technique == "plan" ? "--plan" : "--technique", text};
 }
 
-EditedPlanState parse_plan_text(const std::string& text) {
+EditedPlan parse_plan(const std::string& text) {
     const session::ParsedTechnique choice = session::parse_technique(text);
-    EditedPlanState plan;
-    if (find_technique_info(choice.technique))
+    EditedPlan plan;
+    if (technique_info(choice.technique))
         plan.rest = make_technique_settings(choice.technique, choice.settings);
     else
         plan.typed = text;
     return plan;
 }
 
-EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
-                                       const std::vector<PlanEntry>& entries) {
+EditedPlan resolve_plan(const EditedPlan& plan, const std::vector<PlanEntry>& entries) {
     if (plan.typed.empty() || entries.empty()) return plan;
-    EditedPlanState made;
+    EditedPlan made;
     made.rest = make_technique_settings(entries.front().technique, entries.front().settings);
     for (const PlanEntry& entry : entries) {
         const TechniqueSettings drawing = make_technique_settings(entry.technique, entry.settings);
@@ -94,15 +92,14 @@ void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::s
         drawing.knobs[knob.name] = value;
 }
 
-std::string find_knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob) {
+std::string knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob) {
     const auto found = drawing.knobs.find(knob.name);
     return found == drawing.knobs.end() ? knob.value : found->second;
 }
 
-EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
-                                 const std::string& value) {
+EditedPlan set_knob(EditedPlan plan, const std::string& knob, const std::string& value) {
     const auto change = [&](TechniqueSettings& drawing) {
-        const session::TechniqueInfo* technique = find_technique_info(drawing.technique);
+        const session::TechniqueInfo* technique = technique_info(drawing.technique);
         if (!technique) return;
         const auto known = std::ranges::find(technique->knobs, knob, &session::KnobInfo::name);
         if (known != technique->knobs.end()) set(drawing, *known, value);
@@ -112,7 +109,7 @@ EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
     return plan;
 }
 
-std::string plan_to_json(const EditedPlanState& plan) {
+std::string plan_to_json(const EditedPlan& plan) {
     nlohmann::json rules = nlohmann::json::array();
     for (const auto& [mirror, drawing] : plan.own) rules.push_back(make_rule_json(mirror, drawing));
     rules.push_back(make_rule_json("*", plan.rest));

@@ -17,40 +17,38 @@ struct TechniqueSettings {
     bool operator==(const TechniqueSettings&) const = default;
 };
 
-struct EditedPlanState {
+struct EditedPlan {
     /// Technique of mirrors without an entry in `own`.
     TechniqueSettings rest;
     std::map<std::uint32_t, TechniqueSettings> own; ///< techniques by mirror number, from 1
     /// The plan as the user typed it, unless it lists techniques by mirror number. Examples are
     /// "auto", "plan:FILE" and patterns of names. Empty: the other members define the plan.
     std::string typed;
-    bool operator==(const EditedPlanState&) const = default;
+    bool operator==(const EditedPlan&) const = default;
 };
 
 /// Returns the technique with its knobs, such as "secant:face=64".
-std::string technique_text_of_settings(const TechniqueSettings& drawing);
+std::string technique_text(const TechniqueSettings& drawing);
 /// Returns the plan as session::FrameSpec::techniques takes it.
-std::string technique_text_of_plan(const EditedPlanState& plan);
+std::string technique_text(const EditedPlan& plan);
 /// Returns the words of the options by which `catoptric render` draws the plan.
-std::vector<std::string> make_plan_option_words(const EditedPlanState& plan);
+std::vector<std::string> plan_words(const EditedPlan& plan);
 /// Returns the plan of a command-line text. Throws `usage` as session::parse_technique does.
-EditedPlanState parse_plan_text(const std::string& text);
+EditedPlan parse_plan(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
-EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
-                                       const std::vector<PlanEntry>& entries);
+EditedPlan resolve_plan(const EditedPlan& plan, const std::vector<PlanEntry>& entries);
 /// Sets a knob. Removes its entry if the value is the default.
 void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::string& value);
 /// Returns the value of a knob.
-std::string find_knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob);
+std::string knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
-EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
-                                 const std::string& value);
+EditedPlan set_knob(EditedPlan plan, const std::string& knob, const std::string& value);
 /// Returns the plan as JSON that --plan reads.
-std::string plan_to_json(const EditedPlanState& plan);
+std::string plan_to_json(const EditedPlan& plan);
 
 /// Returns all techniques. The list is built once.
-const std::vector<session::TechniqueInfo>& list_technique_infos();
+const std::vector<session::TechniqueInfo>& technique_infos();
 /// Returns the technique of this name, or null.
-const session::TechniqueInfo* find_technique_info(const std::string& technique);
+const session::TechniqueInfo* technique_info(const std::string& technique);
 
 } // namespace catoptric::view

@@ -38,9 +38,8 @@ void ProgressiveReference::add_pass(const measure::Picture& picture, double expo
     if (has_noise_) judged_ = std::move(mean);
 }
 
-bool ProgressiveReference::render_one_pass(session::Session& session,
-                                           const session::FrameSpec& spec) {
-    if (passes_ == kMaxReferencePasses) return false;
+bool ProgressiveReference::render_pass(session::Session& session, const session::FrameSpec& spec) {
+    if (passes_ == kMaxPasses) return false;
     const auto pass = static_cast<std::uint64_t>(passes_);
     if (passes_++ > 0) {
         // A row with random rays has the seed 0 unless the user sets a seed, so the reference takes
@@ -61,8 +60,8 @@ bool ProgressiveReference::render_one_pass(session::Session& session,
     return true;
 }
 
-measure::Difference ProgressiveReference::compare_with_reference(const measure::Picture& hdr,
-                                                                 double exposure) const {
+measure::Difference ProgressiveReference::compare(const measure::Picture& hdr,
+                                                  double exposure) const {
     const std::vector<float> map = measure::flip(measure::to_unrounded_display(hdr, exposure),
                                                  measure::to_unrounded_display(judged_, exposure));
     return measure::difference(measure::apply_exposure(hdr, exposure),

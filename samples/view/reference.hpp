@@ -15,20 +15,20 @@ namespace catoptric::view {
 /// against the mean of these passes, whose noise they include.
 class ProgressiveReference {
 public:
-    static constexpr int kMaxReferencePasses = 64;
+    static constexpr int kMaxPasses = 64;
 
-    void restart_reference() { *this = {}; }
+    void restart() { *this = {}; }
     /// Renders one more pass outside the session's frame sequence and waits for it. `spec` is that
     /// of the live frame. Returns false if no further pass is needed.
-    bool render_one_pass(session::Session& session, const session::FrameSpec& spec);
-    int rendered_pass_count() const { return passes_; }
+    bool render_pass(session::Session& session, const session::FrameSpec& spec);
+    int pass_count() const { return passes_; }
     /// Returns whether errors can be measured: after a pass, or after 16 if passes have noise.
     bool can_measure_errors() const { return has_noise_ ? passes_ > 16 : passes_ > 0; }
     /// Returns the picture as the screen shows it; null before the first pass.
     std::shared_ptr<const measure::Picture> displayed_picture() const { return display_; }
     /// Returns the errors of a live picture over mirror pixels. Needs can_measure_errors().
     /// Costs one FLIP.
-    measure::Difference compare_with_reference(const measure::Picture& hdr, double exposure) const;
+    measure::Difference compare(const measure::Picture& hdr, double exposure) const;
 
 private:
     void add_pass(const measure::Picture& picture, double exposure);

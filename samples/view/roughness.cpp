@@ -20,7 +20,7 @@ scene::MirrorOverride make_mirror_override(const scene::Material& material) {
 
 } // namespace
 
-void separate_mirror_materials(scene::Scene& scene) {
+void separate_materials(scene::Scene& scene) {
     std::vector<std::size_t> uses(scene.materials.size());
     for (const scene::Object& object : scene.objects) ++uses[object.material];
     for (const std::size_t mirror : scene::mirrors(scene)) {
@@ -49,8 +49,8 @@ scene::Material change_roughness(const scene::Scene& scene, std::uint32_t mirror
     return scene::make_mirror_material(material.name, described);
 }
 
-std::vector<std::string> make_roughness_option_words(const scene::Scene& scene,
-                                                     const MirrorRoughness& roughness) {
+std::vector<std::string> roughness_words(const scene::Scene& scene,
+                                         const MirrorRoughness& roughness) {
     std::vector<std::string> words;
     for (const auto& [mirror, value] : roughness) {
         const scene::Object& object = find_mirror_object(scene, mirror);

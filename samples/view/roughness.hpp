@@ -16,7 +16,7 @@ using MirrorRoughness = std::map<std::uint32_t, float>;
 
 /// Gives each mirror a material of its own, because the window changes mirrors one by one, and
 /// marks the objects as mirrors. All pictures stay the same.
-void separate_mirror_materials(scene::Scene& scene);
+void separate_materials(scene::Scene& scene);
 /// Returns the roughness of a mirror, from 0 (sharp), if the window can change it: its material
 /// must be one that `--mirror NAME=R,roughness=A` makes. A material with textures is not.
 std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uint32_t mirror);
@@ -24,7 +24,7 @@ std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uin
 scene::Material change_roughness(const scene::Scene& scene, std::uint32_t mirror, float roughness);
 /// Returns the words of `--mirror` options that give the mirrors of another scene the same
 /// roughness as the mirrors of `scene`.
-std::vector<std::string> make_roughness_option_words(const scene::Scene& scene,
-                                                     const MirrorRoughness& roughness);
+std::vector<std::string> roughness_words(const scene::Scene& scene,
+                                         const MirrorRoughness& roughness);
 
 } // namespace catoptric::view

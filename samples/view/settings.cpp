@@ -33,7 +33,7 @@ void read_setting_member(const Json& document, const char* name, Value& value,
 
 } // namespace
 
-fs::path settings_file_path() {
+fs::path settings_file() {
     const auto absolute = [](const char* variable) {
         const char* text = std::getenv(variable);
         const fs::path path = text ? text : "";
@@ -44,8 +44,8 @@ fs::path settings_file_path() {
     return home.empty() ? home : home / ".config" / "catoptric" / "view.json";
 }
 
-SavedViewerSettings parse_viewer_settings(const std::string& text) {
-    SavedViewerSettings settings;
+ViewerSettings parse_settings(const std::string& text) {
+    ViewerSettings settings;
     const Json document = Json::parse(text, nullptr, false);
     if (!document.is_object()) return settings;
     const auto any = [](bool) { return true; };
@@ -63,7 +63,7 @@ SavedViewerSettings parse_viewer_settings(const std::string& text) {
     return settings;
 }
 
-std::string serialise_viewer_settings(const SavedViewerSettings& settings) {
+std::string serialise_settings(const ViewerSettings& settings) {
     return Json{{"width", settings.window.x},      {"height", settings.window.y},
                 {"panels", settings.shows_panels}, {"flies", settings.flies},
                 {"speed", settings.speed},         {"gain", settings.gain}}
@@ -71,20 +71,20 @@ std::string serialise_viewer_settings(const SavedViewerSettings& settings) {
            "\n";
 }
 
-SavedViewerSettings load_viewer_settings(const fs::path& file) {
+ViewerSettings load_settings(const fs::path& file) {
     try {
-        if (!file.empty()) return parse_viewer_settings(read_file(file));
+        if (!file.empty()) return parse_settings(read_file(file));
     } catch (const Error&) {
         // No readable file: use defaults.
     }
     return {};
 }
 
-void save_viewer_settings(const SavedViewerSettings& settings, const fs::path& file) {
+void save_settings(const ViewerSettings& settings, const fs::path& file) {
     if (file.empty()) return;
     std::error_code error; // write_file reports a failure
     fs::create_directories(file.parent_path(), error);
-    write_file(file, serialise_viewer_settings(settings));
+    write_file(file, serialise_settings(settings));
 }
 
 } // namespace catoptric::view

@@ -8,24 +8,24 @@
 namespace catoptric::view {
 
 /// Settings that are kept from run to run.
-struct SavedViewerSettings {
+struct ViewerSettings {
     uvec2 window{0, 0}; ///< in desktop units, as Window takes it; 0: never set
     bool shows_panels = true;
     bool flies = false;
     double speed = 1; ///< speed factor of motion
     int gain = 4;     ///< factor on differences
-    bool operator==(const SavedViewerSettings&) const = default;
+    bool operator==(const ViewerSettings&) const = default;
 };
 
 /// Returns the file of the settings: XDG_CONFIG_HOME/catoptric/view.json, or the same below
 /// HOME/.config. Empty if neither is an absolute path.
-std::filesystem::path settings_file_path();
+std::filesystem::path settings_file();
 /// Returns the settings in a file's text. Missing or invalid values get their defaults.
-SavedViewerSettings parse_viewer_settings(const std::string& text);
-std::string serialise_viewer_settings(const SavedViewerSettings& settings);
+ViewerSettings parse_settings(const std::string& text);
+std::string serialise_settings(const ViewerSettings& settings);
 /// Returns the settings in the file, or defaults if the file cannot be read.
-SavedViewerSettings load_viewer_settings(const std::filesystem::path& file);
+ViewerSettings load_settings(const std::filesystem::path& file);
 /// Writes the settings and makes missing folders. Throws as write_file.
-void save_viewer_settings(const SavedViewerSettings& settings, const std::filesystem::path& file);
+void save_settings(const ViewerSettings& settings, const std::filesystem::path& file);
 
 } // namespace catoptric::view

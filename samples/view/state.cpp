@@ -8,14 +8,14 @@
 
 namespace catoptric::view {
 
-const char* view_mode_name(ViewMode mode) {
+const char* mode_name(ViewMode mode) {
     constexpr std::array kViewModeNames{"plan",    "split",   "difference",
                                         "answers", "numbers", "causes"};
     return kViewModeNames.at(static_cast<std::size_t>(mode));
 }
 
-const std::vector<ErrorCauseLabel>& list_cause_labels() {
-    static const std::vector<ErrorCauseLabel> kCauseLabels{
+const std::vector<CauseLabel>& cause_labels() {
+    static const std::vector<CauseLabel> kCauseLabels{
         {shared::kAblateDistance, "captured distance"},
         {shared::kAblateDirection, "looked-up direction"},
         {shared::kAblateHiddenPoints, "hidden surfaces"},
@@ -31,13 +31,13 @@ bool needs_host_picture(const ViewState& state) {
            (compares && state.against == ComparisonPicture::reference);
 }
 
-ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
-    ShownTechniquesAndPictures shown{
-        {technique_text_of_plan(state.plan)}, session::WindowPictures::Arrangement::one, 0, 0};
+ShownPictures choose_shown_pictures(const ViewState& state) {
+    ShownPictures shown{
+        {technique_text(state.plan)}, session::WindowPictures::Arrangement::one, 0, 0};
     switch (state.mode) {
     case ViewMode::plan: break;
     case ViewMode::answers:
-        shown.techniques = {technique_text_of_plan(set_knob_in_plan(state.plan, "show", "state"))};
+        shown.techniques = {technique_text(set_knob(state.plan, "show", "state"))};
         break;
     case ViewMode::numbers:
     case ViewMode::causes: shown.first = session::WindowPictures::kCanvasPicture; break;
@@ -48,7 +48,7 @@ ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
                          : session::WindowPictures::Arrangement::difference;
         if (state.against == ComparisonPicture::reference) {
             shown.second = session::WindowPictures::kCanvasPicture;
-        } else if (const std::string other = technique_text_of_plan(state.other);
+        } else if (const std::string other = technique_text(state.other);
                    other != shown.techniques[0]) {
             shown.techniques.push_back(other);
             shown.second = 1;
@@ -58,11 +58,11 @@ ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
     return shown;
 }
 
-double advance_playback_time(const ScenePlayback& motion, double seconds) {
+double advance_time(const ScenePlayback& motion, double seconds) {
     return motion.plays ? motion.time + motion.speed * seconds : motion.time;
 }
 
-vec3 mirror_number_colour(std::uint32_t mirror) {
+vec3 mirror_colour(std::uint32_t mirror) {
     if (mirror == 0) return vec3(0);
     // Hues are a golden angle apart. Every other group of eight is paler.
     const float hue = std::fmod(static_cast<float>(mirror - 1) * .381966f, 1.f) * 6;
@@ -74,15 +74,15 @@ vec3 mirror_number_colour(std::uint32_t mirror) {
     return {channel(0), channel(4), channel(2)};
 }
 
-measure::Picture make_mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size) {
+measure::Picture mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size) {
     measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
     for (std::size_t i = 0; i < std::min(hits.size(), picture.pixels.size()); ++i)
-        picture.pixels[i] = mirror_number_colour(hits[i] & 0xFFFFU);
+        picture.pixels[i] = mirror_colour(hits[i] & 0xFFFFU);
     return picture;
 }
 
-measure::Picture make_difference_picture(const measure::Picture& a, const measure::Picture& b,
-                                         float gain) {
+measure::Picture difference_picture(const measure::Picture& a, const measure::Picture& b,
+                                    float gain) {
     measure::Picture picture(a.width, a.height);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         picture.pixels[i] = glm::min(glm::abs(a.pixels[i] - b.pixels[i]) * gain, vec3(1));

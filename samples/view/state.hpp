@@ -22,7 +22,7 @@ enum class ViewMode {
     causes,     ///< change of the picture when a cause of error is removed
 };
 inline constexpr int kViewModeCount = 6;
-const char* view_mode_name(ViewMode mode);
+const char* mode_name(ViewMode mode);
 
 /// The picture that the plan is compared with.
 enum class ComparisonPicture { other, reference };
@@ -36,7 +36,7 @@ struct ScenePlayback {
 inline constexpr double kFrameStepSeconds = 1.0 / 60;
 
 struct ViewState {
-    EditedPlanState plan, other;
+    EditedPlan plan, other;
     ViewMode mode = ViewMode::plan;
     ComparisonPicture against = ComparisonPicture::other;
     double divider = .5;      ///< position as a share of the picture's width
@@ -56,7 +56,7 @@ struct ViewState {
 };
 
 /// The techniques that one frame renders, and the pictures that it shows.
-struct ShownTechniquesAndPictures {
+struct ShownPictures {
     std::vector<std::string> techniques;
     session::WindowPictures::Arrangement kind = session::WindowPictures::Arrangement::one;
     std::size_t first = 0, second = 0; ///< indices of the pictures for session::WindowPictures
@@ -65,24 +65,24 @@ struct ShownTechniquesAndPictures {
 /// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror
 /// numbers, or a cause of error.
 bool needs_host_picture(const ViewState& state);
-ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state);
+ShownPictures choose_shown_pictures(const ViewState& state);
 
 /// A cause of error with its name for the user. Bits are shared::kAblate...
-struct ErrorCauseLabel {
+struct CauseLabel {
     std::uint32_t bit;
     const char* name;
 };
-const std::vector<ErrorCauseLabel>& list_cause_labels();
+const std::vector<CauseLabel>& cause_labels();
 
 /// Returns the scene's time after a frame of this duration. All times are in seconds.
-double advance_playback_time(const ScenePlayback& motion, double seconds);
+double advance_time(const ScenePlayback& motion, double seconds);
 /// Returns a distinct display colour for each mirror number; black for 0.
-vec3 mirror_number_colour(std::uint32_t mirror);
+vec3 mirror_colour(std::uint32_t mirror);
 /// Returns a picture of mirror numbers from the first hits of camera rays
 /// (session::TechniqueResult::hits).
-measure::Picture make_mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size);
+measure::Picture mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size);
 /// Returns the difference of two displayed pictures times `gain`.
-measure::Picture make_difference_picture(const measure::Picture& a, const measure::Picture& b,
-                                         float gain);
+measure::Picture difference_picture(const measure::Picture& a, const measure::Picture& b,
+                                    float gain);
 
 } // namespace catoptric::view

@@ -10,7 +10,7 @@
 namespace catoptric::view {
 
 /// One line of the table of times, in milliseconds.
-struct TimeTableRow {
+struct TimeRow {
     std::string name;
     double median = 0;
     measure::Interval ci95; ///< 95 % interval of the median; unknown below six frames
@@ -23,25 +23,25 @@ public:
 
     /// Times of one frame. `host_ms` covers update, record and submit, measured by the host's
     /// clock. `interval_ms` is the time since the start of the previous frame.
-    struct FrameTimeSample {
+    struct FrameSample {
         session::FrameTimes frame;
         double host_ms = 0, acquire_ms = 0, present_ms = 0, interval_ms = 0;
     };
-    void add(FrameTimeSample sample);
+    void add(FrameSample sample);
     std::size_t frame_count() const { return samples_.size(); }
-    std::vector<TimeTableRow> list_pass_times() const;
+    std::vector<TimeRow> list_pass_times() const;
     /// Returns the times of the host, parts first.
-    std::vector<TimeTableRow> host() const;
-    TimeTableRow gpu() const;
-    TimeTableRow frame() const;
+    std::vector<TimeRow> host() const;
+    TimeRow gpu() const;
+    TimeRow frame() const;
     /// Returns frames per second, from the median of the intervals; 0: unknown.
     double fps() const;
 
 private:
     template <typename Get>
-    TimeTableRow make_time_row(const std::string& name, const Get& get) const;
+    TimeRow time_row(const std::string& name, const Get& get) const;
 
-    std::deque<FrameTimeSample> samples_;
+    std::deque<FrameSample> samples_;
 };
 
 } // namespace catoptric::view

@@ -17,10 +17,10 @@ constexpr std::uint32_t kFramesInFlight = 2;
 constexpr int kFramesUntilCameraRests =
     3; // after this many frames without a change, the camera rests
 constexpr int kUnshownFramesAfterCut = 4; // frames after a cut that are not shown
-constexpr int kFramesUntilErrorsAreMeasured =
+constexpr int kFramesUntilMeasured =
     12; // frames at rest before errors and their causes are measured
 
-double current_milliseconds() {
+double now_ms() {
     return std::chrono::duration<double, std::milli>(
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -29,7 +29,7 @@ double current_milliseconds() {
 /// Returns whether a signal asks the program to end. Work beside the frames then begins no more.
 bool is_stopped() { return cli::stop_on_signals().load() != 0; }
 
-bool do_specs_show_same_picture(const session::FrameSpec& a, const session::FrameSpec& b) {
+bool same_picture(const session::FrameSpec& a, const session::FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
            a.time == b.time && a.exposure == b.exposure && a.model == b.model;
 }
@@ -39,11 +39,11 @@ bool do_specs_show_same_picture(const session::FrameSpec& a, const session::Fram
 SceneViewer::SceneViewer(ViewWindow& window, const session::EngineOptions& options,
                          const session::Request& request) {
     session::EngineHooks hooks;
-    window.add_window_hooks_to_engine(hooks);
+    window.add_hooks(hooks);
     engine_.reset(new session::Engine(session::Access::make_engine(options, hooks)));
     screen_ = std::make_unique<session::WindowScreen>(*engine_);
     given_ = request.scene;
-    separate_mirror_materials(given_);
+    separate_materials(given_);
     session_ = std::make_unique<session::Session>(*engine_, given_, kFramesInFlight);
     spec_ = request;
     budget_ms_ = request.budget_ms;
@@ -55,7 +55,7 @@ std::vector<PlanEntry> SceneViewer::entries() const {
     return last_ ? last_->read().plan : std::vector<PlanEntry>();
 }
 
-void SceneViewer::collect_finished_frames(std::size_t most) {
+void SceneViewer::collect_frames(std::size_t most) {
     while (pending_.size() > most) {
         pending_.front().sample.frame = pending_.front().frame.times();
         times_.add(std::move(pending_.front().sample));
@@ -63,8 +63,8 @@ void SceneViewer::collect_finished_frames(std::size_t most) {
     }
 }
 
-void SceneViewer::discard_frame_history() {
-    collect_finished_frames(0);
+void SceneViewer::discard_history() {
+    collect_frames(0);
     session_->forget();
     was_moved_ = false;
     ++cuts_;
@@ -91,7 +91,7 @@ bool SceneViewer::update_roughness(const MirrorRoughness& roughness) {
 }
 
 /// Updates the frame specification from the state, and counts frames at rest.
-void SceneViewer::update_frame_spec_from_view_state(const ViewState& state, uvec2 size) {
+void SceneViewer::update_spec(const ViewState& state, uvec2 size) {
     session::FrameSpec next = spec_;
     next.techniques = choose_shown_pictures(state).techniques;
     next.camera = state.camera;
@@ -101,13 +101,13 @@ void SceneViewer::update_frame_spec_from_view_state(const ViewState& state, uvec
     next.model = state.model;
     next.budget_ms = state.model == session::RenderedWork::required ? budget_ms_ : 0;
     const bool is_changed = update_roughness(state.roughness);
-    const bool same = do_specs_show_same_picture(next, spec_) && !is_changed;
+    const bool same = same_picture(next, spec_) && !is_changed;
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
                            next.time == spec_.time && next.exposure == spec_.exposure &&
                            !is_changed;
     still_ = same ? still_ + 1 : 0;
     if (!same_view && frames_ > 0) {
-        reference_.restart_reference();
+        reference_.restart();
         was_moved_ = true;
     }
     if (!same) {
@@ -120,9 +120,9 @@ void SceneViewer::update_frame_spec_from_view_state(const ViewState& state, uvec
 /// Works while the view is at rest. When the view comes to rest, a new frame sequence begins, as
 /// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
 /// same bytes. The first frames are not shown, because mirrors do not show each other yet.
-void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
+void SceneViewer::measure_at_rest(const ViewState& state) {
     if (still_ >= kFramesUntilCameraRests && was_moved_ && !state.motion.plays) {
-        discard_frame_history();
+        discard_history();
         for (int k = 0; k < kUnshownFramesAfterCut && !is_stopped(); ++k) {
             last_ = session_->frame(spec_);
             if (!session::Access::remembers(*last_)) break;
@@ -131,38 +131,38 @@ void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
                           state.against == ComparisonPicture::reference;
     if (still_ >= kFramesUntilCameraRests && (compares || state.judges) && !is_stopped()) {
-        collect_finished_frames(0); // frames outside the sequence use the slots of earlier frames
-        reference_.render_one_pass(*session_, spec_);
+        collect_frames(0); // frames outside the sequence use the slots of earlier frames
+        reference_.render_pass(*session_, spec_);
     }
     // A picture that paints search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
-    if (still_ >= kFramesUntilErrorsAreMeasured && !waits && state.judges &&
+    if (still_ >= kFramesUntilMeasured && !waits && state.judges &&
         state.mode != ViewMode::answers && !error_ && reference_.can_measure_errors() &&
         !is_stopped()) {
         last_ = session_->frame(spec_);
-        error_ = reference_.compare_with_reference(last_->hdr(), spec_.exposure);
+        error_ = reference_.compare(last_->hdr(), spec_.exposure);
     }
 }
 
-std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const ViewState& state) {
+std::shared_ptr<const measure::Picture> SceneViewer::host_picture(const ViewState& state) {
     if (state.mode == ViewMode::split || state.mode == ViewMode::difference)
         return reference_.displayed_picture();
     const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
                          made_gain_ == state.gain;
     if (is_made) return made_;
     if (is_stopped()) return nullptr;
-    if (state.mode == ViewMode::causes && still_ < kFramesUntilErrorsAreMeasured) return nullptr;
+    if (state.mode == ViewMode::causes && still_ < kFramesUntilMeasured) return nullptr;
     made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
-    collect_finished_frames(0);
+    collect_frames(0);
     if (state.mode == ViewMode::numbers) {
         made_ = std::make_shared<measure::Picture>(
-            make_mirror_number_picture(render_mirror_hits(*session_, spec_), spec_.size));
+            mirror_number_picture(render_mirror_hits(*session_, spec_), spec_.size));
         return made_;
     }
     session::FrameSpec aside = spec_;
     aside.keeps_history = true;
     const measure::Picture as_it_is = session_->frame(aside).read().display;
-    made_ = std::make_shared<measure::Picture>(make_difference_picture(
+    made_ = std::make_shared<measure::Picture>(difference_picture(
         as_it_is,
         session::Access::render_frame(*session_, aside, {.ablated = state.cause}).read().display,
         static_cast<float>(state.gain)));
@@ -171,9 +171,9 @@ std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const Vie
 
 void SceneViewer::render_frame(const ViewState& state, uvec2 size, session::WindowOverlay overlay,
                                bool is_seen) {
-    update_frame_spec_from_view_state(state, size);
-    measure_errors_when_camera_rests(state);
-    const ShownTechniquesAndPictures what = choose_shown_pictures(state);
+    update_spec(state, size);
+    measure_at_rest(state);
+    const ShownPictures what = choose_shown_pictures(state);
     showing_ = {what.kind,
                 what.first,
                 what.second,
@@ -181,19 +181,19 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, session::Wind
                 static_cast<float>(state.gain),
                 nullptr,
                 std::move(overlay)};
-    if (needs_host_picture(state)) showing_.canvas = make_host_picture(state);
+    if (needs_host_picture(state)) showing_.canvas = host_picture(state);
     if (!showing_.canvas) { // not made yet: show the plan's picture
         if (showing_.first == session::WindowPictures::kCanvasPicture) showing_.first = 0;
         if (showing_.second == session::WindowPictures::kCanvasPicture) showing_.second = 0;
     }
-    collect_finished_frames(kFramesInFlight - 1);
-    const double begin = current_milliseconds();
+    collect_frames(kFramesInFlight - 1);
+    const double begin = now_ms();
     session::Frame made = is_seen ? session::Access::show(*session_, spec_, *screen_, showing_)
                                   : session_->frame(spec_);
-    TimeStatistics::FrameTimeSample sample;
+    TimeStatistics::FrameSample sample;
     if (is_seen)
         sample.acquire_ms = screen_->acquire_ms(), sample.present_ms = screen_->present_ms();
-    sample.host_ms = current_milliseconds() - begin - sample.acquire_ms - sample.present_ms;
+    sample.host_ms = now_ms() - begin - sample.acquire_ms - sample.present_ms;
     sample.interval_ms = frames_ > 0 ? begin - began_ : 0;
     began_ = begin;
     last_ = made;
@@ -208,9 +208,9 @@ study::AuditState SceneViewer::audit_last_frame(study::PlanAudit& audit, double 
     return audit.watch_frame(*session_, *last_, spec_, seconds);
 }
 
-std::uint32_t SceneViewer::mirror_number_at_pixel(uvec2 pixel) {
+std::uint32_t SceneViewer::mirror_at(uvec2 pixel) {
     if (frames_ == 0) return 0;
-    collect_finished_frames(0);
+    collect_frames(0);
     const std::vector<std::uint32_t> hits = render_mirror_hits(*session_, spec_);
     const std::size_t at = std::size_t{pixel.y} * spec_.size.x + pixel.x;
     return at < hits.size() ? hits[at] & 0xFFFFU : 0;
@@ -225,7 +225,7 @@ void SceneViewer::write_picture(const std::filesystem::path& file) const {
     };
     measure::Picture shown = picture(showing_.first);
     if (showing_.kind == session::WindowPictures::Arrangement::difference)
-        shown = make_difference_picture(shown, picture(showing_.second), showing_.gain);
+        shown = difference_picture(shown, picture(showing_.second), showing_.gain);
     if (showing_.kind == session::WindowPictures::Arrangement::split) {
         const measure::Picture right = picture(showing_.second);
         for (int y = 0; y < shown.height; ++y)

@@ -24,27 +24,25 @@ public:
     /// Waits for frames in flight.
     ~SceneViewer();
 
-    session::WindowScreen& window_screen() { return *screen_; }
+    session::WindowScreen& screen() { return *screen_; }
     session::Session& viewer_session() { return *session_; }
     session::Engine& viewer_engine() { return *engine_; }
-    const TimeStatistics& time_statistics() const { return times_; }
+    const TimeStatistics& times() const { return times_; }
     const ProgressiveReference& progressive_reference() const { return reference_; }
     const std::optional<measure::Difference>& measured_error() const { return error_; }
     /// Returns how each mirror was drawn in the last frame. `culled_work` returns its culled work.
     std::vector<PlanEntry> entries() const;
     const std::vector<require::CulledWork>& culled_work() const { return left_out_; }
     /// Returns the capture budget of the first technique, if there is one.
-    const std::optional<session::CaptureBudget>& capture_budget_of_technique() const {
-        return capture_budget_;
-    }
+    const std::optional<session::CaptureBudget>& capture_budget() const { return capture_budget_; }
 
     /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
     void render_frame(const ViewState& state, uvec2 size, session::WindowOverlay overlay,
                       bool is_seen);
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
-    std::uint32_t mirror_number_at_pixel(uvec2 pixel);
-    void discard_frame_history();
+    std::uint32_t mirror_at(uvec2 pixel);
+    void discard_history();
     /// Audits the last frame if the audit selects this frame (study::PlanAudit::watch_frame).
     study::AuditState audit_last_frame(study::PlanAudit& audit, double seconds);
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
@@ -53,17 +51,17 @@ public:
     session::FrameSpec make_frame_spec() const { return spec_; }
     std::size_t cut_count() const { return cuts_; }
     /// Collects the times of the oldest frames until at most `most` are in flight.
-    void collect_finished_frames(std::size_t most);
+    void collect_frames(std::size_t most);
 
 private:
-    void update_frame_spec_from_view_state(const ViewState& state, uvec2 size);
+    void update_spec(const ViewState& state, uvec2 size);
     bool update_roughness(const MirrorRoughness& roughness);
-    void measure_errors_when_camera_rests(const ViewState& state);
-    std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
+    void measure_at_rest(const ViewState& state);
+    std::shared_ptr<const measure::Picture> host_picture(const ViewState& state);
 
     struct FrameInFlight {
         session::Frame frame;
-        TimeStatistics::FrameTimeSample sample;
+        TimeStatistics::FrameSample sample;
     };
 
     std::unique_ptr<session::Engine> engine_;

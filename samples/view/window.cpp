@@ -13,22 +13,22 @@ namespace catoptric::view {
 
 namespace {
 
-std::string read_last_window_error() {
+std::string last_error() {
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "no reason was given";
 }
 
-uvec2 make_size_from_signed_edges(int width, int height) {
+uvec2 make_size(int width, int height) {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
-std::uint64_t make_window_surface(GLFWwindow* window, void* instance) {
+std::uint64_t make_surface(GLFWwindow* window, void* instance) {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult result = glfwCreateWindowSurface(static_cast<VkInstance>(instance), window,
                                                     nullptr, &surface);
     check(result == VK_SUCCESS, Failure::no_device,
-          "the window cannot show pictures by Vulkan: ", read_last_window_error());
+          "the window cannot show pictures by Vulkan: ", last_error());
     return reinterpret_cast<std::uint64_t>(surface);
 }
 
@@ -36,7 +36,7 @@ std::uint64_t make_window_surface(GLFWwindow* window, void* instance) {
 
 /// Callbacks of the window library, called while events are polled.
 struct WindowCallbacks {
-    static UserInput& find_gathered_input(GLFWwindow* window) {
+    static UserInput& input_of(GLFWwindow* window) {
         return static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->gathered_;
     }
     static void on_key_pressed(GLFWwindow* window, int code, int, int action, int) {
@@ -44,15 +44,15 @@ struct WindowCallbacks {
         const auto repeats = [](const KeyBinding& key) {
             return key.act == KeyAction::step || key.act == KeyAction::back;
         };
-        for (const KeyBinding& key : list_key_bindings())
+        for (const KeyBinding& key : key_bindings())
             if (key.code == code && (action == GLFW_PRESS || repeats(key)))
-                find_gathered_input(window).acts.push_back(key);
+                input_of(window).acts.push_back(key);
     }
     static void on_mouse_scrolled(GLFWwindow* window, double, double y) {
-        find_gathered_input(window).wheel += y;
+        input_of(window).wheel += y;
     }
     static void on_files_dropped(GLFWwindow* window, int count, const char** paths) {
-        for (int i = 0; i < count; ++i) find_gathered_input(window).dropped.emplace_back(paths[i]);
+        for (int i = 0; i < count; ++i) input_of(window).dropped.emplace_back(paths[i]);
     }
 };
 
@@ -61,7 +61,7 @@ ViewWindow::ViewWindow(const std::string& title, uvec2 size) {
         fail(Failure::no_device,
              "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures "
              "without (",
-             read_last_window_error(), ")");
+             last_error(), ")");
     if (!glfwVulkanSupported()) {
         glfwTerminate();
         fail(Failure::no_device, "this display shows no pictures by Vulkan; no driver is "
@@ -71,7 +71,7 @@ ViewWindow::ViewWindow(const std::string& title, uvec2 size) {
     window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(),
                                nullptr, nullptr);
     if (!window_) {
-        const std::string why = read_last_window_error();
+        const std::string why = last_error();
         glfwTerminate();
         fail(Failure::no_device, "no window could be opened: ", why);
     }
@@ -89,12 +89,12 @@ ViewWindow::~ViewWindow() {
     glfwTerminate();
 }
 
-void ViewWindow::add_window_hooks_to_engine(session::EngineHooks& hooks) const {
+void ViewWindow::add_hooks(session::EngineHooks& hooks) const {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     hooks.instance_extensions.assign(names, names + count);
     hooks.make_surface = [window = window_](void* instance) {
-        return make_window_surface(window, instance);
+        return make_surface(window, instance);
     };
 }
 
@@ -108,9 +108,8 @@ UserInput ViewWindow::poll_events(bool wait) {
     int width = 0, height = 0, wide = 0, high = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     glfwGetWindowSize(window_, &wide, &high);
-    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
-        inputs.window = make_size_from_signed_edges(width, height);
-    inputs.scale = pixels_per_unit(inputs.window, make_size_from_signed_edges(wide, high));
+    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = make_size(width, height);
+    inputs.scale = pixels_per_unit(inputs.window, make_size(wide, high));
     glfwGetCursorPos(window_, &inputs.mouse.x, &inputs.mouse.y);
     inputs.mouse *= inputs.scale;
     for (int button = 0; button < 3; ++button)

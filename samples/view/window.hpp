@@ -22,7 +22,7 @@ public:
 
     /// Adds to the hooks what an engine needs to show pictures in this window. The window must
     /// outlive the engine.
-    void add_window_hooks_to_engine(session::EngineHooks& hooks) const;
+    void add_hooks(session::EngineHooks& hooks) const;
     /// Returns the input since the last call. With `wait`, sleeps up to a tenth of a second until
     /// something happens.
     UserInput poll_events(bool wait);

@@ -29,12 +29,12 @@ struct ComparedConfiguration {
     std::string technique;
 };
 
-benchmark::BenchmarkSubject make_frame_subject_of_side(const ComparedConfiguration& side,
-                                                       session::Request request, int rounds) {
+benchmark::Subject make_frame_subject_of_side(const ComparedConfiguration& side,
+                                              session::Request request, int rounds) {
     request.techniques = {side.technique};
     const auto session = std::make_shared<session::Session>(side.engine, request.scene);
-    benchmark::BenchmarkSubject subject = benchmark::make_frame_benchmark_subject(
-        session, request, rounds * request.frames);
+    benchmark::Subject subject = benchmark::make_frame_subject(session, request,
+                                                               rounds * request.frames);
     subject.name = side.name; // two engines may draw the same technique
     subject.caller.clear();
     return subject;
@@ -56,7 +56,7 @@ PairedFrameTimes measure_paired_frames(const ComparedConfiguration& a,
                                        const ComparedConfiguration& b, const session::Request& base,
                                        int rounds) {
     const session::UsageMeter meter(session::UsageMeter::Threads::process);
-    const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
+    const std::vector<measure::BenchmarkResult> found = benchmark::measure_rounds(
         {make_frame_subject_of_side(a, base, rounds), make_frame_subject_of_side(b, base, rounds)},
         meter, {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
     const std::vector<double> a_ms = list_gpu_ms_of_rounds(found[0]),
@@ -105,31 +105,31 @@ void compare_processor_rules(const session::Request& base) {
     render::NearestTriangle nearest;
     nearest.set_geometry(geometry);
     volatile float kept = 0; // volatile, so that the compiler keeps the measured work
-    const std::vector<benchmark::BenchmarkSubject> subjects{
-        benchmark::make_benchmark_subject("near planes from the nearest gap | frame",
-                                          [&] {
-                                              // One search each for the camera, four captures and
-                                              // the light.
-                                              for (int i = 0; i < 6; ++i)
-                                                  kept = nearest.distance(
-                                                      geometry, dvec3(0.1 * i),
-                                                      [](std::size_t, const render::DrawRange&) {
-                                                          return false;
-                                                      });
-                                          }),
-        benchmark::make_benchmark_subject(
-            "centre and scale in doubles, then floats | frame",
-            [&] {
-                kept = render::make_geometry(base.scene, render::make_scene_units(base.scene))
-                           .vertices.front()
-                           .position.x;
-            }),
-        benchmark::make_benchmark_subject("areas and normals of meshes | load", [&] {
+    const std::vector<benchmark::Subject> subjects{
+        benchmark::make_subject("near planes from the nearest gap | frame",
+                                [&] {
+                                    // One search each for the camera, four captures and
+                                    // the light.
+                                    for (int i = 0; i < 6; ++i)
+                                        kept = nearest.distance(
+                                            geometry, dvec3(0.1 * i),
+                                            [](std::size_t, const render::DrawRange&) {
+                                                return false;
+                                            });
+                                }),
+        benchmark::make_subject("centre and scale in doubles, then floats | frame",
+                                [&] {
+                                    kept = render::make_geometry(
+                                               base.scene, render::make_scene_units(base.scene))
+                                               .vertices.front()
+                                               .position.x;
+                                }),
+        benchmark::make_subject("areas and normals of meshes | load", [&] {
             for (scene::Mesh mesh : base.scene.meshes) scene::repair_mesh(mesh);
         })};
     const session::UsageMeter meter(session::UsageMeter::Threads::process);
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
-    for (const measure::BenchmarkResult& found : benchmark::measure_benchmarks_in_rounds(
+    for (const measure::BenchmarkResult& found : benchmark::measure_rounds(
              subjects, meter,
              {.iterations = kRepetitions, .rounds = kRepetitions, .watcher = {}})) {
         const double ms = measure::percentile(round_costs(found, measure::CostKind::real_time), .5);

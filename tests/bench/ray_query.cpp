@@ -66,15 +66,13 @@ void compare_with_ray_query(const char* name, std::span<const bvh::Triangle> tri
     check(other <= kMaxDifferingRays, Failure::internal, name, ": ", other, " of ", rays.size(),
           " rays meet something else, at most ", kMaxDifferingRays, " may");
     const std::vector<DeviceRay> few(rays.begin(), rays.begin() + kSmallBatchRayCount);
-    const std::vector<benchmark::BenchmarkSubject> subjects{
-        benchmark::make_benchmark_subject("ours", [&] { kernel.find_closest_hits(rays); }),
-        benchmark::make_benchmark_subject("ours, few", [&] { kernel.find_closest_hits(few); }),
-        benchmark::make_benchmark_subject("query",
-                                          [&] { query.find_closest_hits(triangles, rays); }),
-        benchmark::make_benchmark_subject("query, few",
-                                          [&] { query.find_closest_hits(triangles, few); })};
+    const std::vector<benchmark::Subject> subjects{
+        benchmark::make_subject("ours", [&] { kernel.find_closest_hits(rays); }),
+        benchmark::make_subject("ours, few", [&] { kernel.find_closest_hits(few); }),
+        benchmark::make_subject("query", [&] { query.find_closest_hits(triangles, rays); }),
+        benchmark::make_subject("query, few", [&] { query.find_closest_hits(triangles, few); })};
     const session::UsageMeter meter(session::UsageMeter::Threads::process);
-    const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
+    const std::vector<measure::BenchmarkResult> found = benchmark::measure_rounds(
         subjects, meter, {.iterations = 3 * rounds, .rounds = rounds, .watcher = {}});
     std::vector<double> ours, theirs, ratios;
     for (std::size_t i = 0; i < found[0].rounds.size(); ++i) {

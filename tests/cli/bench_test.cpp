@@ -212,13 +212,13 @@ TEST_F(BenchTuneCliTest, InvalidOptionsAreRefused) {
 
 TEST(BenchAgainst, EachRoundGetsTheOptionsOfTheCommandLine) {
     // An option is left out by its whole name.
-    EXPECT_THAT(cli::make_command_words_for_round({"--framesets=2", "--outputs"}, 5),
+    EXPECT_THAT(cli::round_words({"--framesets=2", "--outputs"}, 5),
                 testing::ElementsAre("--framesets=2", "--outputs", "--json", "--quiet", "--rounds",
                                      "1", "--frames", "5"));
-    EXPECT_THAT(cli::make_command_words_for_round(
-                    {"room.glb", "--against", "old/catoptric", "--size=64x64", "--rounds=8", "-q",
-                     "-o", "x.json", "--frames", "99", "--json", "--techniques", "reuse", "march"},
-                    4),
+    EXPECT_THAT(cli::round_words({"room.glb", "--against", "old/catoptric", "--size=64x64",
+                                  "--rounds=8", "-q", "-o", "x.json", "--frames", "99", "--json",
+                                  "--techniques", "reuse", "march"},
+                                 4),
                 testing::ElementsAre("room.glb", "--size=64x64", "--techniques", "reuse", "march",
                                      "--json", "--quiet", "--rounds", "1", "--frames", "4"));
 }
@@ -240,7 +240,7 @@ protected:
 };
 
 TEST_F(BenchAgainstProgramCliTest, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
-    const std::array runs = cli::bench_programs_in_turn(
+    const std::array runs = cli::bench_programs(
         {write_logging_program("old", make_measured_json(10)),
          write_logging_program("new", make_measured_json(12))},
         {"flat"}, 6, {});
@@ -249,7 +249,7 @@ TEST_F(BenchAgainstProgramCliTest, ProgramsAlternateTheirOrderAndEachRoundIsKept
               "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
               "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n");
     const measure::BenchmarkChanges changes = measure::compare_runs(runs[0], runs[1]);
-    EXPECT_EQ(cli::describe_slower_benchmarks(changes), "frame/x 1.200 [1.200 - 1.200]");
+    EXPECT_EQ(cli::describe_slower(changes), "frame/x 1.200 [1.200 - 1.200]");
     EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
 }
 
@@ -257,7 +257,7 @@ TEST_F(BenchAgainstProgramCliTest, ErrorNamesTheProgramThatFailed) {
     const auto refused = [&](const std::string& rest, const std::string& message) {
         const std::string wrong = write_logging_program("wrong", rest);
         try {
-            cli::bench_programs_in_turn({wrong, wrong}, {}, 6, {});
+            cli::bench_programs({wrong, wrong}, {}, 6, {});
             ADD_FAILURE() << message;
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::bad_data);
@@ -276,7 +276,7 @@ TEST_F(BenchAgainstProgramCliTest, SignalEndsTheRunningProgram) {
     session::Watcher watcher;
     watcher.stop = &stop;
     try {
-        cli::bench_programs_in_turn({slow, slow}, {}, 6, watcher);
+        cli::bench_programs({slow, slow}, {}, 6, watcher);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::terminated);

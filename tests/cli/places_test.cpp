@@ -16,7 +16,7 @@ protected:
         write_input_file("room.obj", kMirror);
         write_input_file("room.mtl", kMaterials);
     }
-    static Words make_render_words(const std::string& scene, const Words& outputs) {
+    static Words render_words(const std::string& scene, const Words& outputs) {
         Words words{"render", scene, "--technique", "raytrace:depth=1"};
         words.insert(words.end(), outputs.begin(), outputs.end());
         words.push_back("--quiet");
@@ -46,7 +46,7 @@ TEST_F(Places, OutputOverASceneFileIsRefused) {
         for (const Words& outputs : {Words{"-o", output}, Words{"-o", "x.png", "--trace", output},
                                      Words{"-o", "x.png", "--profile", output}})
             expect_usage_refused(
-                make_render_words(scene, outputs), 2,
+                render_words(scene, outputs), 2,
                 {std::string(output) + ": cannot be written: it is the same file as ",
                  std::string(input) + ", which the scene is read from"});
     EXPECT_FALSE(fs::exists(folder / "x.png"));
@@ -87,23 +87,23 @@ TEST_F(Places, OutputOverAGltfBufferIsRefused) {
     const std::string bytes(reinterpret_cast<const char*>(triangle), sizeof triangle);
     write_input_file("room.bin", bytes);
     fs::create_symlink("room.bin", folder / "x.png");
-    expect_usage_refused(make_render_words("room.gltf", {"-o", "x.png"}), 2,
+    expect_usage_refused(render_words("room.gltf", {"-o", "x.png"}), 2,
                          {"x.png: cannot be written: it is the same file as ", "room.bin"});
     EXPECT_EQ(read_output_file("room.bin"), bytes);
 }
 
 TEST_F(Places, TwoOutputsInTheSameFileAreRefused) {
     expect_usage_refused(
-        make_render_words("room.obj", {"-o", "x.png", "--trace", "./x.png"}), 2,
+        render_words("room.obj", {"-o", "x.png", "--trace", "./x.png"}), 2,
         {"./x.png: cannot be written: it is the same file as x.png, which is written "
          "too"});
-    expect_usage_refused(make_render_words("room.obj", {"-o", "x.png", "--trace", "x.png"}), 2,
+    expect_usage_refused(render_words("room.obj", {"-o", "x.png", "--trace", "x.png"}), 2,
                          {"x.png: wanted one output in a place, found two"});
-    expect_usage_refused(make_render_words("room.obj", {"-o", "x.png", "--trace", "t.json",
-                                                        "--profile", "./t.json"}),
-                         2, {"./t.json", "the same file as t.json, which is written too"});
+    expect_usage_refused(
+        render_words("room.obj", {"-o", "x.png", "--trace", "t.json", "--profile", "./t.json"}), 2,
+        {"./t.json", "the same file as t.json, which is written too"});
     fs::create_symlink("t.json", folder / "later.png"); // neither file exists yet
-    expect_usage_refused(make_render_words("room.obj", {"-o", "later.png", "--trace", "t.json"}), 2,
+    expect_usage_refused(render_words("room.obj", {"-o", "later.png", "--trace", "t.json"}), 2,
                          {"t.json", "the same file as later.png, which is written too"});
     fs::create_directory(folder / "out");
     fs::create_symlink("report.md", folder / "out/rows.csv");
@@ -121,7 +121,7 @@ TEST_F(Places, TwoOutputsInTheSameFileAreRefused) {
 /// result, as with `--json`.
 TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
     test::ProcessStartOptions process = make_process_start(
-        make_render_words("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
+        render_words("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
     process.out_path = (folder / "t.json").string();
     expect_exit_code(test::run_process(process), 2, {"t.json", "the same file as /dev/stdout"});
     process = make_process_start({"graph", "room.obj", "--technique", "raytrace", "-q"});
@@ -129,8 +129,7 @@ TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
     expect_exit_code(test::run_process(process), 2,
                      {"/dev/stdout", "the same file as", "room.mtl"});
     write_input_file("room.mtl", kMaterials);
-    process = make_process_start(
-        make_render_words("room.obj", {"-o", "x.png", "--trace", "t.json"}));
+    process = make_process_start(render_words("room.obj", {"-o", "x.png", "--trace", "t.json"}));
     process.out_path = (folder / "t.json").string();
     EXPECT_EQ(test::run_process(process).exit_code, 0);
 }
@@ -139,7 +138,7 @@ TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
 TEST_F(Places, DeviceFileMayBeNamedForTwoOutputs) {
     fs::create_symlink("/dev/null", folder / "null.png");
     const test::ProcessResult ended = run_cli(
-        make_render_words("room.obj", {"-o", "null.png", "--trace", "/dev/null"}));
+        render_words("room.obj", {"-o", "null.png", "--trace", "/dev/null"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }
 

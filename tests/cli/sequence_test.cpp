@@ -11,24 +11,23 @@
 namespace {
 
 using catoptric::Failure;
-using catoptric::cli::PictureFileSequence;
+using catoptric::cli::FileSequence;
 using testing::HasSubstr;
 using testing::Not;
 
 namespace fs = std::filesystem;
 
 TEST(SequenceName, FrameNumberReplacesThePlaceholder) {
-    EXPECT_EQ(PictureFileSequence::parse_file_sequence("a{n}.png")->file(7), "a7.png");
-    EXPECT_EQ(PictureFileSequence::parse_file_sequence("a{n:3}.png")->file(7), "a007.png");
-    EXPECT_EQ(PictureFileSequence::parse_file_sequence("a{n:04}.exr")->file(12345), "a12345.exr");
-    EXPECT_EQ(PictureFileSequence::parse_file_sequence("d/%d.png")->file(10), "d/10.png");
-    EXPECT_EQ(PictureFileSequence::parse_file_sequence("%04d.png")->file(10), "0010.png");
-    EXPECT_FALSE(PictureFileSequence::parse_file_sequence("100%.png"));
-    EXPECT_FALSE(PictureFileSequence::parse_file_sequence("50%done/x.exr"));
-    EXPECT_FALSE(PictureFileSequence::parse_file_sequence("{n}/{n:x}/x.exr"));
-    EXPECT_EQ(PictureFileSequence::parse_file_sequence("50%done/x%d.exr")->file(2),
-              "50%done/x2.exr");
-    EXPECT_FALSE(PictureFileSequence::parse_file_sequence("{a}.png"));
+    EXPECT_EQ(FileSequence::parse("a{n}.png")->file(7), "a7.png");
+    EXPECT_EQ(FileSequence::parse("a{n:3}.png")->file(7), "a007.png");
+    EXPECT_EQ(FileSequence::parse("a{n:04}.exr")->file(12345), "a12345.exr");
+    EXPECT_EQ(FileSequence::parse("d/%d.png")->file(10), "d/10.png");
+    EXPECT_EQ(FileSequence::parse("%04d.png")->file(10), "0010.png");
+    EXPECT_FALSE(FileSequence::parse("100%.png"));
+    EXPECT_FALSE(FileSequence::parse("50%done/x.exr"));
+    EXPECT_FALSE(FileSequence::parse("{n}/{n:x}/x.exr"));
+    EXPECT_EQ(FileSequence::parse("50%done/x%d.exr")->file(2), "50%done/x2.exr");
+    EXPECT_FALSE(FileSequence::parse("{a}.png"));
 }
 
 TEST_F(CommandLineTest, InvalidSequenceNameIsRefused) {

@@ -12,7 +12,7 @@ TEST_F(CommandLineTest, EveryStressRowHoldsInSmallPictures) {
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     const json document = json::parse(ended.out);
     EXPECT_EQ(document["complete"], true);
-    EXPECT_EQ(document["rows"].size(), catoptric::stress::list_stress_properties().size());
+    EXPECT_EQ(document["rows"].size(), catoptric::stress::properties().size());
     for (const json& row : document["rows"]) {
         EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
         EXPECT_FALSE(row["cases"].empty()) << row["id"];

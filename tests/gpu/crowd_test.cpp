@@ -39,7 +39,7 @@ CapturedDistanceRange find_captured_distance_range(const test::CapturedCubes& ca
                                                    std::uint32_t from, const dvec3& along,
                                                    double cosine) {
     CapturedDistanceRange seen;
-    stress::for_each_cube_texel(
+    stress::for_each_texel(
         captured.face, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
             if (dot(glm::normalize(direction), along) < cosine) return;
             const double distance = captured.distance(from, face, x, y, TexelFormat::r32f) /

@@ -25,17 +25,17 @@ constexpr double kTexelLookupError = 0.03;
 
 TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     const LetterRoom room;
-    const test::CapturedCubes captured = test::capture_mirrors(room.make_letter_room_scene(),
-                                                               kCubeFaceTexels, TexelFormat::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kCubeFaceTexels,
+                                                               TexelFormat::r32f);
     std::size_t wrong = 0, judged = 0, inked = 0;
-    stress::for_each_cube_texel(
-        kCubeFaceTexels, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const LetterRoom::SeenWallPoint seen = room.seen_wall_point(direction);
-            // Skip texels whose centre lies on an edge of a glyph.
-            if (seen.margin < kSnappingError) return;
-            ++judged, inked += seen.glyph;
-            wrong += captured.colour(0, face, x, y) != room.colour_of_wall_point(seen);
-        });
+    stress::for_each_texel(kCubeFaceTexels,
+                           [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+                               const LetterRoom::WallPoint seen = room.seen_point(direction);
+                               // Skip texels whose centre lies on an edge of a glyph.
+                               if (seen.margin < kSnappingError) return;
+                               ++judged, inked += seen.glyph;
+                               wrong += captured.colour(0, face, x, y) != room.point_colour(seen);
+                           });
     EXPECT_GT(judged, 6 * kCubeFaceTexels * kCubeFaceTexels * 95 / 100);
     EXPECT_GT(inked, 1000u);
     EXPECT_EQ(wrong, 0u);
@@ -45,10 +45,10 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
 /// specification, this point must lie on a texel with the stroke's colour.
 TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
     const LetterRoom room;
-    const test::CapturedCubes captured = test::capture_mirrors(room.make_letter_room_scene(),
-                                                               kCubeFaceTexels, TexelFormat::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kCubeFaceTexels,
+                                                               TexelFormat::r32f);
     for (int wall = 0; wall < 6; ++wall)
-        for (const LetterRoom::LetterStroke& stroke : LetterRoom::kLetterStrokes) {
+        for (const LetterRoom::Stroke& stroke : LetterRoom::kStrokes) {
             const dvec3 middle = room.wall_point(wall, (stroke.u0 + stroke.u1) / 2,
                                                  (stroke.v0 + stroke.v1) / 2) -
                                  room.centre;
@@ -59,7 +59,7 @@ TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
                                                   static_cast<float>(kCubeFaceTexels));
             };
             EXPECT_EQ(captured.colour(0, face, texel(place.x / place.z), texel(place.y / place.z)),
-                      LetterRoom::letter_colour_of_wall(wall))
+                      LetterRoom::letter_colour(wall))
                 << "wall " << wall << ", face " << face;
         }
 }
@@ -69,7 +69,7 @@ TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
 TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     const LetterRoom room;
     auto& [device, pipelines] = test::get_test_device();
-    const scene::Scene scene = room.make_letter_room_scene();
+    const scene::Scene scene = room.make_scene();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
     std::mt19937 random(1);
@@ -106,10 +106,10 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     const std::vector<vec4> answers = test::read_resource_values<vec4>(runner, found);
     std::size_t judged = 0, wrong = 0;
     for (std::size_t i = 0; i < answers.size(); ++i) {
-        const LetterRoom::SeenWallPoint seen = room.seen_wall_point(dvec3(directions[i]));
+        const LetterRoom::WallPoint seen = room.seen_point(dvec3(directions[i]));
         if (seen.margin < kTexelLookupError) continue;
         ++judged;
-        wrong += vec3(answers[i]) != room.colour_of_wall_point(seen);
+        wrong += vec3(answers[i]) != room.point_colour(seen);
         // A lookup of the nearest texel may read a distance up to half a texel's diagonal beside
         // the given direction. Over this length, the distance changes only a little.
         EXPECT_NEAR(answers[i].w, gpu_scene.scene_units().to_scene_length(seen.distance),
@@ -132,19 +132,18 @@ TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {
     constexpr double kUnormRangeInWorldUnits =
         5; // range of unorm8 in world units; some walls are farther away
     const bool unorm = GetParam() == TexelFormat::r8_unorm;
-    const test::CapturedCubes captured = test::capture_mirrors(
-        room.make_letter_room_scene(), kCubeFaceTexels, GetParam(), kUnormRangeInWorldUnits);
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kCubeFaceTexels,
+                                                               GetParam(), kUnormRangeInWorldUnits);
     const double unit = unorm ? captured.space.to_scene_length(kUnormRangeInWorldUnits) : 1.0;
     double worst = 0;
-    stress::for_each_cube_texel(
-        kCubeFaceTexels, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const double wanted = captured.space.to_scene_length(
-                                      room.seen_wall_point(direction).distance) /
-                                  unit;
-            const double found = captured.distance(0, face, x, y, GetParam());
-            worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0))
-                                          : std::abs(found - wanted) / wanted);
-        });
+    stress::for_each_texel(kCubeFaceTexels, [&](const dvec3& direction, int face, std::uint32_t x,
+                                                std::uint32_t y) {
+        const double wanted = captured.space.to_scene_length(room.seen_point(direction).distance) /
+                              unit;
+        const double found = captured.distance(0, face, x, y, GetParam());
+        worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0))
+                                      : std::abs(found - wanted) / wanted);
+    });
     // Distances in unorm8 may be wrong by one step. Half a step of binary16 is 2^-11, and the rest
     // of the bound is for interpolation in the rasteriser.
     // A device may also round to binary16 towards zero, by a whole step.
@@ -179,12 +178,12 @@ TEST(CubeFace, CaptureLeavesOutItsOwnMirrorAndShowsOtherMirrors) {
                                                                kCubeFaceTexels, TexelFormat::r32f);
     std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
     for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
-        stress::for_each_cube_texel(kCubeFaceTexels,
-                                    [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-                                        const vec3 colour = captured.colour(mirror, face, x, y);
-                                        black[mirror] += colour == vec3(0);
-                                        hot[mirror] += colour == test::kFurnaceWallRadiance;
-                                    });
+        stress::for_each_texel(kCubeFaceTexels,
+                               [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+                                   const vec3 colour = captured.colour(mirror, face, x, y);
+                                   black[mirror] += colour == vec3(0);
+                                   hot[mirror] += colour == test::kFurnaceWallRadiance;
+                               });
     // The mirror's capture shows another ball from outside. The sine of half the angle that this
     // ball covers is its radius divided by its distance, which gives the ball's share of all
     // directions.

@@ -176,7 +176,7 @@ TEST(Flattened, NodesScaledToZeroKeepTheirNormals) {
     for (const std::string technique : {"raytrace", "parallax:face=64"}) {
         const measure::Picture wanted = test::render_technique(flat, technique, {128, 128}, 3).hdr,
                                found = test::render_technique(scaled, technique, {128, 128}, 3).hdr;
-        EXPECT_EQ(test::count_nonfinite_pixels(wanted), 0u) << technique;
+        EXPECT_EQ(test::count_nonfinite(wanted), 0u) << technique;
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, wanted)) << technique;
         EXPECT_GT(wanted.at(20, 64).x, .1f) << technique << ": the wall is lit";
     }

@@ -27,7 +27,7 @@ TEST_P(AnalyticPictureTest, PictureEqualsTheDoublePrecisionTracer) {
     const scene::Scene room = test::make_lit_room(GetParam().mirrors, GetParam().lights);
     const measure::Picture picture =
         test::render_technique(room, "raytrace:sphere=exact,depth=8", kAnalyticPictureSize).hdr;
-    const stress::DoublePrecisionTracer tracer(room, .05);
+    const stress::DoubleTracer tracer(room, .05);
     std::vector<double> differences;
     for (std::uint32_t y = 0; y < kAnalyticPictureSize.y; ++y)
         for (std::uint32_t x = 0; x < kAnalyticPictureSize.x; ++x) {

@@ -163,7 +163,7 @@ TEST_P(EveryTechniqueTest, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
                 settings.push_back({"distance", "unorm8"});
             const std::string text = technique_with_small_captures(settings);
             const session::TechniqueResult part = test::render_technique(room, text, {32, 24}, 3);
-            EXPECT_EQ(test::count_nonfinite_pixels(part.hdr), 0u) << text;
+            EXPECT_EQ(test::count_nonfinite(part.hdr), 0u) << text;
             EXPECT_EQ(
                 std::ranges::count_if(part.hdr.pixels,
                                       [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }),
@@ -230,7 +230,7 @@ TEST_P(EveryTechniqueTest, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
         const session::TechniqueResult part = test::render_technique(
             test::make_lit_room(mirrors, lights), technique_with_small_captures(), {24, 24}, 2);
-        EXPECT_EQ(test::count_nonfinite_pixels(part.hdr), 0u);
+        EXPECT_EQ(test::count_nonfinite(part.hdr), 0u);
         EXPECT_GT(measure::mean_of(part.hdr, measure::ValueRange::unclamped).all, 0.0)
             << "ambient light is left";
     }

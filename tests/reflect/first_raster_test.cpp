@@ -41,7 +41,7 @@ void expect_same_as_traced(const scene::Scene& scene, const std::string& what,
               << found.rays->primary << " " << found.rays->mirror << " " << found.rays->shadow
               << " instead of " << wanted.rays->primary << " " << wanted.rays->mirror << " "
               << wanted.rays->shadow << '\n';
-    EXPECT_EQ(test::count_nonfinite_pixels(found.hdr), 0u) << what;
+    EXPECT_EQ(test::count_nonfinite(found.hdr), 0u) << what;
     EXPECT_LE(off, most_off) << what;
     EXPECT_EQ(wanted.rays->primary, kFirstRasterPixelCount) << what;
     EXPECT_LE(found.rays->primary, kFirstRasterPixelCount / 50) << what;

@@ -74,8 +74,8 @@ std::size_t count_wrong_texels(const scene::Scene& scene, const std::vector<Glow
     const test::CapturedCubes captured = test::capture_mirrors(scene, kCaptureFaceTexels,
                                                                TexelFormat::r32f);
     std::size_t wrong = 0, shown = 0;
-    stress::for_each_cube_texel(kCaptureFaceTexels, [&](const dvec3& direction, int face,
-                                                        std::uint32_t x, std::uint32_t y) {
+    stress::for_each_texel(kCaptureFaceTexels, [&](const dvec3& direction, int face,
+                                                   std::uint32_t x, std::uint32_t y) {
         double inside = -1;
         for (const GlowingBoard& board : boards)
             inside = std::max(inside, board.margin_inside_outline(dvec3(0), direction));

@@ -56,7 +56,7 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
                                                                        kObjectSpacePictureSize),
                                        found = test::render_technique(both, technique,
                                                                       kObjectSpacePictureSize);
-        EXPECT_EQ(test::count_nonfinite_pixels(found.hdr), 0u) << technique;
+        EXPECT_EQ(test::count_nonfinite(found.hdr), 0u) << technique;
         EXPECT_LE(mean_flip_of_results(found, wanted), .001) << technique;
     }
 }
@@ -70,7 +70,7 @@ TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
                                                                  kObjectSpacePictureSize);
         const session::TechniqueResult part = test::render_technique(scene, "raytrace:sphere=exact",
                                                                      kObjectSpacePictureSize);
-        const stress::DoublePrecisionTracer tracer(scene, request.ambient);
+        const stress::DoubleTracer tracer(scene, request.ambient);
         measure::Picture truth(static_cast<int>(kObjectSpacePictureSize.x),
                                static_cast<int>(kObjectSpacePictureSize.y));
         std::size_t off = 0;

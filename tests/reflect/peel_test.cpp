@@ -57,7 +57,7 @@ TEST_P(DepthPeelingTest, SecondLayerBehindAWallIsEmpty) {
     const auto [first, second] = test::capture_both_depth_layers(make_double_wall_scene(0),
                                                                  kPeelFaceTexels, GetParam());
     std::size_t again = 0;
-    stress::for_each_cube_texel(
+    stress::for_each_texel(
         kPeelFaceTexels, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
             EXPECT_EQ(first.colour(0, face, x, y), kWallColour);
             again += !is_no_surface(second.distance(0, face, x, y, GetParam())) ||
@@ -76,8 +76,8 @@ TEST_P(DepthPeelingTest, SecondLayerShowsTheWallBehindACloseBoard) {
         const dvec3 centre = scene::bounds(scene, scene.objects.back()).centre();
         std::size_t boards = 0, wrong = 0;
         double worst = 0;
-        stress::for_each_cube_texel(kPeelFaceTexels, [&](const dvec3& direction, int face,
-                                                         std::uint32_t x, std::uint32_t y) {
+        stress::for_each_texel(kPeelFaceTexels, [&](const dvec3& direction, int face,
+                                                    std::uint32_t x, std::uint32_t y) {
             const float one = first.distance(0, face, x, y, GetParam()),
                         two = second.distance(0, face, x, y, GetParam());
             if (first.colour(0, face, x, y) == kWallColour) {
@@ -114,12 +114,12 @@ TEST_P(DepthPeelingTest, FarSideOfABallIsInNoLayer) {
     const auto [first, second] = test::capture_both_depth_layers(scene, kPeelFaceTexels,
                                                                  GetParam());
     std::size_t balls = 0, wrong = 0;
-    stress::for_each_cube_texel(kPeelFaceTexels,
-                                [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-                                    if (first.colour(0, face, x, y) != kPeelBoardColour) return;
-                                    ++balls;
-                                    wrong += second.colour(0, face, x, y) != kWallColour;
-                                });
+    stress::for_each_texel(kPeelFaceTexels,
+                           [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+                               if (first.colour(0, face, x, y) != kPeelBoardColour) return;
+                               ++balls;
+                               wrong += second.colour(0, face, x, y) != kWallColour;
+                           });
     EXPECT_GT(balls, 200u);
     // At outlines some facets face away from the centre, while their smooth normals do not.
     EXPECT_LE(wrong, balls / 50);

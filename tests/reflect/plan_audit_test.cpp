@@ -37,7 +37,7 @@ session::FrameSpec make_audited_spec(const scene::Scene& scene) {
 }
 
 /// Returns the camera of frame k. The cameras of successive frames move on a small circle.
-scene::Camera camera_of_frame(const scene::Camera& first, int k) {
+scene::Camera camera_of(const scene::Camera& first, int k) {
     scene::Camera camera = first;
     camera.eye += dvec3(.3 * std::sin(.11 * k), .2 * std::sin(.07 * k),
                         .1 + .1 * std::cos(.09 * k));
@@ -158,7 +158,7 @@ TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
     const auto count_audited_frames = [&](int frames) {
         const std::size_t before = audit.audit().frame_count();
         for (int i = 0; i < frames; ++i, ++k) {
-            spec.camera = camera_of_frame(scene.cameras.front(), k);
+            spec.camera = camera_of(scene.cameras.front(), k);
             const session::Frame frame = session.frame(spec);
             audit.watch_frame(session, frame, spec, k / 60.);
         }
@@ -190,7 +190,7 @@ TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
         session::Session audited(test::get_test_engine(), scene),
             plain(test::get_test_engine(), scene);
         for (int k = 0; k < 22; ++k) {
-            spec.camera = camera_of_frame(scene.cameras.front(), 2 * k);
+            spec.camera = camera_of(scene.cameras.front(), 2 * k);
             const session::Frame frame = audited.frame(spec);
             const measure::Picture picture = frame.hdr();
             audit.watch_frame(audited, frame, spec, k);
@@ -211,7 +211,7 @@ TEST(PlanAudit, UnchangedPicturesAndOtherPlansAreNotAudited) {
         return audit.audit().frame_count();
     };
     EXPECT_EQ(run(30), 0u); // the picture does not change, so it counts once
-    for (int k = 1; k <= 20; ++k) spec.camera = camera_of_frame(scene.cameras.front(), k), run(1);
+    for (int k = 1; k <= 20; ++k) spec.camera = camera_of(scene.cameras.front(), k), run(1);
     const std::size_t moving = audit.audit().frame_count();
     EXPECT_GE(moving, 4u);
     EXPECT_EQ(run(10), moving);
@@ -245,7 +245,7 @@ CaughtFault run_until_alarm(session::Session& session, int faulty, std::uint64_t
     std::size_t before = 0;
     session.forget();
     for (int k = 0; k < kMostFrames; ++k) {
-        spec.camera = camera_of_frame(session.scene().cameras.front(), k);
+        spec.camera = camera_of(session.scene().cameras.front(), k);
         const session::Frame frame = k < faulty ? session.frame(spec) : fault(spec);
         const study::AuditState outcome = audit.watch_frame(session, frame, spec, k / 60.);
         if (k < faulty) before = audit.audit().frame_count();
@@ -306,7 +306,7 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
     std::vector<std::string> messages;
     int alarms = 0;
     for (int k = 0; k < 120; ++k) {
-        spec.camera = camera_of_frame(scene.cameras.front(), k);
+        spec.camera = camera_of(scene.cameras.front(), k);
         spec.techniques = {audit.plan()};
         const study::AuditState outcome = audit.watch_frame(session, session.frame(spec), spec,
                                                             k / 60.);
@@ -370,7 +370,7 @@ TEST_F(LibraryAudit, ReadsAFileAndReturnsItsState) {
     study::AuditState state;
     int audited = 0;
     for (int k = 0; k < 60 && !state.has_new_plan; ++k) {
-        spec.camera = camera_of_frame(scene.cameras.front(), k);
+        spec.camera = camera_of(scene.cameras.front(), k);
         state = audit.watch_frame(session, session.frame(spec), spec, k / 60.);
         audited += state.error.has_value();
         if (!state.error || state.has_new_plan) continue;
@@ -404,7 +404,7 @@ TEST_F(LibraryAudit, AssuresTheShareOfItsState) {
     study::AuditState state;
     double before = 0;
     for (int k = 0; k < 90; ++k) {
-        spec.camera = camera_of_frame(scene.cameras.front(), k);
+        spec.camera = camera_of(scene.cameras.front(), k);
         state = audit.watch_frame(session, session.frame(spec), spec, k / 60.);
         EXPECT_GE(state.assured_share, before);
         before = state.assured_share;
@@ -473,7 +473,7 @@ std::unique_ptr<study::RunningPlanAudit> audit_rough_room(study::ErrorQuantity q
     session::FrameSpec spec = make_audited_spec(rough);
     spec.size = {32, 32};
     for (int k = 0; k < frames; ++k) {
-        spec.camera = camera_of_frame(rough.cameras.front(), k);
+        spec.camera = camera_of(rough.cameras.front(), k);
         audit->watch_frame(session, session.frame(spec), spec, k / 60.);
     }
     return audit;

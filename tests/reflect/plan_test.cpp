@@ -170,7 +170,7 @@ TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
         const std::size_t mirror = std::min(traced.hits[i] & 0xffff, 2u);
         ++(mixed.hdr.pixels[i] == alike.hdr.pixels[i] ? same : other)[mirror];
     }
-    EXPECT_EQ(test::count_nonfinite_pixels(mixed.hdr), 0u);
+    EXPECT_EQ(test::count_nonfinite(mixed.hdr), 0u);
     EXPECT_LE(other[0], same[0] / 20) << "outlines, of which rays and triangles may differ";
     EXPECT_GT(same[1], 4 * other[1]) << "all but what it shows of other mirrors";
     EXPECT_GT(other[2], same[2]) << "their captures are coarser";

@@ -16,7 +16,7 @@ using namespace catoptric;
 double error_against_double_tracer(const scene::Scene& scene, const std::string& technique,
                                    uvec2 size, int mirrors = 1) {
     const session::TechniqueResult part = test::render_technique(scene, technique, size);
-    const stress::DoublePrecisionTracer tracer(scene, .05);
+    const stress::DoubleTracer tracer(scene, .05);
     double sum = 0;
     std::size_t count = 0;
     for (std::uint32_t y = 0; y < size.y; ++y)

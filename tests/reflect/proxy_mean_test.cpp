@@ -71,13 +71,12 @@ struct TwoMirrorRoom {
     double mean_distance_of_mirror(std::size_t mirror,
                                    double range = std::numeric_limits<double>::infinity()) const {
         double sum = 0, all = 0;
-        stress::for_each_cube_texel(
-            256, [&](const dvec3& direction, int, std::uint32_t, std::uint32_t) {
-                const double size = glm::length(direction), angle = 1 / (size * size * size),
-                             d = distance_from_mirror_centre(mirror, direction / size);
-                if (!(d < range)) return;
-                sum += angle * d, all += angle;
-            });
+        stress::for_each_texel(256, [&](const dvec3& direction, int, std::uint32_t, std::uint32_t) {
+            const double size = glm::length(direction), angle = 1 / (size * size * size),
+                         d = distance_from_mirror_centre(mirror, direction / size);
+            if (!(d < range)) return;
+            sum += angle * d, all += angle;
+        });
         return sum / all;
     }
 };

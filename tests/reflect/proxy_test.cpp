@@ -35,7 +35,7 @@ measure::LookupSummary summarise_proxy_errors(const std::string& what,
 TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
     for (const std::string face : {"16", "37", "64", "256"}) {
         const auto pixels = test::measure_lookup_directions(
-            stress::LetterRoom().make_letter_room_scene(), "proxy:face=" + face, kProxyPictureSize);
+            stress::LetterRoom().make_scene(), "proxy:face=" + face, kProxyPictureSize);
         ASSERT_GT(pixels.size(), 1000u);
         double worst;
         EXPECT_LT(summarise_proxy_errors("box, face " + face, pixels, worst).p99_degrees,
@@ -94,7 +94,7 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
             const auto pixels = test::measure_lookup_directions(
                 scene, "proxy:face=16,shape=" + shape + ",distance=" + distance, kProxyPictureSize);
             EXPECT_EQ(
-                test::count_nonfinite_pixels(
+                test::count_nonfinite(
                     test::render_technique(scene, "proxy:face=16,shape=" + shape, kProxyPictureSize)
                         .hdr),
                 0u);

@@ -230,8 +230,7 @@ double snapped_vertices_error() { return test::computes_like_cpp() ? 0 : .005; }
 TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
         const auto pixels = test::measure_lookup_directions(
-            stress::LetterRoom().make_letter_room_scene(), "pyramid:face=" + std::to_string(face),
-            {128, 128});
+            stress::LetterRoom().make_scene(), "pyramid:face=" + std::to_string(face), {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
         EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookupError::state), std::ssize(pixels))
             << "face " << face;

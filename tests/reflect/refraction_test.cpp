@@ -470,7 +470,7 @@ TEST(Refraction, ScreenWorksInPlans) {
     // draws such numbers elsewhere.
     const measure::Picture searched = render(screen),
                            traced = render("5=hybrid:force=unknown,face=64 " + screen);
-    EXPECT_EQ(test::count_nonfinite_pixels(traced), 0u);
+    EXPECT_EQ(test::count_nonfinite(traced), 0u);
     const std::vector<std::uint32_t> hits =
         test::render_technique(scene, "raytrace:depth=2", size).hits;
     int compared = 0, off = 0;
@@ -533,7 +533,7 @@ TEST(Refraction, ModelsOfTheCameraViewAreAutoInBounces) {
     scene.objects.back().world_from_object[3] = dvec4(2.2, 0, -1, 1);
     scene::find_mirrors(scene);
     for (const char* model : {"backface", "screen"})
-        EXPECT_EQ(test::count_nonfinite_pixels(
+        EXPECT_EQ(test::count_nonfinite(
                       test::render_technique(
                           scene, std::string("naive:bounces=2,face=32,refract=") + model, {24, 24})
                           .hdr),

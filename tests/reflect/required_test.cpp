@@ -54,7 +54,7 @@ public:
     /// Renders the next frame in both sessions and compares the pictures. Returns the names of the
     /// passes of the session that renders what is required.
     Names render_next_frame() {
-        const auto [wanted, found] = render_next_frames();
+        const auto [wanted, found] = render_frames();
         model_ = session::Access::rendered_model(found);
         EXPECT_TRUE(have_same_pictures(wanted, found)) << "frame " << number_;
         if (!frame_spec.keeps_history) {
@@ -72,7 +72,7 @@ public:
     int render_until_pictures_are_equal(int most) {
         int last = 0; // number of the last frame with a difference
         for (int k = 1; k <= 2 * most; ++k) {
-            const auto [wanted, found] = render_next_frames();
+            const auto [wanted, found] = render_frames();
             if (!have_same_pictures(wanted, found)) last = k;
         }
         EXPECT_LE(last, most);
@@ -104,7 +104,7 @@ public:
     session::FrameSpec frame_spec;
 
 private:
-    std::pair<session::Frame, session::Frame> render_next_frames() {
+    std::pair<session::Frame, session::Frame> render_frames() {
         ++number_;
         session::FrameSpec required = frame_spec;
         required.model = session::RenderedWork::required;

@@ -100,7 +100,7 @@ inline bool have_equal_pixel_bytes(const measure::Picture& a, const measure::Pic
 }
 
 /// Returns how many pixels of the picture are not finite numbers.
-inline std::size_t count_nonfinite_pixels(const measure::Picture& picture) {
+inline std::size_t count_nonfinite(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& c) {
         return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
     }));

@@ -12,11 +12,11 @@
 namespace {
 
 using namespace catoptric;
-using benchmark::BenchmarkSubject;
+using benchmark::Subject;
 using session::UsageMeter;
 
 /// Builds a benchmark that logs `letter` for each iteration and '|' at the end of each turn.
-BenchmarkSubject make_logging_benchmark(char letter, std::string& log, int warmup = 1) {
+Subject make_logging_benchmark(char letter, std::string& log, int warmup = 1) {
     return {.name = std::string(1, letter),
             .work =
                 [letter, &log] {
@@ -32,11 +32,10 @@ BenchmarkSubject make_logging_benchmark(char letter, std::string& log, int warmu
 TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
     std::string log;
     const UsageMeter meter(UsageMeter::Threads::process);
-    const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 2),
-                                                 make_logging_benchmark('b', log),
-                                                 make_logging_benchmark('c', log, 0)};
-    benchmark::measure_benchmarks_in_rounds(subjects, meter,
-                                            {.iterations = 5, .rounds = 3, .watcher = {}});
+    const std::vector<Subject> subjects{make_logging_benchmark('a', log, 2),
+                                        make_logging_benchmark('b', log),
+                                        make_logging_benchmark('c', log, 0)};
+    benchmark::measure_rounds(subjects, meter, {.iterations = 5, .rounds = 3, .watcher = {}});
     EXPECT_EQ(log, "aa|b||"
                    "aa|bb|cc|"
                    "cc|bb|aa|"
@@ -46,9 +45,9 @@ TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
 TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
     std::string log;
     const UsageMeter meter(UsageMeter::Threads::process);
-    const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 0),
-                                                 make_logging_benchmark('b', log, 0)};
-    const std::vector<measure::BenchmarkResult> found = benchmark::measure_benchmarks_in_rounds(
+    const std::vector<Subject> subjects{make_logging_benchmark('a', log, 0),
+                                        make_logging_benchmark('b', log, 0)};
+    const std::vector<measure::BenchmarkResult> found = benchmark::measure_rounds(
         subjects, meter, {.iterations = 3, .rounds = 2, .watcher = {}});
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].name, "a");
@@ -66,13 +65,12 @@ TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
 TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     std::string log;
     const UsageMeter meter(UsageMeter::Threads::process);
-    EXPECT_EQ(
-        benchmark::measure_benchmarks_in_rounds({make_logging_benchmark('b', log)}, meter,
-                                                {.iterations = 2, .rounds = 6, .watcher = {}})[0]
-            .rounds.size(),
-        2U);
+    EXPECT_EQ(benchmark::measure_rounds({make_logging_benchmark('b', log)}, meter,
+                                        {.iterations = 2, .rounds = 6, .watcher = {}})[0]
+                  .rounds.size(),
+              2U);
     try {
-        benchmark::measure_benchmarks_in_rounds(
+        benchmark::measure_rounds(
             {make_logging_benchmark('b', log), make_logging_benchmark('b', log)}, meter, {});
         ADD_FAILURE();
     } catch (const Error& error) {

@@ -20,7 +20,7 @@ TEST(LobeAlbedo, EqualsAQuadratureOfTheTextbookFormulas) {
             const double wanted = test::integrate_over_half_vectors(
                 roughness, o,
                 [&](const dvec3& i) { return test::textbook_lobe_reflectance(roughness, o, i); });
-            EXPECT_NEAR(stress::compute_lobe_albedo(roughness, degrees), wanted, 5e-4)
+            EXPECT_NEAR(stress::lobe_albedo(roughness, degrees), wanted, 5e-4)
                 << "roughness " << roughness << " at " << degrees;
         }
 }
@@ -28,8 +28,8 @@ TEST(LobeAlbedo, EqualsAQuadratureOfTheTextbookFormulas) {
 /// Seen head-on, the albedo of a lobe is 1 for roughness 0, and smaller for roughness 1, because
 /// masking removes light.
 TEST(LobeAlbedo, FallsWithTheRoughness) {
-    EXPECT_NEAR(stress::compute_lobe_albedo(.01, 0), 1, 1e-4);
-    EXPECT_LT(stress::compute_lobe_albedo(1, 0), .6);
+    EXPECT_NEAR(stress::lobe_albedo(.01, 0), 1, 1e-4);
+    EXPECT_LT(stress::lobe_albedo(1, 0), .6);
 }
 
 } // namespace

@@ -22,7 +22,7 @@ constexpr std::uint64_t kSeedCount = 25;
 /// with ambient light everything else is lit.
 double compute_mirror_pixel_share(const scene::Scene& scene, const scene::Camera& camera) {
     constexpr uvec2 kSeededPictureSize{64, 64};
-    const stress::DoublePrecisionTracer tracer(scene, 1);
+    const stress::DoubleTracer tracer(scene, 1);
     std::size_t black = 0;
     for (std::uint32_t y = 0; y < kSeededPictureSize.y; ++y)
         for (std::uint32_t x = 0; x < kSeededPictureSize.x; ++x)

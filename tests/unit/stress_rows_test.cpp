@@ -32,7 +32,7 @@ std::multimap<std::string, std::string> list_mutation_rules_by_row() {
 
 TEST(StressRows, EachStressRowNamesTheMutationThatItDetects) {
     std::multimap<std::string, std::string> named;
-    for (const stress::StressProperty* row : stress::list_stress_properties())
+    for (const stress::Property* row : stress::properties())
         named.emplace(row->id, row->turned_red_by);
     EXPECT_FALSE(named.empty());
     EXPECT_EQ(list_mutation_rules_by_row(), named);

@@ -45,7 +45,7 @@ TEST_F(ViewAuditTest, AlarmChangesThePlanUpToTheSurest) {
     std::vector<std::string> plans, said;
     SimulatedUser driver;
     driver.after = [&](const ViewReport& report) {
-        const std::string plan = technique_text_of_plan(report.state.plan);
+        const std::string plan = technique_text(report.state.plan);
         if (plans.empty() || plans.back() != plan) plans.push_back(plan);
         if (!report.state.said.empty() && (said.empty() || said.back() != report.state.said))
             said.push_back(report.state.said);

@@ -141,10 +141,10 @@ TEST_F(ViewLifetimeTest, PlanWithoutMemoryFallsBackToThePlanBefore) {
     driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
         if (!state.said.empty()) ++refused, state.said.clear();
         if (frame % 2 == 0 && refused < static_cast<int>(frame) / 2)
-            state.plan = parse_plan_text("secant:face=16384");
+            state.plan = parse_plan("secant:face=16384");
     };
     driver.after = [&](const ViewReport& report) {
-        EXPECT_EQ(technique_text_of_plan(report.state.plan), "reuse:face=16");
+        EXPECT_EQ(technique_text(report.state.plan), "reuse:face=16");
     };
     EXPECT_EQ(run_view_in_test(
                   {"--technique", "reuse:face=16", "--size", "32x32", "--frames", "12"}, driver),
@@ -182,7 +182,7 @@ TEST_F(ViewLifetimeTest, SettingsAreKeptForTheNextWindow) {
         state.gain = 64;
     };
     EXPECT_EQ(run_view_in_test(scripted, driver), 0);
-    EXPECT_EQ(load_viewer_settings(settings_file_path()).gain, 32);
+    EXPECT_EQ(load_settings(settings_file()).gain, 32);
     if (before)
         ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
     else

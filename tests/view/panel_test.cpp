@@ -54,7 +54,7 @@ public:
     /// Returns the text of the scene's facts, with all lists open.
     std::string read_scene_facts(const std::filesystem::path& folder) {
         const std::string file = (folder / "facts.txt").string();
-        PanelButtonRequests wants;
+        PanelRequests wants;
         ImGui::NewFrame();
         ImGui::Begin("facts");
         ImGui::LogToFile(2, file.c_str());
@@ -82,23 +82,23 @@ protected:
     /// the first one may choose from a list that the first click opened.
     std::set<std::string>
     list_plans_reached_by_click(const ViewState& from,
-                                const std::function<EditedPlanState(const ViewState&)>& plan) {
+                                const std::function<EditedPlan(const ViewState&)>& plan) {
         std::set<std::string> texts;
         for (const float x : {30.f, 220.f, 250.f, 284.f})
             for (float y = 6; y < 500; y += 8) {
                 ViewState state = from;
                 PanelWithoutWindow panel(scene, fonts);
                 panel.click_panel(state, x, y);
-                texts.insert(technique_text_of_plan(plan(state)));
+                texts.insert(technique_text(plan(state)));
                 panel.click_panel(state, 60, y + 44);
-                texts.insert(technique_text_of_plan(plan(state)));
+                texts.insert(technique_text(plan(state)));
                 EXPECT_LE(state.chosen, 4u);
             }
         for (const std::string& text : texts)
             EXPECT_NO_THROW(static_cast<void>(session::parse_technique(text))) << text;
         return texts;
     }
-    static EditedPlanState plan_of_view_state(const ViewState& state) { return state.plan; }
+    static EditedPlan plan_of_view_state(const ViewState& state) { return state.plan; }
 
     scene::Scene scene = scene::load("cornell-mirrors", {});
     ImFontAtlas fonts;
@@ -106,7 +106,7 @@ protected:
 
 TEST_F(ViewPanelTest, ControlsChangeTheKnobsOfAllMirrors) {
     ViewState state;
-    state.plan = parse_plan_text("secant");
+    state.plan = parse_plan("secant");
     const std::set<std::string> texts = list_plans_reached_by_click(state, plan_of_view_state);
     for (const char* text : {"secant:face=128", "secant:face=512", "secant:face=auto",
                              "secant:shadow_map=512", "secant:distance=r16f"})
@@ -118,7 +118,7 @@ TEST_F(ViewPanelTest, ControlsChangeTheKnobsOfAllMirrors) {
 
 TEST_F(ViewPanelTest, ControlsChangeTheKnobsOfTheChosenMirror) {
     ViewState state;
-    state.plan = parse_plan_text("secant:face=64");
+    state.plan = parse_plan("secant:face=64");
     state.chosen = 2;
     std::set<std::string> texts = list_plans_reached_by_click(state, plan_of_view_state);
     texts.erase("secant:face=64"); // the plan after a click beside all controls
@@ -133,13 +133,13 @@ TEST_F(ViewPanelTest, ControlsChangeTheKnobsOfTheChosenMirror) {
 TEST_F(ViewPanelTest, ControlsEditTheChosenOneOfTwoPlans) {
     ViewState state;
     state.mode = ViewMode::split;
-    state.plan = parse_plan_text("secant"), state.other = parse_plan_text("parallax");
+    state.plan = parse_plan("secant"), state.other = parse_plan("parallax");
     state.edits_other = true;
     EXPECT_THAT(list_plans_reached_by_click(state, [](const ViewState& s) { return s.other; }),
                 Contains("parallax:face=512"));
     const std::set<std::string> texts = list_plans_reached_by_click(
         state, [](const ViewState& s) { return s.edits_other ? s.plan : ViewState().plan; });
-    EXPECT_THAT(texts, Each(technique_text_of_plan(parse_plan_text("secant"))));
+    EXPECT_THAT(texts, Each(technique_text(parse_plan("secant"))));
 }
 
 TEST_F(ViewPanelTest, FactsOfTheSceneListMirrorsAndCameras) {

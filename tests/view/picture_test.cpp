@@ -55,7 +55,7 @@ TEST_F(ViewPictureTest, DisplayShowsThePictureOfEachMode) {
     };
     SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
-        state.other = parse_plan_text("parallax:face=16,shadow_map=64");
+        state.other = parse_plan("parallax:face=16,shadow_map=64");
         state.divider = 40.0 / 64, state.gain = 2;
         state.cause = 8;
         state.mode = static_cast<ViewMode>(std::min<std::size_t>(frame / 10, kViewModeCount - 1));
@@ -63,9 +63,9 @@ TEST_F(ViewPictureTest, DisplayShowsThePictureOfEachMode) {
     };
     driver.after = [&](const ViewReport& report) {
         if (report.frame % 10 == 9)
-            expect_shown(report.viewer,
-                         report.frame < 60 ? view_mode_name(report.state.mode) + std::string(".png")
-                                           : "split.png");
+            expect_shown(report.viewer, report.frame < 60
+                                            ? mode_name(report.state.mode) + std::string(".png")
+                                            : "split.png");
     };
     EXPECT_EQ(run_view_in_test({"--technique", "secant:face=32,shadow_map=64", "--size", "64x64",
                                 "--frames", "69"},
@@ -94,7 +94,7 @@ TEST_F(ViewPictureTest, DisplayShowsThePictureOfEachMode) {
 /// A change of view, time or size starts the reference picture again.
 TEST_F(ViewPictureTest, ReferenceRestartsWhenTheViewChanges) {
     const auto passes = [](const ViewReport& report) {
-        return report.viewer.progressive_reference().rendered_pass_count();
+        return report.viewer.progressive_reference().pass_count();
     };
     std::vector<int> seen;
     SimulatedUser driver;
@@ -126,9 +126,9 @@ TEST_F(ViewPictureTest, ReferenceRestartsWhenTheViewChanges) {
 
 /// Draws every technique and changes up to three of its knobs while the window runs.
 TEST_F(ViewPictureTest, EveryTechniqueIsDrawnWhileItsKnobsChange) {
-    std::vector<EditedPlanState> plans;
+    std::vector<EditedPlan> plans;
     for (const session::TechniqueInfo& technique : session::techniques()) {
-        EditedPlanState plan;
+        EditedPlan plan;
         plan.rest.technique = technique.name;
         for (const session::KnobInfo& knob : technique.knobs)
             if (knob.name == "face" || knob.name == "shadow_map") set(plan.rest, knob, "16");
@@ -153,7 +153,7 @@ TEST_F(ViewPictureTest, EveryTechniqueIsDrawnWhileItsKnobsChange) {
         state.plan = plans[(frame - 1) / 2];
     };
     driver.after = [&](const ViewReport& report) {
-        EXPECT_EQ(report.state.said, "") << technique_text_of_plan(report.state.plan);
+        EXPECT_EQ(report.state.said, "") << technique_text(report.state.plan);
         drawn += report.state.plan == plans[(report.frame - 1) / 2];
     };
     const std::string frames = std::to_string(2 * plans.size());
@@ -210,7 +210,7 @@ TEST_F(ViewPictureTest, CopiedCommandRendersThePictureShown) {
         inputs.down[0] = frame > 2 && frame < 9;
         inputs.wheel = frame == 10 ? 3 : 0;
         if (frame == 5) state.motion.time = .125;
-        if (frame == 12) set(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
+        if (frame == 12) set(state.plan.rest, technique_info("secant")->knobs.front(), "3");
     };
     driver.after = [&](const ViewReport& report) { command = report.command; };
     EXPECT_EQ(run_view_in_test({"cornell-mirrors", "--technique", "secant:face=auto", "--size",
@@ -240,7 +240,7 @@ TEST_F(ViewPictureTest, RoughnessOfAMirrorIsShownAndCopied) {
     };
     driver.after = [&](const ViewReport& report) {
         command = report.command;
-        passes.push_back(report.viewer.progressive_reference().rendered_pass_count());
+        passes.push_back(report.viewer.progressive_reference().pass_count());
     };
     EXPECT_EQ(
         run_view_in_test({"cornell-mirrors", "--technique", "parallax:face=32", "--size", "64x48",

@@ -22,49 +22,41 @@ using namespace catoptric::view;
 using testing::ElementsAre;
 
 const session::KnobInfo& find_knob_info(const std::string& technique, const std::string& name) {
-    return *std::ranges::find(find_technique_info(technique)->knobs, name,
-                              &session::KnobInfo::name);
+    return *std::ranges::find(technique_info(technique)->knobs, name, &session::KnobInfo::name);
 }
 
 TEST(ViewPlan, PlanTextMatchesTheCommandLine) {
-    EXPECT_EQ(technique_text_of_plan(parse_plan_text("secant:face=64,steps=3")),
-              "secant:face=64,steps=3");
-    EXPECT_EQ(technique_text_of_plan(parse_plan_text("reuse:face=256")),
+    EXPECT_EQ(technique_text(parse_plan("secant:face=64,steps=3")), "secant:face=64,steps=3");
+    EXPECT_EQ(technique_text(parse_plan("reuse:face=256")),
               "reuse"); // 256 is the default
-    EXPECT_EQ(technique_text_of_plan(parse_plan_text("1=planar *=reuse")), "1=planar *=reuse");
-    EXPECT_THROW(parse_plan_text("secand"), Error);
-    EXPECT_THAT(make_plan_option_words(parse_plan_text("reuse")),
-                ElementsAre("--technique", "reuse"));
-    EXPECT_THAT(make_plan_option_words(parse_plan_text("auto")),
-                ElementsAre("--technique", "auto"));
+    EXPECT_EQ(technique_text(parse_plan("1=planar *=reuse")), "1=planar *=reuse");
+    EXPECT_THROW(parse_plan("secand"), Error);
+    EXPECT_THAT(plan_words(parse_plan("reuse")), ElementsAre("--technique", "reuse"));
+    EXPECT_THAT(plan_words(parse_plan("auto")), ElementsAre("--technique", "auto"));
 }
 
 TEST(ViewPlan, EditedMirrorGetsARuleOfItsOwn) {
-    EditedPlanState plan = parse_plan_text("reuse");
+    EditedPlan plan = parse_plan("reuse");
     plan.own[2] = plan.rest;
-    EXPECT_EQ(technique_text_of_plan(plan), "reuse"); // mirror 2 equals the rest
+    EXPECT_EQ(technique_text(plan), "reuse"); // mirror 2 equals the rest
     plan.own[2] = {"raytrace", {}};
     set(plan.own[2], find_knob_info("raytrace", "depth"), "3");
     set(plan.rest, find_knob_info("reuse", "face"), "64");
-    EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse:face=64");
-    EXPECT_THAT(make_plan_option_words(plan),
-                ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
+    EXPECT_EQ(technique_text(plan), "2=raytrace:depth=3 *=reuse:face=64");
+    EXPECT_THAT(plan_words(plan), ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
     set(plan.rest, find_knob_info("reuse", "face"), "256");
-    EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse");
-    EXPECT_EQ(technique_text_of_plan(set_knob_in_plan(parse_plan_text("hybrid"), "show", "state")),
-              "hybrid:show=state");
-    EXPECT_EQ(technique_text_of_plan(set_knob_in_plan(plan, "show", "state")),
-              technique_text_of_plan(plan)); // no technique has this knob
+    EXPECT_EQ(technique_text(plan), "2=raytrace:depth=3 *=reuse");
+    EXPECT_EQ(technique_text(set_knob(parse_plan("hybrid"), "show", "state")), "hybrid:show=state");
+    EXPECT_EQ(technique_text(set_knob(plan, "show", "state")),
+              technique_text(plan)); // no technique has this knob
 }
 
 TEST(ViewPlan, SuggestedPlanBecomesRulesByMirrorNumber) {
     const std::vector<PlanEntry> drawn{
         {1, "ball", "reuse", {{"face", "64", 64, true}, {"colour", "half", {}, false}}, "far"},
         {2, "wall", "planar", {}, "flat"}};
-    EXPECT_EQ(technique_text_of_plan(resolve_plan_by_mirror(parse_plan_text("auto"), drawn)),
-              "2=planar *=reuse:face=64");
-    EXPECT_EQ(technique_text_of_plan(resolve_plan_by_mirror(parse_plan_text("reuse"), drawn)),
-              "reuse");
+    EXPECT_EQ(technique_text(resolve_plan(parse_plan("auto"), drawn)), "2=planar *=reuse:face=64");
+    EXPECT_EQ(technique_text(resolve_plan(parse_plan("reuse"), drawn)), "reuse");
 }
 
 class ViewCameraTest : public testing::Test {
@@ -132,7 +124,7 @@ TEST(ViewHand, MouseDragsTheDividerAndClicksMirrors) {
     state.camera = {.eye = {0, 1, 0}, .target = {0, 1, 4}};
     const scene::Camera before = state.camera;
     state.mode = ViewMode::split;
-    MouseDragState hand;
+    MouseDrag hand;
     const auto at = [&](double x, double y, bool down) {
         UserInput inputs{.mouse = {x, y}, .down = {down}};
         return hand.apply_drag(inputs, state, {200, 100}, 10);
@@ -167,7 +159,7 @@ TEST(ViewInputs, MousePositionIsConvertedToPixels) {
 TEST(ViewInputs, EachKeyIsBoundOnceAndDescribed) {
     std::set<int> codes;
     std::set<std::string> names, descriptions;
-    for (const KeyBinding& key : list_key_bindings()) {
+    for (const KeyBinding& key : key_bindings()) {
         EXPECT_TRUE(codes.insert(key.code).second) << key.name;
         EXPECT_TRUE(names.insert(key.name).second) << key.name;
         EXPECT_TRUE(descriptions.insert(key.does).second) << key.name;
@@ -179,7 +171,7 @@ TEST(ViewInputs, EachKeyIsBoundOnceAndDescribed) {
 
 TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
     ViewState state;
-    state.plan = parse_plan_text("hybrid"), state.other = parse_plan_text("reuse");
+    state.plan = parse_plan("hybrid"), state.other = parse_plan("reuse");
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid"));
     state.mode = ViewMode::split;
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid", "reuse"));
@@ -197,23 +189,23 @@ TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
 TEST(ViewState, EachMirrorNumberHasItsOwnColour) {
     std::set<std::tuple<int, int, int>> colours;
     for (std::uint32_t mirror = 0; mirror <= 16; ++mirror) {
-        const glm::ivec3 c(mirror_number_colour(mirror) * 16.f);
+        const glm::ivec3 c(mirror_colour(mirror) * 16.f);
         colours.insert({c.x, c.y, c.z});
     }
     EXPECT_EQ(colours.size(), 17u);
-    const measure::Picture picture = make_mirror_number_picture({0, 1U | 3U << 16U}, {2, 1});
+    const measure::Picture picture = mirror_number_picture({0, 1U | 3U << 16U}, {2, 1});
     EXPECT_EQ(picture.at(0, 0), vec3(0));
-    EXPECT_EQ(picture.at(1, 0), mirror_number_colour(1));
+    EXPECT_EQ(picture.at(1, 0), mirror_colour(1));
 }
 
 TEST(ViewMotion, TimeAdvancesBySpeedWhilePlaying) {
-    EXPECT_EQ(advance_playback_time({.time = 2}, .5), 2);
-    EXPECT_EQ(advance_playback_time({.time = 2, .plays = true, .speed = -2}, .5), 1);
+    EXPECT_EQ(advance_time({.time = 2}, .5), 2);
+    EXPECT_EQ(advance_time({.time = 2, .plays = true, .speed = -2}, .5), 1);
 }
 
 TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
     ViewState state;
-    state.plan = parse_plan_text("1=planar *=reuse");
+    state.plan = parse_plan("1=planar *=reuse");
     state.motion.time = .25, state.exposure = -1;
     const std::vector<std::string> words{"hall of mirrors.glb",
                                          "--mirror",
@@ -230,17 +222,16 @@ TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
                                          "--budget-ms",
                                          "4"};
     EXPECT_EQ(
-        make_render_command(words, state, "0,1,2:3,4,5:40", {64, 48}),
+        render_command(words, state, "0,1,2:3,4,5:40", {64, 48}),
         "catoptric render 'hall of mirrors.glb' --mirror 'wall*=.9' --environment studio --plan "
         "'1=planar *=reuse' --camera 0,1,2:3,4,5:40 --time 0.25 --size 64x48 --exposure -1 --model "
         "required -o view.png");
-    EXPECT_THAT(make_render_words({"-qv", "-vv", "--verbose", "--seed", "7", "--", "-q"}, state,
-                                  "0,1,2:3,4,5:40", {64, 48}),
+    EXPECT_THAT(render_words({"-qv", "-vv", "--verbose", "--seed", "7", "--", "-q"}, state,
+                             "0,1,2:3,4,5:40", {64, 48}),
                 testing::AllOf(testing::Not(testing::Contains("-qv")),
                                testing::Not(testing::Contains("-vv")), testing::Contains("7"),
                                testing::Contains("view.png")));
-    const std::vector<std::string> odd = make_render_words({"-q", "--", "-q"}, state, "0",
-                                                           {64, 48});
+    const std::vector<std::string> odd = render_words({"-q", "--", "-q"}, state, "0", {64, 48});
     EXPECT_EQ(odd.at(1), "--plan");
     EXPECT_THAT(std::vector(odd.end() - 3, odd.end()), ElementsAre("view.png", "--", "-q"));
     EXPECT_EQ(quote_for_shell("it's"), "'it'\\''s'");
@@ -248,25 +239,25 @@ TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
 }
 
 TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
-    const SavedViewerSettings settings{
+    const ViewerSettings settings{
         .window = {800, 600}, .shows_panels = false, .flies = true, .speed = -.5, .gain = 16};
-    EXPECT_EQ(parse_viewer_settings(serialise_viewer_settings(settings)), settings);
+    EXPECT_EQ(parse_settings(serialise_settings(settings)), settings);
     for (const char* text :
          {"", "[]", "{\"width\": -4, \"height\": 5}", "{\"gain\": 3}", "{\"speed\": \"x\"}",
           "{\"speed\": 1e999, \"panels\": 7}", "{\"width\": 99999, \"height\": 3}"})
-        EXPECT_EQ(parse_viewer_settings(text), SavedViewerSettings()) << text;
+        EXPECT_EQ(parse_settings(text), ViewerSettings()) << text;
 }
 
 TEST(ViewState, DifferencePictureIsTheAbsoluteDifferenceTimesTheGain) {
     measure::Picture a(2, 1), b(2, 1);
     a.pixels = {vec3(.5f, .25f, 0), vec3(1)};
     b.pixels = {vec3(.25f, .5f, 0), vec3(0)};
-    const measure::Picture difference = make_difference_picture(a, b, 2);
+    const measure::Picture difference = difference_picture(a, b, 2);
     EXPECT_THAT(difference.pixels, ElementsAre(vec3(.5f, .5f, 0), vec3(1)));
 }
 
 TEST(ViewTimes, TimesOfTheHostAreNamedInTheOrderOfWork) {
-    TimeStatistics::FrameTimeSample sample;
+    TimeStatistics::FrameSample sample;
     sample.frame.host = {.update = 1, .hierarchy = 2, .compile = 3, .record = 4};
     sample.frame.gpu_ms = 8;
     sample.host_ms = 5, sample.acquire_ms = 6, sample.present_ms = 7;
@@ -274,7 +265,7 @@ TEST(ViewTimes, TimesOfTheHostAreNamedInTheOrderOfWork) {
     times.add(sample);
     std::vector<std::string> names;
     std::vector<double> medians;
-    for (const TimeTableRow& row : times.host()) {
+    for (const TimeRow& row : times.host()) {
         names.push_back(row.name);
         medians.push_back(row.median);
     }
@@ -288,7 +279,7 @@ TEST(ViewTimes, TimesOfTheHostAreNamedInTheOrderOfWork) {
 TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
     TimeStatistics times;
     const auto sample = [](double ms) {
-        TimeStatistics::FrameTimeSample s;
+        TimeStatistics::FrameSample s;
         s.frame.passes = {{"view", 0, ms}};
         s.interval_ms = 20;
         return s;
@@ -297,7 +288,7 @@ TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
     EXPECT_EQ(times.list_pass_times().at(0).median, 4);
     EXPECT_EQ(times.list_pass_times().at(0).ci95.low, 1);
     EXPECT_EQ(times.fps(), 50);
-    TimeStatistics::FrameTimeSample other = sample(9);
+    TimeStatistics::FrameSample other = sample(9);
     other.frame.passes[0].name = "trace";
     times.add(other);
     EXPECT_EQ(times.frame_count(), 1u);

@@ -29,7 +29,7 @@ protected:
             options = parsed;
             return 0;
         })();
-        return run_view_window(options, driver);
+        return run_window(options, driver);
     }
     /// Expects that the window program refuses the command line with this failure and text.
     static void expect_view_refused(const Words& words, Failure failure, const std::string& text) {

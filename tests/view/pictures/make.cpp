@@ -24,9 +24,7 @@ struct DocumentedScreenshot {
 const std::vector<DocumentedScreenshot> kDocumentedScreenshots{
     {"plan", 12, [](ViewState& state) { state.said = ""; }, {872, 1000}},
     {"split", 8,
-     [](ViewState& state) {
-         state.mode = ViewMode::split, state.other = parse_plan_text("parallax");
-     }},
+     [](ViewState& state) { state.mode = ViewMode::split, state.other = parse_plan("parallax"); }},
     {"difference", 6, [](ViewState& state) { state.mode = ViewMode::difference, state.gain = 8; }},
     {"answers", 6, [](ViewState& state) { state.mode = ViewMode::answers; }},
     {"numbers", 6, [](ViewState& state) { state.mode = ViewMode::numbers; }},
@@ -71,13 +69,13 @@ int make_documentation_pictures(const std::filesystem::path& folder) {
     for (const DocumentedScreenshot& one : kDocumentedScreenshots) frames += one.frames;
     return parse_view_command(
         {"--frames", std::to_string(frames), "--time", "0.4"},
-        [&](const ViewOptions& options) { return run_view_window(options, driver); })();
+        [&](const ViewOptions& options) { return run_window(options, driver); })();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return cli::run_program_catching_errors("catoptric_view_pictures", [&] {
+    return cli::run_catching("catoptric_view_pictures", [&] {
         check(argc == 2, Failure::usage, "wanted a folder for the pictures");
         return make_documentation_pictures(argv[1]);
     });
