@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/account.hpp"
+#include "scene/budget.hpp"
 
 #include <filesystem>
 #include <map>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "scene/account.hpp"
+#include "scene/budget.hpp"
 
 #include <array>
 #include <cstdint>

@@ -8,7 +8,7 @@
 #include "scene/pose.hpp"
 #include "session/capture_budget.hpp"
 #include "session/plan_file.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 
 #include <nlohmann/json.hpp>
 

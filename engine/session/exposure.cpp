@@ -3,7 +3,7 @@
 #include "core/luminance.hpp"
 #include "measure/statistics.hpp"
 #include "scene/scene_overrides.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 
 #include <algorithm>
 #include <cmath>

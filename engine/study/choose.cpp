@@ -7,7 +7,6 @@
 #include "measure/interval.hpp"
 #include "session/watcher.hpp"
 #include "study/choose_judge.hpp"
-#include "study/choose_noise.hpp"
 #include "study/choose_search.hpp"
 #include "study/compare_checks.hpp"
 #include "study/compare_to_target.hpp"

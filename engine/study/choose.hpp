@@ -2,7 +2,6 @@
 
 #include "compare.hpp"
 #include "measure/comparison.hpp"
-#include "study/choose_noise.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +25,13 @@ const char* quantity_name(ErrorQuantity quantity);
 double mirror_error(ErrorQuantity quantity, const measure::Difference& mirrors);
 /// Returns the same error, but against a reference with noise a bound that it is not below.
 double lower_mirror_error(ErrorQuantity quantity, const measure::Difference& mirrors);
+
+/// The noise of the references of drawn views: the errors between their halves over the mirrors.
+struct ViewNoise {
+    double median_floor = 0, largest_floor = 0;
+    std::optional<double> wanted_floor; ///< a fifth of the limit of error; none without a limit
+    std::size_t views_above = 0;        ///< views whose floor is above the wanted one
+};
 
 /// A plan with its cost and its errors over views.
 struct JudgedPlan {

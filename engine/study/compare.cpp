@@ -14,7 +14,7 @@
 #include "session/device_facts.hpp"
 #include "session/exposure.hpp"
 #include "session/processor.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"

@@ -1,6 +1,6 @@
 #include "study/compare_settings.hpp"
 
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/technique_choice.hpp"
 #include "study/reference_cache.hpp"
 #include "study/row_run.hpp"

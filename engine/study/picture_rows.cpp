@@ -10,7 +10,7 @@
 #include "measure/picture_file.hpp"
 #include "measure/srgb.hpp"
 #include "report/json.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/technique_choice.hpp"
 #include "study/views.hpp"
 

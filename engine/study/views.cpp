@@ -8,7 +8,7 @@
 #include "scene/pose.hpp"
 #include "session/access.hpp"
 #include "session/frames.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/seeded_camera.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"

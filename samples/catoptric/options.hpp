@@ -2,7 +2,7 @@
 
 #include "command_line.hpp"
 #include "output.hpp"
-#include "scene/budget_for.hpp"
+#include "scene/budget.hpp"
 #include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "session/resolved_scene.hpp"

@@ -18,7 +18,7 @@
 #include "session/exposure.hpp"
 #include "session/frames.hpp"
 #include "session/run.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "technique_option.hpp"

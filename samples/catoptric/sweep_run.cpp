@@ -13,7 +13,7 @@
 #include "session/device_facts.hpp"
 #include "session/exposure.hpp"
 #include "session/processor.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/seeded_camera.hpp"
 #include "session/watcher.hpp"
 #include "signals.hpp"

@@ -8,7 +8,7 @@
 #include "report/json.hpp"
 #include "report/writer.hpp"
 #include "session/engine.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "study/picture_rows.hpp"
 #include "study/study.hpp"
 #include "verbs.hpp"

@@ -4,7 +4,7 @@
 #include "scene/built_in.hpp"
 #include "scene/pose.hpp"
 #include "session/access.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "support/rendering.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "render/space.hpp"
 #include "scene/load.hpp"
 #include "session/rays.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include "scene/hash.hpp"
 #include "scene/light_kind.hpp"
 #include "scene/load.hpp"
-#include "session/scene_facts.hpp"
+#include "session/scene_info.hpp"
 #include "session/technique_choice.hpp"
 #include "study/compare_checks.hpp"
 #include "study/study.hpp"

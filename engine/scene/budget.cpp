@@ -1,4 +1,4 @@
-#include "scene/budget_for.hpp"
+#include "scene/budget.hpp"
 
 #include <algorithm>
 #include <fstream>
