@@ -19,7 +19,7 @@ install(TARGETS catoptric_images catoptric_draco LIBRARY DESTINATION ${CMAKE_INS
 set(headers
     compare.hpp embed.hpp error.hpp picture.hpp report.hpp scene.hpp session.hpp technique.hpp
     core/export.hpp core/frame_facts.hpp core/math.hpp
-    scene/build.hpp scene/load.hpp scene/material.hpp scene/scene.hpp
+    scene/build.hpp scene/material.hpp scene/scene.hpp import/load.hpp
     measure/comparison.hpp measure/picture.hpp
     session/engine.hpp session/run.hpp session/session.hpp)
 foreach(header IN LISTS headers)

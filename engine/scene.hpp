@@ -1,5 +1,5 @@
 #pragma once
 
 /// Builds, loads, edits and saves scenes.
+#include "import/load.hpp"
 #include "scene/build.hpp"
-#include "scene/load.hpp"

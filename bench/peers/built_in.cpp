@@ -3,8 +3,8 @@
 #include "scene/built_in.hpp"
 #include "cases.hpp"
 #include "comparison.hpp"
+#include "import/load.hpp"
 #include "prototypes.hpp"
-#include "scene/load.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "cases.hpp"
+#include "import/load.hpp"
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 
 namespace peers {
 

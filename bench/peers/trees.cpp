@@ -1,9 +1,9 @@
 #include "cases.hpp"
 #include "comparison.hpp"
 #include "embree_tree.hpp"
+#include "import/load.hpp"
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 
 #include <cstdio>
 

@@ -4,7 +4,6 @@
 #include "scene/moved_sphere.hpp"
 #include "scene/nested_glass.hpp"
 
-#include "scene/json.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/texel.hpp"
 #include "scene/transform.hpp"
@@ -150,7 +149,7 @@ void add_unsupported_materials(Scene& scene, const char* id,
                                const std::set<std::size_t>& materials) {
     for (const std::size_t i : materials)
         add_unsupported_material(scene.unsupported, id,
-                                 gltf::item_label("materials", i, scene.materials[i].name), i);
+                                 item_label("materials", i, scene.materials[i].name), i);
 }
 
 /// Keeps only the kMaxGlassMirrors largest objects of glass as mirrors.

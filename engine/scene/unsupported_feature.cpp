@@ -1,5 +1,7 @@
 #include "scene/unsupported_feature.hpp"
 
+#include "core/text.hpp"
+
 #include <algorithm>
 
 namespace catoptric::scene {
@@ -14,6 +16,11 @@ UnsupportedFeature& find_or_add_feature(std::vector<UnsupportedFeature>& unsuppo
 }
 
 } // namespace
+
+std::string item_label(std::string_view list, std::size_t index, const std::string& name) {
+    return std::string(list) + "[" + std::to_string(index) + "]" +
+           (name.empty() ? "" : " " + quote(name));
+}
 
 void add_unsupported(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
                      const std::string& first, std::uint64_t count) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/file_options.hpp"
-#include "scene/load.hpp"
+#include "import/file_options.hpp"
+#include "import/load.hpp"
 #include "scene/scene_overrides.hpp"
 
 #include <filesystem>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "command_line.hpp"
+#include "import/budget.hpp"
+#include "import/file_options.hpp"
+#include "import/load.hpp"
 #include "output.hpp"
-#include "scene/budget.hpp"
-#include "scene/file_options.hpp"
-#include "scene/load.hpp"
 #include "session/resolved_scene.hpp"
 #include "session/run.hpp"
 

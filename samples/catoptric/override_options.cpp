@@ -1,9 +1,9 @@
 // The options for scene overrides.
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "import/scene_file.hpp"
 #include "options.hpp"
 #include "parse.hpp"
-#include "scene/scene_file.hpp"
 
 namespace catoptric::cli {
 

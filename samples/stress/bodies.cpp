@@ -4,12 +4,12 @@
 
 #include "core/error.hpp"
 #include "core/mirror_id.hpp"
+#include "import/load.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "session/technique_choice.hpp"
 
 #include <fmt/format.h>

@@ -3,10 +3,10 @@
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
+#include "import/load.hpp"
 #include "measure/masks.hpp"
 #include "measure/picture.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 
 #include <fmt/format.h>
 

@@ -7,10 +7,10 @@
 #include "stress/texels.hpp"
 
 #include "core/format.hpp"
+#include "import/load.hpp"
 #include "render/captured.hpp"
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/shapes.hpp"
 
 #include <fmt/format.h>

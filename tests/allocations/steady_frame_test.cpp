@@ -1,9 +1,9 @@
 // Tests that each frame of a still scene makes the same number of heap allocations.
 #include "allocations/counting.hpp"
+#include "import/load.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/passes.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "support/device.hpp"
 #include "support/techniques.hpp"
 

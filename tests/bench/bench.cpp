@@ -5,11 +5,11 @@
 //   catoptric_bench rules [ROUNDS]  measures the cost of each rule of docs/robustness.md
 //   catoptric_bench repeats TIMES ROW ROW...   counts how often a comparison calls rows different
 #include "benchmark/bench_subjects.hpp"
+#include "import/load.hpp"
 #include "measure/statistics.hpp"
 #include "render/nearest.hpp"
 #include "repeats.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/repair.hpp"
 #include "session/access.hpp"
 #include "support/wanted_device.hpp"

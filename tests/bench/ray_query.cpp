@@ -5,9 +5,9 @@
 #include "drivers/ray_query.hpp"
 #include "benchmark/bench_subjects.hpp"
 #include "drivers/witness_rays.hpp"
+#include "import/load.hpp"
 #include "measure/statistics.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 
 #include <algorithm>
 #include <cstdio>

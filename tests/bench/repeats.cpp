@@ -1,10 +1,10 @@
 #include "repeats.hpp"
 
 #include "compare.hpp"
+#include "import/load.hpp"
 #include "measure/judge.hpp"
 #include "measure/statistics.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/program.hpp"
-#include "scene/load.hpp"
+#include "import/load.hpp"
 #include "session/run.hpp"
 
 #include <functional>

@@ -2,10 +2,10 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "scene/file_options.hpp"
+#include "import/file_options.hpp"
+#include "import/load.hpp"
 #include "scene/hash.hpp"
 #include "scene/light.hpp"
-#include "scene/load.hpp"
 
 #include <cstdint>
 #include <cstdio>

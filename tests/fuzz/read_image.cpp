@@ -2,7 +2,7 @@
 // hexadecimal digits.
 #include "fuzz.hpp"
 
-#include "scene/image_file.hpp"
+#include "import/image_file.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Tests that the device and the C++ version of the BVH traversal find the same hits, bit for bit.
+#include "import/load.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "session/rays.hpp"
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"

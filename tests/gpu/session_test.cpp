@@ -1,7 +1,7 @@
 // Tests of scenes that stay on the device. After any change the next frame must equal that of a new
 // session with the changed scene. No memory or work may accumulate.
+#include "import/load.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "session/access.hpp"
 #include "session/run.hpp"
 #include "support/refusal.hpp"

@@ -1,7 +1,7 @@
 // Tests that engines are independent: two threads with an engine each must render the same pictures
 // as one thread.
+#include "import/load.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "session/session.hpp"
 
 #include <gtest/gtest.h>

@@ -2,11 +2,11 @@
 // the choices draw from. The true share of views that keep a limit is therefore known, and so is
 // the cheapest plan that keeps the limit.
 #include "compare.hpp"
+#include "import/load.hpp"
 #include "measure/certificate.hpp"
 #include "measure/costs.hpp"
 #include "places.hpp"
 #include "report/costs.hpp"
-#include "scene/load.hpp"
 #include "study/choose.hpp"
 #include "support/folder.hpp"
 #include "support/rendering.hpp"

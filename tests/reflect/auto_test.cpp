@@ -1,8 +1,8 @@
 // Tests of pictures drawn with `auto`, which chooses a plan for the scene.
+#include "import/load.hpp"
 #include "require/suggest.hpp"
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/pose.hpp"
 #include "session/access.hpp"
 #include "session/resolve_auto.hpp"

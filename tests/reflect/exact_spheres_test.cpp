@@ -1,7 +1,7 @@
 // Tests of exact spheres in ray tracing. They have a BVH of their own, which must follow moved
 // objects.
+#include "import/load.hpp"
 #include "measure/causes.hpp"
-#include "scene/load.hpp"
 #include "support/lit.hpp"
 #include "support/rendering.hpp"
 

@@ -1,10 +1,10 @@
 // Tests of glass that is looked up in captures (knob `refract`). Expected values are formulas in
 // double precision, for glass that shows only an environment, and ray-traced pictures.
 #include "core/shader_math.hpp"
+#include "import/load.hpp"
 #include "measure/picture.hpp"
 #include "scene/classify.hpp"
 #include "scene/glass_body.hpp"
-#include "scene/load.hpp"
 #include "scene/surroundings.hpp"
 #include "support/lit.hpp"
 #include "support/numbers.hpp"

@@ -1,8 +1,8 @@
 // Tests of the model `required`, which leaves out work that a picture does not need. Each picture
 // must equal that of a session that renders everything, byte for byte.
+#include "import/load.hpp"
 #include "require/model.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/shapes.hpp"
 #include "session/access.hpp"
 #include "support/drawn_hall.hpp"

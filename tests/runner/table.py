@@ -67,6 +67,7 @@ PATHS = [
     ("engine/core/*", f"unit | {PICTURES} {FILES} bench"),
     ("engine/images/*", f"unit {FILES} | cli"),
     ("engine/draco/*", f"unit {FILES} | cli"),
+    ("engine/import/*", f"unit fuzzed | {PICTURES} {FILES} long/choose long/audit"),
     ("engine/scene/*", f"unit fuzzed | {PICTURES} {FILES} long/choose long/audit"),
     ("engine/bvh/*", f"unit drivers | {PICTURES}"),
     ("engine/require/*", f"unit | {PICTURES} long/choose long/audit"),

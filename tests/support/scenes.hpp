@@ -1,7 +1,7 @@
 #pragma once
 
+#include "import/load.hpp"
 #include "scene/build.hpp"
-#include "scene/load.hpp"
 #include "scene/scene.hpp"
 #include "scene/shapes.hpp"
 

@@ -1,8 +1,8 @@
 // Tests of render::find_backdrops, which finds the objects whose shadow falls on nothing
 // for a given light.
+#include "import/load.hpp"
 #include "render/backdrop.hpp"
 #include "render/space.hpp"
-#include "scene/load.hpp"
 #include "scene/scene.hpp"
 #include "scene/shapes.hpp"
 #include "support/scenes.hpp"

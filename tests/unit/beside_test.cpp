@@ -1,12 +1,12 @@
 // Tests of scene overrides in SCENE.catoptric.json, and of the light and camera that are added to
 // scene files without them.
 #include "core/file.hpp"
+#include "import/scene_file.hpp"
 #include "measure/picture_file.hpp"
 #include "scene/built_in.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/default_camera.hpp"
 #include "scene/hash.hpp"
-#include "scene/scene_file.hpp"
 #include "session/resolved_scene.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"

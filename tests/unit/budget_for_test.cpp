@@ -1,6 +1,6 @@
 // Tests of the loading budget: the triangles, vertices and bytes that a scene file may contain on a
 // machine.
-#include "scene/budget.hpp"
+#include "import/budget.hpp"
 
 #include "support/folder.hpp"
 

@@ -1,7 +1,7 @@
 // Tests that a scene made in memory is refused as a file would be, with its place and what was
 // found.
+#include "import/load.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"
 

@@ -2,8 +2,8 @@
 // copies.
 #include "bvh/closest_hit.hpp"
 #include "bvh/copies.hpp"
+#include "import/load.hpp"
 #include "render/space.hpp"
-#include "scene/load.hpp"
 #include "session/rays.hpp"
 #include "session/scene_info.hpp"
 

@@ -1,7 +1,7 @@
 // Tests that no two objects of a shipped scene overlap in one plane. Chance would decide which of
 // the two a picture shows.
+#include "import/load.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "scene/scene.hpp"
 #include "scene/transform.hpp"
 

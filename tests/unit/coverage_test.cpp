@@ -1,8 +1,8 @@
 // Tests of find_first_objects, which finds the object that each pixel shows without a BVH.
 // Rays through a BVH give the expected objects.
 #include "bvh/closest_hit.hpp"
+#include "import/load.hpp"
 #include "render/space.hpp"
-#include "scene/load.hpp"
 #include "session/coverage.hpp"
 #include "session/rays.hpp"
 

@@ -1,8 +1,8 @@
 // Tests of error messages for invalid JSON. Every reader of JSON files gives the same message.
 #include "core/json.hpp"
+#include "import/load.hpp"
+#include "import/scene_file.hpp"
 #include "report/benchmarks.hpp"
-#include "scene/load.hpp"
-#include "scene/scene_file.hpp"
 #include "session/plan_file.hpp"
 #include "session/profile.hpp"
 #include "support/folder.hpp"

@@ -1,5 +1,5 @@
 // Tests of glTF animations: each kind of track, each interpolation, and moving parents.
-#include "scene/file_options.hpp"
+#include "import/file_options.hpp"
 #include "scene/pose.hpp"
 #include "scene/transform.hpp"
 #include "unit/load_fixture.hpp"

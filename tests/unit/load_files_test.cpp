@@ -1,6 +1,6 @@
 // Tests of the files that a scene may refer to. The file that is opened must be the file that
 // passed the checks.
-#include "scene/file_options.hpp"
+#include "import/file_options.hpp"
 #include "unit/load_fixture.hpp"
 
 #include <sys/stat.h>

@@ -2,8 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "scene/file_options.hpp"
-#include "scene/load.hpp"
+#include "import/file_options.hpp"
+#include "import/load.hpp"
 #include "support/folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Tests of files as other programs write them: names of files from other machines, line ends,
 // statements that contradict each other, numbers outside their range.
 #include "core/image_codec.hpp"
-#include "scene/image_file.hpp"
+#include "import/image_file.hpp"
 #include "unit/load_fixture.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Tests of loading surfaces and texture coordinates from .obj and .mtl files.
-#include "scene/file_options.hpp"
-#include "scene/image_file.hpp"
+#include "import/file_options.hpp"
+#include "import/image_file.hpp"
 #include "scene/material_facts.hpp"
 #include "support/refusal.hpp"
 #include "unit/load_fixture.hpp"

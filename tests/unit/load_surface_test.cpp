@@ -1,8 +1,8 @@
 // Tests of loading glTF materials: the surface that each factor, texture and extension gives.
 #include "core/image_codec.hpp"
+#include "import/file_options.hpp"
+#include "import/image_file.hpp"
 #include "scene/build.hpp"
-#include "scene/file_options.hpp"
-#include "scene/image_file.hpp"
 #include "scene/material_facts.hpp"
 #include "support/refusal.hpp"
 #include "unit/load_fixture.hpp"

@@ -1,5 +1,5 @@
+#include "import/load.hpp"
 #include "places.hpp"
-#include "scene/load.hpp"
 
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"

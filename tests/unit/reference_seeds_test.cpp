@@ -2,7 +2,7 @@
 #include "study/reference_seeds.hpp"
 
 #include "compare.hpp"
-#include "scene/load.hpp"
+#include "import/load.hpp"
 #include "scene/rough_reflectors.hpp"
 #include "session/technique_choice.hpp"
 #include "study/reference_cache.hpp"

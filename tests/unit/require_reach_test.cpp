@@ -1,10 +1,10 @@
 // Tests of culled capture faces and culled shadow maps, and of the text about culled work.
+#include "import/load.hpp"
 #include "require/culled_work.hpp"
 #include "require/reach.hpp"
 #include "require/suggest.hpp"
 #include "scene/built_in.hpp"
 #include "scene/light.hpp"
-#include "scene/load.hpp"
 #include "session/seeded_camera.hpp"
 #include "support/scenes.hpp"
 

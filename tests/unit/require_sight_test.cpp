@@ -1,9 +1,9 @@
 // Tests which mirrors a picture requires. Some cases have known answers; in others, random rays
 // must meet no mirror that was called unseen.
 #include "core/mirror_id.hpp"
+#include "import/load.hpp"
 #include "require/frustum.hpp"
 #include "require/sight.hpp"
-#include "scene/load.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
 #include "scene/shapes.hpp"

@@ -1,11 +1,11 @@
 // Tests of the plans that `auto` chooses, and of the unit costs by which it compares them.
 #include "require/suggest.hpp"
 
+#include "import/load.hpp"
 #include "places.hpp"
 #include "require/plan_work.hpp"
 #include "scene/built_in.hpp"
 #include "scene/classify.hpp"
-#include "scene/load.hpp"
 #include "session/seeded_camera.hpp"
 #include "support/scenes.hpp"
 

@@ -1,12 +1,12 @@
 #include "scene/scene.hpp"
 
 #include "core/error.hpp"
+#include "import/load.hpp"
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
 #include "scene/default_camera.hpp"
 #include "scene/hash.hpp"
 #include "scene/light.hpp"
-#include "scene/load.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
 

@@ -2,10 +2,10 @@
 // draws with such a technique.
 #include "compare.hpp"
 #include "core/error.hpp"
+#include "import/load.hpp"
 #include "reflect/plan.hpp"
 #include "require/model.hpp"
 #include "scene/built_in.hpp"
-#include "scene/load.hpp"
 #include "session/engine.hpp"
 #include "session/technique_choice.hpp"
 #include "study/compare_checks.hpp"

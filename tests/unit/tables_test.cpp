@@ -2,6 +2,7 @@
 // this file are in no central list, but must appear in every report and table.
 #include "compare.hpp"
 #include "core/error.hpp"
+#include "import/load.hpp"
 #include "measure/flip.hpp"
 #include "measure/metric.hpp"
 #include "measure/picture.hpp"
@@ -12,7 +13,6 @@
 #include "scene/built_in.hpp"
 #include "scene/hash.hpp"
 #include "scene/light_kind.hpp"
-#include "scene/load.hpp"
 #include "session/scene_info.hpp"
 #include "session/technique_choice.hpp"
 #include "study/compare_checks.hpp"

@@ -1,9 +1,9 @@
 // Tests of scene overrides, of lights that are left out, of cameras given as text, and of automatic
 // exposure.
+#include "import/load.hpp"
 #include "scene/build.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/light.hpp"
-#include "scene/load.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/motion.hpp"
 #include "scene/pose.hpp"

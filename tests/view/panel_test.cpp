@@ -2,7 +2,7 @@
 // a window or a device.
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "scene/load.hpp"
+#include "import/load.hpp"
 #include "session/technique_choice.hpp"
 #include "support/folder.hpp"
 #include "view/panels.hpp"

@@ -1,7 +1,7 @@
 // Tests of the window under an X server without a screen. Its pictures must equal those of
 // `catoptric render`, and the X server must show them.
+#include "import/load.hpp"
 #include "measure/picture_file.hpp"
-#include "scene/load.hpp"
 #include "view/window.hpp"
 
 #include <algorithm>

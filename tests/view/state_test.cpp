@@ -1,7 +1,7 @@
 // Tests of the window's state without a window: plans, cameras, mouse input, commands and settings.
 #include "core/error.hpp"
+#include "import/load.hpp"
 #include "scene/camera_named.hpp"
-#include "scene/load.hpp"
 #include "view/camera.hpp"
 #include "view/command.hpp"
 #include "view/inputs.hpp"
