@@ -13,7 +13,7 @@ constexpr Knob kForce{.name = "force",
                       .help = "pixels to trace: those for which the search answers unknown, or all",
                       .high = 1,
                       .choices = kForceChoices};
-constexpr auto kHybridKnobs = [] {
+constexpr auto kKnobs = [] {
     auto knobs = search_knobs(std::array{kForce});
     std::ranges::find(knobs, kRefract.name, &Knob::name)->value = shared::kRefractTraced;
     return knobs;
@@ -55,22 +55,22 @@ MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs
     return look;
 }
 
-constexpr std::string_view kHybridDefaultRows[] = {"hybrid"};
+constexpr std::string_view kDefaultRows[] = {"hybrid"};
 
-constexpr Technique kHybridTechnique{
+constexpr Technique kTechnique{
     .name = "hybrid",
     .summary = "Searches first and traces only the pixels for which the search found no answer.",
     .order = 15,
     .traits = {.captures = TechniqueTraits::Captures::shared,
                .traces_rays = true,
                .noise = TechniqueTraits::Noise::rays},
-    .knobs = kHybridKnobs,
-    .compared = kHybridDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes = count_capture_passes,
     .capture = make_hybrid_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_hybrid_shading};
-const RegisteredTechnique kHybridRegistration{kHybridTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

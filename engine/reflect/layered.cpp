@@ -6,12 +6,12 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kLayeredSteps{.name = "steps",
-                             .help = "number of steps of equal angle along the reflected ray",
-                             .low = 1,
-                             .high = 256,
-                             .value = 16};
-constexpr auto kLayeredKnobs = search_knobs(std::array{kLayeredSteps});
+constexpr Knob kSteps{.name = "steps",
+                      .help = "number of steps of equal angle along the reflected ray",
+                      .low = 1,
+                      .high = 256,
+                      .value = 16};
+constexpr auto kKnobs = search_knobs(std::array{kSteps});
 
 render::CaptureOptions make_layered_options(const render::FrameInputs& inputs,
                                             const KnobSettings& settings) {
@@ -24,7 +24,7 @@ MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
                                    const KnobSettings& settings, const ShadingInputs& around) {
     MirrorShading look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
-                                       static_cast<std::uint32_t>(settings.integer(kLayeredSteps)));
+                                       static_cast<std::uint32_t>(settings.integer(kSteps)));
     // Mirrors with this shader never look into captures without a second layer. For such captures,
     // the colour image is bound as a placeholder.
     const auto bind_layer_images = [&](const char* name, auto&& image) {
@@ -43,17 +43,17 @@ MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
     return look;
 }
 
-constexpr std::string_view kLayeredDefaultRows[] = {"layered"};
+constexpr std::string_view kDefaultRows[] = {"layered"};
 
-constexpr Technique kLayeredTechnique{
+constexpr Technique kTechnique{
     .name = "layered",
     .summary =
         "Marches through captures that also hold a second surface behind the first, and so finds "
         "hidden surfaces.",
     .order = 14,
     .traits = {.captures = TechniqueTraits::Captures::shared},
-    .knobs = kLayeredKnobs,
-    .compared = kLayeredDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     // The number of scene passes R is 2 N + 2 for N mirrors.
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
@@ -62,7 +62,7 @@ constexpr Technique kLayeredTechnique{
     .capture = make_layered_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_layered_shading};
-const RegisteredTechnique kLayeredRegistration{kLayeredTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

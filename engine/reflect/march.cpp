@@ -6,28 +6,28 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kMarchKnobs = search_knobs(
+constexpr auto kKnobs = search_knobs(
     std::array{Knob{.name = "steps",
                     .help = "number of steps of equal angle along the reflected ray",
                     .low = 1,
                     .high = 256,
                     .value = 16}});
 
-constexpr std::string_view kMarchDefaultRows[] = {"march"};
+constexpr std::string_view kDefaultRows[] = {"march"};
 
-constexpr Technique kMarchTechnique{
+constexpr Technique kTechnique{
     .name = "march",
     .summary =
         "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
     .order = 12,
     .traits = {.captures = TechniqueTraits::Captures::shared},
-    .knobs = kMarchKnobs,
-    .compared = kMarchDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .search = "reflect/march.frag"};
-const RegisteredTechnique kMarchRegistration{kMarchTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

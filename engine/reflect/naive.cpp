@@ -13,9 +13,8 @@ constexpr Knob kBounces{.name = "bounces",
                         .low = 0,
                         .high = 8,
                         .value = 3};
-constexpr Knob kNaiveKnobs[] = {kBounces,   kFace,       kColour,           kRefract,
-                                kIndirect,  kProbes,     kAmbientOcclusion, kShadow,
-                                kShadowMap, kSoftShadow, kOthersFace};
+constexpr Knob kKnobs[] = {kBounces,          kFace,   kColour,    kRefract,    kIndirect,  kProbes,
+                           kAmbientOcclusion, kShadow, kShadowMap, kSoftShadow, kOthersFace};
 
 /// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
 /// technique `naive`, because only these look into its captures.
@@ -41,10 +40,10 @@ MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs&
     return {std::move(look), {}};
 }
 
-constexpr std::string_view kNaiveDefaultRows[] = {
+constexpr std::string_view kDefaultRows[] = {
     "naive:bounces=0", "naive:bounces=1", "naive:bounces=2", "naive:bounces=3", "naive:bounces=4"};
 
-constexpr Technique kNaiveTechnique{
+constexpr Technique kTechnique{
     .name = "naive",
     .summary =
         "Renders every bounce again in each frame, from black; looks up the reflected direction "
@@ -52,14 +51,14 @@ constexpr Technique kNaiveTechnique{
     .order = 1,
     .traits = {.captures = TechniqueTraits::Captures::own,
                .seed_part = TechniqueTraits::SeedPart::bounces},
-    .knobs = kNaiveKnobs,
-    .compared = kNaiveDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
             return mirrors * settings.integer(kBounces) + count_shadow_passes(lights, settings) + 1;
         },
     .look = make_naive_shading};
-const RegisteredTechnique kNaiveRegistration{kNaiveTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

@@ -21,15 +21,15 @@ std::span<const std::string_view> rest_techniques() {
     return kNames;
 }
 
-constexpr Knob kPlanarBounces{
+constexpr Knob kBounces{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
     .low = 0,
     .high = 16,
     .value = 2};
-constexpr Knob kPlanarRest{.name = "rest",
-                           .help = "technique of mirrors that are not flat",
-                           .find_choices = rest_techniques};
+constexpr Knob kRest{.name = "rest",
+                     .help = "technique of mirrors that are not flat",
+                     .find_choices = rest_techniques};
 constexpr std::array<std::string_view, 4> kPlanarRoughChoices{"none", "mips", "prefilter", "rest"};
 constexpr int kRoughByRest = 3; // index of "rest"
 constexpr Knob kPlanarRough{
@@ -53,9 +53,9 @@ constexpr Knob kPlanarTaps{.name = "taps",
                            .low = 1,
                            .high = 1024,
                            .value = 16};
-constexpr Knob kPlanarKnobs[] = {kPlanarBounces, kPlanarRest, kPlanarRough, kPlanarLaw,
-                                 kPlanarTaps,    kIndirect,   kProbes,      kAmbientOcclusion,
-                                 kShadow,        kShadowMap,  kSoftShadow,  kOthersFace};
+constexpr Knob kKnobs[] = {kBounces,    kRest,      kPlanarRough, kPlanarLaw,
+                           kPlanarTaps, kIndirect,  kProbes,      kAmbientOcclusion,
+                           kShadow,     kShadowMap, kSoftShadow,  kOthersFace};
 
 std::string describe_misfit(const scene::FlatFaces& flats, double tolerance,
                             const KnobSettings& settings) {
@@ -71,7 +71,7 @@ std::string describe_misfit(const scene::FlatFaces& flats, double tolerance,
 
 MirroredViewOptions read_view_options(const KnobSettings& settings) {
     MirroredViewOptions options;
-    options.bounces = settings.integer(kPlanarBounces);
+    options.bounces = settings.integer(kBounces);
     if (settings.integer(kPlanarRough) != kRoughByRest)
         options.rough = settings.get<RoughKnobs::Lookup>(kPlanarRough);
     if (settings.integer(kPlanarLaw) == 1) options.law = RoughKnobs::Law::cone;
@@ -79,15 +79,15 @@ MirroredViewOptions read_view_options(const KnobSettings& settings) {
     return options;
 }
 
-constexpr std::string_view kPlanarDefaultRows[] = {"planar"};
+constexpr std::string_view kDefaultRows[] = {"planar"};
 
-constexpr Technique kPlanarTechnique{
+constexpr Technique kTechnique{
     .name = "planar",
     .summary = "Draws a mirrored view for each flat mirror, in each frame.",
     .order = 16,
     .traits = {.draws_mirrored_views = true},
-    .knobs = kPlanarKnobs,
-    .compared = kPlanarDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes =
         [](int, int lights, const KnobSettings& settings) {
             return count_shadow_passes(lights, settings) + 1;
@@ -96,8 +96,8 @@ constexpr Technique kPlanarTechnique{
                const ShadingInputs&) { return MirrorShading{}; },
     .mirrored_views = read_view_options,
     .unfit = describe_misfit,
-    .rest = &kPlanarRest};
-const RegisteredTechnique kPlanarRegistration{kPlanarTechnique};
+    .rest = &kRest};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

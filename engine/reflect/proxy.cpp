@@ -7,25 +7,25 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kProxyShapeChoices{"box", "sphere"};
-constexpr Knob kProxyShape{.name = "shape",
-                           .help = "shape that approximates the surroundings",
-                           .high = 1,
-                           .choices = kProxyShapeChoices};
-constexpr auto kProxyKnobs = [] {
-    auto knobs = search_knobs(std::array{kProxyShape});
+constexpr std::array<std::string_view, 2> kShapeChoices{"box", "sphere"};
+constexpr Knob kShape{.name = "shape",
+                      .help = "shape that approximates the surroundings",
+                      .high = 1,
+                      .choices = kShapeChoices};
+constexpr auto kKnobs = [] {
+    auto knobs = search_knobs(std::array{kShape});
     std::ranges::find(knobs, kContinue.name, &Knob::name)->value =
         0; // as published: rays are not followed through other mirrors
     return knobs;
 }();
-constexpr std::uint64_t kProxyStructBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
+constexpr std::uint64_t kStructBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
 /// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
 graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const std::shared_ptr<const render::MirrorCaptures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::BufferHandle proxies = graph.add_buffer(
-        {inputs.prefix + "proxies", kProxyStructBytes * mirrors});
+        {inputs.prefix + "proxies", kStructBytes * mirrors});
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "proxies");
     std::vector<graph::ImageHandle> faces;
     for (const render::CubeCaptureArray& cubes : captures->arrays) {
@@ -61,23 +61,23 @@ MirrorShading make_proxy_shading(graph::Graph& graph, const render::FrameInputs&
     MirrorShading look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies", add_proxy_pass(graph, inputs, around.captures));
     look.mirror.constants.emplace_back("shape",
-                                       static_cast<std::uint32_t>(settings.integer(kProxyShape)));
+                                       static_cast<std::uint32_t>(settings.integer(kShape)));
     return look;
 }
 
-constexpr Technique kProxyTechnique{
+constexpr Technique kTechnique{
     .name = "proxy",
     .summary =
         "Approximates each mirror's surroundings by a box or sphere, derived from the capture.",
     .order = 10,
     .traits = {.captures = TechniqueTraits::Captures::shared},
-    .knobs = kProxyKnobs,
+    .knobs = kKnobs,
     .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .reads_whole_cubes = true,
     .look = make_proxy_shading};
-const RegisteredTechnique kProxyRegistration{kProxyTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

@@ -13,7 +13,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kPyramidKnobs = search_knobs(std::array<Knob, 0>{});
+constexpr auto kKnobs = search_knobs(std::array<Knob, 0>{});
 
 /// Returns the topmost level, which has one cell per face. Must match level_edge
 /// and top_level in shaders/reflect/pyramid.glsl.
@@ -114,21 +114,21 @@ MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInput
 
 namespace {
 
-constexpr std::string_view kPyramidDefaultRows[] = {"pyramid"};
+constexpr std::string_view kDefaultRows[] = {"pyramid"};
 
-constexpr Technique kPyramidTechnique{
+constexpr Technique kTechnique{
     .name = "pyramid",
     .summary =
         "Follows the reflected ray through bounds of the captured distance, exact to the texel.",
     .order = 13,
     .traits = {.captures = TechniqueTraits::Captures::shared},
-    .knobs = kPyramidKnobs,
-    .compared = kPyramidDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes = count_capture_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_pyramid_shading};
-const RegisteredTechnique kPyramidRegistration{kPyramidTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

@@ -78,9 +78,9 @@ constexpr Knob kTracerWithout{.name = "without",
                               .help = "rule of robustness to leave out, to measure its cost",
                               .high = 5,
                               .choices = kTracerWithoutChoices};
-constexpr Knob kRaytraceKnobs[] = {
-    kDepth,  kSamples,  kLobeRays,     kLobeSeed,      kLamps,     kTracedIndirect, kTracedShadow,
-    kSphere, kFirstHit, kHitPrecision, kTracerWithout, kShadowMap, kOthersFace};
+constexpr Knob kKnobs[] = {kDepth,          kSamples,      kLobeRays,  kLobeSeed, kLamps,
+                           kTracedIndirect, kTracedShadow, kSphere,    kFirstHit, kHitPrecision,
+                           kTracerWithout,  kShadowMap,    kOthersFace};
 
 bool rasters_first(const KnobSettings& settings) {
     return settings.get<FirstHit>(kFirstHit) == FirstHit::raster;
@@ -162,13 +162,13 @@ MirrorShading make_traced_shading(graph::Graph&, const render::FrameInputs& inpu
     return look;
 }
 
-constexpr std::string_view kRaytraceDefaultRows[] = {
+constexpr std::string_view kDefaultRows[] = {
     "raytrace:depth=0",      "raytrace:depth=1",
     "raytrace:depth=2",      "raytrace:depth=3",
     "raytrace:depth=4",      "raytrace:depth=8",
     "raytrace:sphere=exact", "raytrace:depth=4,first=raster"};
 
-constexpr Technique kRaytraceTechnique{
+constexpr Technique kTechnique{
     .name = "raytrace",
     .summary = "Traces Whitted rays in a compute shader; the reference for all other techniques.",
     .order = 100,
@@ -181,14 +181,14 @@ constexpr Technique kRaytraceTechnique{
                .paths = {kTracedIndirect.name, kIndirectChoices[1]},
                .unshadowed = {kTracedShadow.name, kTracedShadowChoices[2]},
                .seed_part = TechniqueTraits::SeedPart::rays},
-    .knobs = kRaytraceKnobs,
-    .compared = kRaytraceDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes = count_scene_passes,
     .look = make_traced_shading,
     .conflict = describe_conflict,
     .completes_view = rasters_first,
     .picture = add_traced_picture};
-const RegisteredTechnique kRaytraceRegistration{kRaytraceTechnique};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

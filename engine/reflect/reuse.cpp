@@ -6,27 +6,27 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr const char* kReuseShader = "reflect/naive.frag";
-constexpr Knob kReuseKnobs[] = {
+constexpr const char* kShader = "reflect/naive.frag";
+constexpr Knob kKnobs[] = {
     kFace,   kColour,           kRough,  kTaps,      kRays,      kRefract, kIndirect,
     kProbes, kAmbientOcclusion, kShadow, kShadowMap, kSoftShadow};
 
-constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
+constexpr std::string_view kDefaultRows[] = {"reuse"};
 
-constexpr Technique kReuseTechnique{
+constexpr Technique kTechnique{
     .name = "reuse",
     .summary = "Draws one capture per mirror and frame; deeper bounces come from the last frame's "
                "captures.",
     .order = 2,
     .traits = {.captures = TechniqueTraits::Captures::shared,
                .seed_part = TechniqueTraits::SeedPart::last_captures},
-    .knobs = kReuseKnobs,
-    .compared = kReuseDefaultRows,
+    .knobs = kKnobs,
+    .compared = kDefaultRows,
     .scene_passes = count_capture_passes,
     .capture = make_capture_options,
-    .in_captures = kReuseShader,
-    .search = kReuseShader};
-const RegisteredTechnique kReuseRegistration{kReuseTechnique};
+    .in_captures = kShader,
+    .search = kShader};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 

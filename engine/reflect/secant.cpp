@@ -6,16 +6,16 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kSecantSteps{.name = "steps",
-                            .help = "number of secant steps after the first; 0 equals parallax",
-                            .low = 0,
-                            .high = 8,
-                            .value = 2};
-constexpr auto kSecantKnobs = search_knobs(std::array{kSecantSteps});
+constexpr Knob kSteps{.name = "steps",
+                      .help = "number of secant steps after the first; 0 equals parallax",
+                      .low = 0,
+                      .high = 8,
+                      .value = 2};
+constexpr auto kKnobs = search_knobs(std::array{kSteps});
 
 MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
                                   const KnobSettings& settings, const ShadingInputs& around) {
-    const int steps = settings.integer(kSecantSteps);
+    const int steps = settings.integer(kSteps);
     if (steps == 0) { // `parallax` has no knobs of a search
         MirrorShading look{make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})),
                            {}};
@@ -27,21 +27,20 @@ MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
     return look;
 }
 
-constexpr std::string_view kSecantDefaultRows[] = {"secant:continue=0", "secant"};
+constexpr std::string_view kDefaultRows[] = {"secant:continue=0", "secant"};
 
-constexpr Technique kSecantTechnique{
-    .name = "secant",
-    .summary = "Searches the captured distance for the point that the "
-               "reflected ray meets, by secant steps.",
-    .order = 11,
-    .traits = {.captures = TechniqueTraits::Captures::shared},
-    .knobs = kSecantKnobs,
-    .compared = kSecantDefaultRows,
-    .scene_passes = count_capture_passes,
-    .capture = make_capture_options,
-    .in_captures = "reflect/parallax.frag",
-    .look = make_secant_shading};
-const RegisteredTechnique kSecantRegistration{kSecantTechnique};
+constexpr Technique kTechnique{.name = "secant",
+                               .summary = "Searches the captured distance for the point that the "
+                                          "reflected ray meets, by secant steps.",
+                               .order = 11,
+                               .traits = {.captures = TechniqueTraits::Captures::shared},
+                               .knobs = kKnobs,
+                               .compared = kDefaultRows,
+                               .scene_passes = count_capture_passes,
+                               .capture = make_capture_options,
+                               .in_captures = "reflect/parallax.frag",
+                               .look = make_secant_shading};
+const RegisteredTechnique kRegistration{kTechnique};
 
 } // namespace
 
