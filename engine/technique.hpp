@@ -18,9 +18,8 @@ struct Shader {
     std::string_view name;
     std::span<const std::uint32_t> words;
 };
-/// Registers shader builds; meant as a namespace-scope object. Throws `usage` for a name that is
-/// taken. Nobody can catch this at namespace scope, and the program ends. Therefore give files
-/// names of their own.
+/// Meant as a namespace-scope object. Throws `usage` for a name that is taken. Nobody can catch
+/// this at namespace scope, and the program ends. Therefore give files names of their own.
 struct RegisteredShaders {
     CATOPTRIC_API explicit RegisteredShaders(std::span<const Shader> builds);
 };
@@ -54,7 +53,7 @@ struct Search {
 /// Throws `usage` for an invalid or taken name, and for rows of other techniques. Throws `usage`
 /// for knobs that are out of their range, not whole where they must be, or whose name is taken.
 CATOPTRIC_API void add_search(Search search);
-/// Adds a search; meant as a namespace-scope object.
+/// Meant as a namespace-scope object.
 struct RegisteredSearch {
     explicit RegisteredSearch(Search search) { add_search(std::move(search)); }
 };

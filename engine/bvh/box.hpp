@@ -7,15 +7,15 @@ namespace catoptric::bvh {
 
 using BoundingBox = Bounds<float>;
 
-inline constexpr double kNodeVisitCost = 2; // cost of visiting a node, in triangle tests
+inline constexpr double kNodeVisitCost = 2; // in triangle tests
 
-/// Returns the surface area of a box; 0 for an empty box.
+/// Returns 0 for an empty box.
 inline double surface_area(const Bounds<double>& box) {
     if (box.empty()) return 0;
     const dvec3 e = box.extent();
     return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
 }
-/// Returns the same. Computes in double, where the extents of finite floats cannot overflow.
+/// Computes in double, where the extents of finite floats cannot overflow.
 inline double surface_area(const BoundingBox& box) {
     return surface_area(Bounds<double>{dvec3(box.lo), dvec3(box.hi)});
 }

@@ -32,7 +32,7 @@ inline constexpr std::uint32_t kTintsShadowFlag = f32::kBvhTintsShadow;
 /// A sphere in place of a triangle: see `make_sphere`.
 inline constexpr std::uint32_t kSpherePrimitiveFlag = f32::kBvhSpherePrimitive;
 inline constexpr std::uint32_t kMaxTreeDepth = f32::kBvhMaxDepth;
-inline constexpr std::uint32_t kMaxLeafTriangles = 4; ///< triangles in a leaf
+inline constexpr std::uint32_t kMaxLeafTriangles = 4;
 /// The most kCastsNoShadowFlag triangles that get a subtree of their own.
 inline constexpr std::size_t kMaxShadowless = 256;
 
@@ -69,10 +69,10 @@ inline Triangle make_sphere(const vec3& centre, float radius, std::uint32_t obje
 /// words hold their number in bits 0..28.
 ///
 /// Walks begin at the first word of the header. If there are triangles that cast no shadow, but at
-/// most kMaxShadowless, the first word is the root's first child, with all
-/// triangles that cast shadows, and the second word is the root's other child. Shadow rays walk the
-/// first child alone. Other rays walk it before the second child. Otherwise the first word is the
-/// root, and the second word is kBvhEmptyChild.
+/// most kMaxShadowless, the first word is the root's first child, with all triangles that cast
+/// shadows, and the second word is the root's other child. Shadow rays walk the first child alone.
+/// Other rays walk it before the second child. Otherwise the first word is the root, and the second
+/// word is kBvhEmptyChild.
 struct Bvh {
     std::vector<vec4> nodes;
     std::vector<vec4> triangles;

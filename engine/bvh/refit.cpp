@@ -38,7 +38,7 @@ double child_cost(std::uint32_t child, const BoundingBox& box) {
                                     : static_cast<double>(f32::bvh_word_triangle_count(child)));
 }
 
-/// Returns whether two vectors have the same bits. 0 and -0 count as different.
+/// 0 and -0 count as different.
 bool have_same_bits(const vec3& a, const vec3& b) {
     return float_to_bits(a.x) == float_to_bits(b.x) && float_to_bits(a.y) == float_to_bits(b.y) &&
            float_to_bits(a.z) == float_to_bits(b.z);

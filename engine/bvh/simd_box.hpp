@@ -38,7 +38,6 @@ struct SimdBox {
         const double x = double{size[0]}, y = double{size[1]}, z = double{size[2]};
         return x * (y + z) + y * z;
     }
-    /// Returns whether the box is a single point.
     bool is_point() const { return lo[0] == hi[0] && lo[1] == hi[1] && lo[2] == hi[2]; }
 };
 

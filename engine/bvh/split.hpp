@@ -17,7 +17,7 @@ struct TriangleReference {
     SimdFloat4 hi;
 
     std::uint32_t number() const { return unpack_number(lo[3]); }
-    /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
+    /// Halves before adding, because the sum itself may overflow.
     SimdFloat4 centre() const { return lo * .5f + hi * .5f; }
     SimdBox box() const { return {lo, hi}; }
 };
@@ -60,7 +60,6 @@ public:
     void add(std::span<const TriangleReference> references, const Binning& binning);
     void add(const SplitBins& other);
     std::size_t left_count(const BinnedSplit& split) const;
-    /// Returns the bounds of both sides.
     std::array<SimdBox, 2> extents(const BinnedSplit& split) const;
 
 private:

@@ -28,7 +28,6 @@ inline std::size_t max_triangles_below(const BuildWorkspace& work, std::uint32_t
     return std::size_t{work.most} << (kMaxTreeDepth - depth);
 }
 
-/// The subtree built from a part.
 struct Subtree {
     std::vector<vec4> nodes;   ///< words of inner nodes count nodes from 1
     std::size_t triangles = 0; ///< stored from the part's first place on

@@ -113,8 +113,7 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
     return top;
 }
 
-/// Appends like `append_tree`, for a tree whose leaf words already refer to
-/// records.
+/// Appends like `append_tree`, for a tree whose leaf words already refer to records.
 std::uint32_t append_top_level(Bvh& into, const Bvh& top) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1);
     for (std::size_t i = 4; i < top.nodes.size(); ++i) {

@@ -25,7 +25,6 @@ struct Branch {
     std::uint32_t word = f32::kBvhEmptyChild; ///< word of the node in the whole tree
 };
 
-/// The division of a branch.
 struct BranchSplit {
     std::size_t branch;
     Binning binning;
@@ -206,7 +205,7 @@ private:
 
     const BuildWorkspace& work_;
     unsigned threads_;
-    std::vector<Branch> branches_{}; ///< branches of the tree; the first is the root
+    std::vector<Branch> branches_{}; ///< the first is the root
     std::size_t node_count_ = 0, triangle_count_ = 0;
 };
 

@@ -43,7 +43,6 @@ private:
     std::string name_;
 };
 
-/// A source that owns its bytes.
 class OwnedSource final : public ByteSource {
 public:
     explicit OwnedSource(std::string bytes) : bytes_(std::move(bytes)) {}

@@ -12,7 +12,6 @@ namespace catoptric {
 /// Type of the components in which the values of an attribute are wanted.
 enum class DracoType : std::uint8_t { int8, uint8, int16, uint16, uint32, float32 };
 
-/// An attribute to read from Draco's data.
 struct DracoAttribute {
     std::uint32_t id = 0; ///< unique id within the data
     DracoType type = DracoType::float32;

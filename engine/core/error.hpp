@@ -5,10 +5,8 @@
 #include <sstream>
 #include <string>
 
-// Functions that throw the exceptions of the library.
 namespace catoptric {
 
-/// Returns whether a signal caused the failure.
 constexpr bool is_signal(Failure failure) {
     return failure == Failure::hangup || failure == Failure::interrupted ||
            failure == Failure::terminated;

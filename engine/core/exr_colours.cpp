@@ -23,7 +23,6 @@ namespace catoptric {
 
 namespace {
 
-/// Lets OpenEXR read from a source of bytes.
 class ExrInput final : public Imf::IStream {
 public:
     explicit ExrInput(const ByteSource& bytes) : IStream("memory"), bytes_(bytes) {}

@@ -20,9 +20,8 @@ std::filesystem::path real_path(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
-/// A file that another program writes whole or not at all: the program writes to `temporary`,
-/// and `commit` puts the finished file in place. Without that call the temporary is
-/// removed.
+/// A file that another program writes whole or not at all: the program writes to `temporary`, and
+/// `commit` puts the finished file in place. Without that call the temporary is removed.
 class PartialFile {
 public:
     /// Removes temporaries of `path` that dead processes have left. Throws `cannot_create` if

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-/// Facts about how a frame was drawn.
 namespace catoptric {
 struct TechniqueTraits; // internal
 
-/// One knob of a technique with its value as text. `number` is set if the value is a number.
-/// `number` is empty for a choice and for a special word ("auto").
+/// One knob of a technique with its value as text. `number` is empty for a choice and for a special
+/// word ("auto").
 struct Setting {
     std::string name;
     std::string text; ///< value of the knob as the user types it
@@ -24,7 +23,7 @@ struct PlanEntry {
     std::uint32_t mirror = 0; ///< number of the mirror, from 1
     std::string name, technique;
     std::vector<Setting> settings; ///< all knobs
-    std::string why;               ///< the reason for this choice
+    std::string why;
 };
 
 /// Work that was left out because the picture does not need it, described for the user.
@@ -51,8 +50,8 @@ struct HostTimes {
 
 /// Rays of one frame.
 struct RayCounts {
-    std::uint64_t primary = 0, mirror = 0, shadow = 0; ///< rays in one frame
-    std::uint32_t longest_walk = 0;                    ///< BVH steps of the busiest invocation
+    std::uint64_t primary = 0, mirror = 0, shadow = 0;
+    std::uint32_t longest_walk = 0; ///< BVH steps of the busiest invocation
 };
 
 } // namespace catoptric

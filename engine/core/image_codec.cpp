@@ -96,7 +96,7 @@ public:
     CodecReader(const CodecReader&) = delete;
     CodecReader& operator=(const CodecReader&) = delete;
 
-    /// Returns the picture's shape. Throws `bad_data` for a deep picture or one without pixels.
+    /// Throws `bad_data` for a deep picture or one without pixels.
     ImageShape shape() const {
         check(!header_.is_deep && header_.size.x > 0 && header_.size.y > 0, Failure::bad_data,
               name_, ": wanted a flat picture of 1 to ", ImageReader::kMaxSide,

@@ -15,9 +15,8 @@
 
 // Pictures in files. PNG is read and written by libpng (core/png.cpp, core/png_read.cpp), the
 // colours of OpenEXR files by OpenEXR (core/exr.cpp, core/exr_colours.cpp), everything else by
-// OpenImageIO. OpenImageIO is in a
-// module that is loaded at first use (core/image_module.hpp). If the module is missing, functions
-// throw `internal`.
+// OpenImageIO. OpenImageIO is in a module that is loaded at first use (core/image_module.hpp). If
+// the module is missing, functions throw `internal`.
 namespace catoptric {
 
 /// Returns the format that the first bytes belong to: "png", "jpeg", "openexr", "hdr", "bmp",

@@ -89,7 +89,7 @@ struct ExrPart {
     std::array<std::int32_t, 4> window{0, 0, -1, -1};
     std::array<std::uint32_t, 2> tile{};
     bool is_tiled = false;
-    std::uint64_t chunk_count = 0; ///< number of chunks, as the file claims; 0 if it claims none
+    std::uint64_t chunk_count = 0; ///< as the file claims; 0 if it claims none
 
     std::uint64_t side(std::size_t axis) const {
         const std::int64_t first = window[axis], last = window[axis + 2];
@@ -158,7 +158,6 @@ ExrPart read_part(ExrCursor& file, bool is_tiled) {
     return part;
 }
 
-/// Returns the number of lines in one chunk.
 std::uint32_t lines_per_chunk(std::uint32_t compression) {
     constexpr std::uint32_t kExrLinesPerChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
     return compression < std::size(kExrLinesPerChunk) ? kExrLinesPerChunk[compression] : 256;

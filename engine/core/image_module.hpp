@@ -43,7 +43,7 @@ struct ImageCodecs {
         std::size_t channel_count = 0;
         PixelType type = PixelType::uint8;
         const void* values = nullptr;
-        std::vector<std::string> channels; ///< names of the channels; empty: named by the format
+        std::vector<std::string> channels; ///< empty: named by the format
         /// Text that describes the image, see ImageShape.
         std::string description;
     };

@@ -26,8 +26,7 @@ void check_json(const std::string& file, std::string_view text, const JsonMemory
 std::string read_json_text(const std::filesystem::path& file, const std::string& what,
                            std::uintmax_t max_bytes);
 
-/// Returns the values of `text`. Throws like `check_json`. `Json` is a type of nlohmann's
-/// library.
+/// Returns the values of `text`. Throws like `check_json`. `Json` is a type of nlohmann's library.
 template <typename Json>
 Json parse_json(const std::string& file, std::string_view text, const JsonMemoryUse& spends = {}) {
     check_json(file, text, spends);

@@ -46,11 +46,10 @@ public:
     std::string_view choice_name(const Knob& knob) const;
     /// Returns whether the knob's special word is set instead of a number.
     bool is_special(const Knob& knob) const;
-    /// Returns whether the technique has this knob. Another knob of the same name, with other
-    /// choices or another special word, does not count.
+    /// Another knob of the same name, with other choices or another special word, does not count.
     bool has(const Knob& knob) const;
 
-    /// Sets a knob from text. Throws `Failure::usage`, naming the nearest knob or the range.
+    /// Throws `Failure::usage`, naming the nearest knob or the range.
     void set(std::string_view owner, std::string_view knob, std::string_view text);
     std::span<const Knob> knobs() const { return knobs_; }
     /// Returns the value as the user would type it.
@@ -63,7 +62,7 @@ public:
 private:
     std::size_t value_index(const Knob& knob) const;
     std::span<const Knob> knobs_;
-    std::vector<std::optional<double>> values_; ///< values of the knobs; no value: the special word
+    std::vector<std::optional<double>> values_; ///< no value: the special word
 };
 
 /// Returns the name with the smallest edit distance to `word`. Returns an empty string if no name

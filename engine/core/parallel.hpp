@@ -13,7 +13,7 @@
 
 namespace catoptric {
 
-/// Returns the number of threads that the machine runs at once, at least 1.
+/// Returns at least 1.
 inline unsigned hardware_thread_count() {
     return std::max(1U, std::thread::hardware_concurrency());
 }

@@ -6,7 +6,6 @@ namespace catoptric {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// Returns the milliseconds since `begin`.
 inline double ms_since(SteadyClock::time_point begin) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
 }
@@ -19,7 +18,6 @@ public:
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
-    /// Returns the milliseconds since construction.
     double elapsed_ms() const { return ms_since(begin_); }
 
 private:

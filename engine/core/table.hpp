@@ -17,7 +17,6 @@ std::vector<Row>& table_rows() {
     return rows;
 }
 
-/// Returns the rows sorted by what `key` returns for them.
 template <typename Row, typename Key>
 std::vector<Row> sorted_rows(const Key& key) {
     std::vector<Row> rows = table_rows<Row>();

@@ -27,7 +27,6 @@ struct TechniqueTraits {
     /// `rays`: number of directions from lobes of rough surfaces, where 0 draws none. `samples`:
     /// camera rays of each pixel.
     std::string_view seed = {}, rays = {}, samples = {};
-    /// A choice of a knob.
     struct Choice {
         std::string_view knob, choice;
     };

@@ -8,7 +8,7 @@ namespace catoptric {
 
 namespace {
 
-constexpr std::size_t kMaxQuotedBytes = 80; // longest quoted text
+constexpr std::size_t kMaxQuotedBytes = 80;
 
 std::string to_hex(std::uint32_t value, std::size_t digits) {
     std::string text;

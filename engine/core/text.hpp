@@ -14,8 +14,8 @@ namespace catoptric {
 /// are unchanged.
 std::string escape(std::string_view text, std::string_view kept = {});
 
-/// Returns `escape(text)` in single quotes, for messages. Of more than 80 bytes
-/// only the first are returned, with the number of bytes.
+/// Returns `escape(text)` in single quotes, for messages. Of more than 80 bytes only the first are
+/// returned, with the number of bytes.
 std::string quote(std::string_view text);
 
 /// Returns the parts between any of `separators`: "a,,b" has three, "" has one.

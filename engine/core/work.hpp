@@ -92,7 +92,6 @@ struct WorkCounts {
         std::optional<std::uint64_t>& value = (*this)[kind];
         value = value.value_or(0) + count;
     }
-    /// Adds all counts of `other`.
     WorkCounts& operator+=(const WorkCounts& other) {
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (other.values[i]) values[i] = values[i].value_or(0) + *other.values[i];
@@ -101,7 +100,6 @@ struct WorkCounts {
     bool operator==(const WorkCounts&) const = default;
 };
 
-/// Work of one pass.
 struct PassWork {
     std::string name;
     WorkCounts counts;

@@ -44,7 +44,7 @@ public:
     void write(std::span<const T> data) {
         write(0, std::as_bytes(data));
     }
-    /// Returns the contents. The device must have finished writing them.
+    /// The device must have finished writing.
     std::vector<std::byte> read() const;
 
     const std::string& name() const { return name_; }
@@ -63,7 +63,7 @@ private:
     void* mapped_ = nullptr;
 };
 
-/// Writes `data` to `buffer`. If it does not fit, a new buffer of the same name replaces `buffer`.
+/// If `data` does not fit, a new buffer of the same name replaces `buffer`.
 template <typename T>
 void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data,
             BufferUsage use) {

@@ -29,8 +29,7 @@ std::vector<DeviceProperties> list_devices();
 
 class StagedUploads;
 
-/// A device made by the caller with DeviceFeatures::enable. All handles must outlive the
-/// Device.
+/// A device made by the caller with DeviceFeatures::enable. All handles must outlive the Device.
 struct ExternalDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -62,8 +61,8 @@ bool has_abandoned_device();
 /// Their memory is lost until the process ends. Another Device may be made.
 class Device {
 public:
-    /// Opens a device. Throws `no_device` if there is none, it cannot be opened or it lacks a
-    /// required feature. Throws `usage` if `wanted` matches no device. May throw `exhausted`.
+    /// Throws `no_device` if there is no device, it cannot be opened or it lacks a required
+    /// feature. Throws `usage` if `wanted` matches no device. May throw `exhausted`.
     explicit Device(const DeviceOptions& options);
     ~Device();
     Device(const Device&) = delete;
@@ -73,14 +72,12 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     DeviceHandle handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical_device() const { return physical_; }
-    /// Returns the surface of the window; null if none was asked for.
+    /// Null if no surface was asked for.
     VkSurfaceKHR surface() const { return surface_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool is_cpu() const { return info_.type == "cpu"; }
-    /// Returns the shader variants of the device: the defaults unless
-    /// `set_variant_choices` was called. Call `set_variant_choices`
-    /// before the first frame.
+    /// The defaults, unless `set_variant_choices` was called. Call it before the first frame.
     const VariantChoices& variant_choices() const { return choices_; }
     void set_variant_choices(const VariantChoices& choices) { choices_ = choices; }
     /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
@@ -118,18 +115,16 @@ public:
     std::uint64_t memory_budget() const;
     /// Returns the most bytes of one allocation.
     std::uint64_t max_allocation() const { return max_allocation_; }
-    /// Returns the bytes of the heap of a memory type.
     std::uint64_t heap_bytes(std::uint32_t type) const {
         return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
     }
-    /// Allocates memory. Throws `exhausted`, naming the bytes, and the device's limit if it is
-    /// exceeded.
+    /// Throws `exhausted`, naming the bytes, and the device's limit if it is exceeded.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
-    /// Throws as `check_vk` does, for a call that submits work or asks about its
-    /// result. If the device is lost, it becomes abandoned.
+    /// Throws as `check_vk` does, for a call that submits work or asks about its result. If the
+    /// device is lost, it becomes abandoned.
     void check_result(VkResult result, const std::string& doing);
-    /// Throws as `check_vk` does, for a call that waits for the device. If the wait
-    /// fails, the device becomes abandoned.
+    /// Throws as `check_vk` does, for a call that waits for the device. If the wait fails, the
+    /// device becomes abandoned.
     void check_wait(VkResult result, const std::string& doing);
     bool is_abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.
@@ -151,7 +146,7 @@ public:
 
     /// Returns the uploads to buffers that the host cannot map. Made at first use.
     StagedUploads& uploads();
-    /// Submits all recorded uploads. Called before a submit whose work reads the uploaded data.
+    /// Called before a submit whose work reads the uploaded data.
     void submit_uploads();
 
     /// Returns the messages of the validation layer so far (errors and warnings).

@@ -1,4 +1,3 @@
-// Choice and opening of the device.
 #include "gpu/device.hpp"
 
 #include "core/knob.hpp"

@@ -113,7 +113,6 @@ bool format_allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlag
     return (properties.optimalTilingFeatures & features) == features;
 }
 
-/// Returns whether shaders of this stage have these subgroup operations.
 bool has_subgroup_operations(VkPhysicalDevice device, VkShaderStageFlagBits stage,
                              VkSubgroupFeatureFlags wanted) {
     VkPhysicalDeviceSubgroupProperties subgroups{

@@ -4,8 +4,8 @@
 
 namespace catoptric::gpu {
 
-/// Throws as `check_vk` does, but throws `no_device` if the driver is missing or
-/// cannot start. `or_else` is the text of this error: what happened and what to do.
+/// Throws as `check_vk` does, but throws `no_device` if the driver is missing or cannot start.
+/// `or_else` is the text of this error: what happened and what to do.
 void check_vk_started(VkResult result, const std::string& doing, const char* or_else);
 
 /// Creates an instance with the wanted extensions, with VK_EXT_debug_utils where it exists, and
@@ -21,7 +21,6 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 
 DeviceProperties describe_device(VkPhysicalDevice device);
 
-/// Returns whether the device's queue can show pictures on the surface.
 bool can_present(VkPhysicalDevice device, VkSurfaceKHR surface);
 
 /// Returns the vector width in bits that the environment sets for Mesa's software driver

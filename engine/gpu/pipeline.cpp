@@ -121,7 +121,6 @@ void make_pipeline_layout(const Device& device, const std::string& name,
     pipeline.layout = {device.handle(), layout};
 }
 
-/// Creates a raster pipeline with the fixed-function state that all raster pipelines share.
 constexpr VkVertexInputBindingDescription kVertexBinding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
 constexpr std::array<VkVertexInputAttributeDescription, 2> kVertexAttributes{

@@ -27,7 +27,7 @@ enum class Blending { none, cover, sum };
 /// greater is nearer.
 struct RasterState {
     std::string vertex;
-    std::string fragment; ///< fragment shader; empty: the pipeline writes depth only
+    std::string fragment; ///< empty: the pipeline writes depth only
     ShaderConstants constants;
     TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
     ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
@@ -46,7 +46,6 @@ struct AttachmentFormats {
     bool depth = false;
 };
 
-/// Returns Vulkan's descriptor type of a binding.
 VkDescriptorType descriptor_type(BindingKind kind);
 
 /// A pipeline with its layout and the bindings that its shaders use.

@@ -24,7 +24,7 @@ public:
     /// Returns whether the cache is stored in a file. `loaded_bytes` is the size of the data
     /// loaded from it.
     bool is_stored() const { return !file_.empty(); }
-    /// Returns the folder of the file; empty: nothing is stored.
+    /// Empty: nothing is stored.
     std::filesystem::path folder() const { return file_.parent_path(); }
     std::size_t loaded_bytes() const { return known_.size(); }
     /// Returns a sentence for the user; empty if there was no problem.
@@ -35,7 +35,7 @@ private:
     void save() const;
 
     Device& device_;
-    std::filesystem::path file_; ///< file of the cache; empty: nothing is stored
+    std::filesystem::path file_; ///< empty: nothing is stored
     std::string known_;          ///< data of the file
     std::string warning_;
     UniquePipelineCache cache_;

@@ -34,7 +34,7 @@ enum class ImageViewType { flat, flat_array, cube, cube_array };
 
 /// One resource in set 0 that the shader's code uses.
 struct ShaderBinding {
-    std::string name; ///< name of the variable or of the block
+    std::string name; ///< of the variable or of the block
     std::uint32_t binding = 0;
     BindingKind kind = BindingKind::storage_buffer;
     ImageViewType shape = ImageViewType::flat;

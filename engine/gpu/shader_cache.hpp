@@ -10,10 +10,10 @@
 
 namespace catoptric::gpu {
 
-/// Specialised shaders (specialise_shader), stored in files from one process to the next. A file
-/// is found by the contents of the shader, its constants, the version of SPIRV-Tools and the passes
-/// that specialise_shader runs. Files
-/// that are incomplete are made again. A folder that cannot be written to has no effect.
+/// Specialised shaders (specialise_shader), stored in files from one process to the next. A file is
+/// found by the contents of the shader, its constants, the version of SPIRV-Tools and the passes
+/// that specialise_shader runs. Files that are incomplete are made again. A folder that cannot be
+/// written to has no effect.
 class ShaderCache {
 public:
     /// `folder` is created when the first file is written; empty: nothing is stored.

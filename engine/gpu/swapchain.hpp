@@ -14,8 +14,7 @@ public:
     /// `device` must have a surface. Throws `no_device` if the window takes no colours of 8 bits.
     explicit Swapchain(Device& device);
 
-    /// Waits until the device is idle. Call it before `create_images`, and before views
-    /// of the images are destroyed.
+    /// Call it before `create_images`, and before views of the images are destroyed.
     void wait_idle();
     /// Makes images of this size, in pixels, or of the size that the window system demands. Returns
     /// false if the window has no pixels now (it is minimised), or is gone (see `is_surface_lost`).
@@ -34,8 +33,7 @@ public:
     /// `acquired_semaphore` and signals `rendered_semaphore`.
     VkSemaphore acquired_semaphore() const { return acquired_[turn_]; }
     VkSemaphore rendered_semaphore(std::uint32_t image) const { return rendered_[image]; }
-    /// Shows the image. Returns false if the window has changed and `create_images` must
-    /// be called.
+    /// Returns false if the window has changed and `create_images` must be called.
     bool present_image(std::uint32_t image);
 
 private:

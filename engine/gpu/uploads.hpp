@@ -31,7 +31,6 @@ public:
     WriteTicket stage_write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
-    /// Waits until the write has ended.
     void wait_for(WriteTicket ticket);
 
 private:

@@ -25,12 +25,10 @@ struct AccessScope {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
 };
-/// The writes of copies.
 inline constexpr AccessScope kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                             VK_ACCESS_2_TRANSFER_WRITE_BIT};
 /// Records a barrier that makes the writes of earlier work visible to later work, in all memory.
 void memory_barrier(VkCommandBuffer commands, const AccessScope& earlier, const AccessScope& later);
-/// Records one barrier of a single image.
 void image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier);
 
 /// Returns the surface for the number that window libraries pass for it.

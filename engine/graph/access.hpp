@@ -52,14 +52,12 @@ constexpr bool is_attachment(ResourceUse use) {
     return use == ResourceUse::colour || use == ResourceUse::depth;
 }
 
-/// Returns the access as text for messages: "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer
-/// 'args'".
+/// Returns "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer 'args'", for messages.
 std::string describe_access(const Graph& graph, const ResourceAccess& access);
 /// Returns a range of an image's layers as text: "layers [6,12)", with the mip if the image has
 /// several. `first` and `end` are numbers as in `for_each_range`. The range is cut
 /// at the end of its first mip.
 std::string format_layers(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
-/// Returns the name of the image or buffer in single quotes: "'cubes'".
 std::string quoted_name(const Graph& graph, const ResourceAccess& access);
 
 /// Calls visit(first, end) for the layers of each mip of `part`, a part of an image with `layers`
@@ -107,7 +105,6 @@ public:
     void set(const ResourceAccess& a, const T& value) {
         modify(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
-    /// Returns whether some layer of the access has the value.
     bool has_any(const ResourceAccess& a, const T& value) const {
         bool found = false;
         for_each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
@@ -131,8 +128,7 @@ private:
 
 /// Returns an access to a part of an image. Its use is left at the default.
 ResourceAccess part_access(const ImageHandle& image);
-/// Returns an access to all layers and mips of an image. The use of the access is left at the
-/// default.
+/// Returns an access to all layers and mips of an image. Its use is left at the default.
 ResourceAccess whole_image(const Graph& graph, std::uint32_t image);
 /// Returns an access to all of the image or buffer of an access, in this frame.
 ResourceAccess whole_resource(const Graph& graph, const ResourceAccess& part);

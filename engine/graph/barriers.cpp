@@ -22,8 +22,7 @@ struct AccessHistory {
     friend bool operator==(const AccessHistory&, const AccessHistory&) = default;
 };
 
-/// Returns the accesses that a read must wait for. The result is empty if an earlier read by the
-/// same kind of access already waited.
+/// The result is empty if an earlier read by the same kind of access already waited.
 AccessList awaited_by_read(const AccessHistory& state, AccessCode touch, bool is_buffer) {
     if (state.readers.contains(touch)) return {};
     if (state.readers.empty() || is_buffer) return AccessList(state.write);
@@ -67,7 +66,7 @@ bool can_merge(const PlannedBarrier& last, const PlannedBarrier& next) {
            (same_layers && last.first_mip + last.mip_count == next.first_mip);
 }
 
-/// Adds a barrier. If it continues the last barrier, both are merged.
+/// Merges the barrier with the last one if it continues that one.
 void append_barrier(std::vector<PlannedBarrier>& barriers, PlannedBarrier&& barrier) {
     if (barriers.empty() || !can_merge(barriers.back(), barrier)) {
         barriers.push_back(std::move(barrier));
@@ -105,7 +104,6 @@ AccessHistory reader_history(ResourceUse use) {
     return state;
 }
 
-/// Returns the state of an image at the start of a frame.
 AccessHistory start_history(const Graph& graph, std::uint32_t image) {
     if (graph.image_lifetime(image) == Lifetime::persistent)
         return reader_history(ResourceUse::sampled);
@@ -144,7 +142,7 @@ public:
         (access.previous ? previous_ : states_).modify(access, visit);
     }
 
-    /// Records the last accesses to a resource, after the last pass that accesses it.
+    /// Called after the last pass that accesses the resource.
     void record_last_users(const ResourceAccess& access) {
         if (memory_placement(access).alone) return; // no later resource uses its memory
         AccessSet touches = 0;

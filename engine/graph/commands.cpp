@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kCountWorkConstant = "count_work";
 constexpr std::string_view kWorkBufferName = "WorkBuffer";
 
-/// Returns the bytes of one mip of a part of an image.
+/// Returns the bytes of the part's first mip.
 std::uint64_t mip_bytes(const ImageDesc& desc, const ImageHandle& part) {
     return std::uint64_t{mip_size(desc.width, part.first_mip)} *
            mip_size(desc.height, part.first_mip) * part.layer_count * bytes_per_texel(desc.format);

@@ -46,7 +46,7 @@ public:
     /// called once for each layer. In both cases gl_InstanceIndex tells the layer (see `draw`).
     void bind_pipeline(gpu::RasterState state);
     void bind_pipeline(const gpu::ComputeState& state);
-    /// Binds an image, which the pass must declare.
+    /// The pass must declare the image.
     void bind(std::string_view name, ImageHandle image,
               TextureFilter filter = TextureFilter::nearest) {
         bind(name, std::span(&image, 1), filter);
@@ -55,7 +55,6 @@ public:
     /// image fills its other entries.
     void bind(std::string_view name, std::span<const ImageHandle> images,
               TextureFilter filter = TextureFilter::nearest);
-    /// Binds a sampler without an image.
     void bind(std::string_view name, TextureFilter sampler);
     void bind(std::string_view name, BufferHandle buffer);
     void bind(std::string_view name, const gpu::Buffer& buffer);
@@ -96,7 +95,6 @@ public:
     }
     /// As above, for at most this many rays in a dispatch that cannot be split.
     void add_rays(std::uint64_t rays);
-    /// Returns the most rays of a piece of the frame.
     std::uint64_t rays_per_piece() const;
     /// Returns a word of a buffer that the pass declares, as the passes and dispatches before left
     /// it. The host waits for them, so call it only if the frame is in pieces anyway.

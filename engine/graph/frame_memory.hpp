@@ -22,11 +22,9 @@ public:
                           std::span<const std::shared_ptr<CompiledGraph>> shapes,
                           const std::function<void()>& wait);
 
-    /// Returns the bytes of device memory that are allocated.
     std::uint64_t allocated_bytes() const;
 
 private:
-    /// The bytes of each heap and the memory allocated for them.
     struct HeapAllocations {
         std::vector<std::uint64_t> bytes;
         std::vector<gpu::UniqueMemory> heaps;

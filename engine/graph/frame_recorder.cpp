@@ -48,7 +48,6 @@ VkRect2D pass_area(const Pass& pass, VkExtent2D extent) {
     return {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}, {width, height}};
 }
 
-/// Stages and accesses on both sides of a barrier.
 struct BarrierScopes {
     gpu::AccessScope before, after;
 };

@@ -13,18 +13,17 @@ class FrameRecorder {
 public:
     FrameRecorder(gpu::Device& device, gpu::PipelineStore& pipelines);
 
-    /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
-    /// `work` counts the frame's work; null: nothing is counted. `pieces`: of this frame, which
-    /// submits all of it but the last piece.
+    /// `slot_index` selects the copy of the outputs that the frame writes. `work` counts the
+    /// frame's work; null: nothing is counted. `pieces`: of this frame, which submits all of it but
+    /// the last piece.
     void record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
                       std::size_t slot_index, PassTiming timing, WorkCounter* work,
                       FramePieces& pieces);
 
-    /// Returns the device. Only PassCommands may call this function, while a pass records its
-    /// commands.
+    /// Only PassCommands may call this function, while a pass records its commands.
     gpu::Device& recording_device() { return device_; }
     gpu::PipelineStore& pipeline_store() { return pipelines_; }
-    /// Returns the counter of the frame's work; null: nothing is counted.
+    /// Null: nothing is counted.
     WorkCounter* work_counter() { return work_; }
     FramePieces& frame_pieces() { return *pieces_; }
     /// Ends the piece of the frame that is being recorded, runs it, and begins the next. What was

@@ -84,13 +84,11 @@ struct ImageHandle {
     bool previous = false;
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
-    /// Returns a handle of some of the image's layers. `first` counts from the first layer of this
-    /// handle.
+    /// `first` counts from the first layer of this handle.
     ImageHandle layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
-    /// Returns a handle of some of the image's mips. `first` counts from the first mip of this
-    /// handle.
+    /// `first` counts from the first mip of this handle.
     ImageHandle mips(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer, layer_count, previous, first_mip + first, count};
     }
@@ -197,7 +195,7 @@ public:
     /// first frame.
     explicit Graph(GraphHistory history) : history_(std::move(history)) {}
 
-    /// Adds an image. Returns a handle of all its layers and mips.
+    /// Returns a handle of all its layers and mips.
     ImageHandle add_image(ImageDesc desc);
     BufferHandle add_buffer(BufferDesc desc);
     /// Adds a persistent image: its contents stay, under its name, until a pass writes them again.
@@ -221,8 +219,8 @@ public:
     BufferHandle import_resource(BufferDesc desc, const gpu::Buffer* outside);
     PassBuilder add_pass(std::string name, PassPurpose tag = PassPurpose::none);
 
-    /// Returns a handle of the contents at the end of the last frame: on the first, a black image,
-    /// or a buffer of zeros. Costs a second copy, whose memory is not shared.
+    /// Returns a handle of the contents at the end of the last frame: in the first frame, a black
+    /// image or a buffer of zeros. Costs a second copy, whose memory is not shared.
     ImageHandle previous(ImageHandle image);
     BufferHandle previous(BufferHandle buffer);
     /// Returns whether the last frame left contents of the resource. If not, `previous`

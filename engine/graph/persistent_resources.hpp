@@ -35,7 +35,6 @@ public:
     /// Drops all of them. Must not be called while frames are in flight.
     void release_all() { all_ = {}; }
     GraphHistory make_history() const;
-    /// Returns the bytes of device memory that are allocated.
     std::uint64_t allocated_bytes() const;
 
 private:

@@ -15,7 +15,7 @@ struct PhysicalImage {
     gpu::UniqueImage owned; ///< empty if the image is owned outside the runner
     VkImage image = VK_NULL_HANDLE;
 
-    /// Returns the view of the part's layers and mips. Each view is made once.
+    /// Each view is made once.
     VkImageView view(const gpu::Device& device, gpu::ImageViewType shape, const ImageHandle& part);
 
 private:

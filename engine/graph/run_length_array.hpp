@@ -43,7 +43,6 @@ public:
         modify_runs(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
 
-    /// Returns whether some cell of [first, end) has the value.
     bool has_any(std::uint32_t first, std::uint32_t end, const T& value) const {
         bool found = false;
         for_each_run(first, end,
@@ -62,7 +61,6 @@ private:
     std::uint32_t run_end(std::size_t run) const {
         return run + 1 < runs_.size() ? runs_[run + 1].begin : size_;
     }
-    /// Returns the index of the run that holds the cell.
     std::size_t find_run(std::uint32_t cell) const {
         const auto after = std::ranges::upper_bound(runs_, cell, {}, &ValueRun::begin);
         return static_cast<std::size_t>(after - runs_.begin()) - 1;

@@ -8,7 +8,6 @@ namespace catoptric::graph {
 /// Returns the pipeline stages and kinds of memory access of an access to an image or buffer.
 gpu::AccessScope sync_scope(const AccessState& access);
 
-/// Returns the layout that an image has during this use.
 VkImageLayout image_layout(ResourceUse use);
 
 } // namespace catoptric::graph

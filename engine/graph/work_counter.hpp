@@ -30,7 +30,7 @@ public:
     void add(WorkKind kind, std::uint64_t count) { passes_[pass_].counts.add(kind, count); }
     /// Returns the buffer and the part of it in which the shaders of this pass count.
     VkDescriptorBufferInfo shader_counts() const;
-    /// Returns the counts of all passes. The frame must have ended.
+    /// The frame must have ended.
     std::vector<PassWork> read();
 
 private:

@@ -54,8 +54,8 @@ struct ImageCodecs::Picture {
 
 namespace {
 
-/// Sets the proxy from which the picture is read. The JPEG reader of OpenImageIO 2.4 accepts only
-/// OpenImageIO's own proxies, so it gets a copy of all bytes.
+/// The JPEG reader of OpenImageIO 2.4 accepts only OpenImageIO's own proxies, so it gets a copy of
+/// all bytes.
 void attach_source(ImageCodecs::Picture& picture, const ByteSource& bytes,
                    const std::string& format) {
     if (format != "jpeg") {

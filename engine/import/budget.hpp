@@ -36,9 +36,6 @@ struct LoadBudget {
     std::uint64_t cuts = 100'000'000;     ///< comparisons to cut concave polygons of an .obj file
 };
 
-/// Totals of the memory and work that a scene file asks for, each checked against its limit in
-/// `LoadBudget`.
-
 /// Running sum of one quantity while a scene is loaded, and the largest sum that is allowed.
 class LimitedSum {
 public:

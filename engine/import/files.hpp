@@ -42,12 +42,10 @@ public:
                                           const std::filesystem::path& folder,
                                           const std::string& place);
 
-    /// Does the same as `find`, but throws `missing_input` if the file does not
-    /// exist.
+    /// Does the same as `find`, but throws `missing_input` if the file does not exist.
     std::filesystem::path find_required(const std::string& name, const std::string& place);
 
-    /// Returns the bytes of a file that `find` has found. Throws `missing_input`
-    /// or `io`.
+    /// Returns the bytes of a file that `find` has found. Throws `missing_input` or `io`.
     std::string read(const std::filesystem::path& real, const std::string& place);
 
     /// Returns the real paths of the scene and of all files found, each once, in order of the

@@ -63,13 +63,13 @@ struct GltfBuilder {
     gltf::ReadContext context;
     Scene scene;
     std::vector<dmat4> at_rest;                     ///< transform from each node to world space
-    std::vector<std::vector<gltf::MeshPart>> parts; ///< parts of each mesh
+    std::vector<std::vector<gltf::MeshPart>> parts; ///< of each mesh
     std::vector<Camera> cameras;
     struct MeshKey {
         std::size_t mesh, part;
         int skin; ///< -1 if the node has none
         bool inside_out;
-        std::vector<double> weights; ///< weights of morph targets
+        std::vector<double> weights; ///< of morph targets
         auto operator<=>(const MeshKey&) const = default;
     };
     std::map<MeshKey, std::size_t> meshes;
@@ -152,7 +152,7 @@ void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, s
     scene.objects.push_back(std::move(object));
 }
 
-/// Adds the camera of a node. A glTF camera looks along -z with +y up.
+/// A glTF camera looks along -z with +y up.
 void GltfBuilder::add_camera(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::string place = node_place(node);

@@ -38,8 +38,7 @@ dvec4 read_track_value(const AccessorElements& output, std::size_t index, const 
     return dvec4(read_vector(output, index), read_number(output, index, 3));
 }
 
-/// Reads one track. A cubic track stores in-tangent, value and out-tangent for each key. Throws
-/// `bad_data`.
+/// A cubic track stores in-tangent, value and out-tangent for each key. Throws `bad_data`.
 template <typename Value>
 Track<Value> read_track(const tinygltf::AnimationSampler& sampler, const std::string& place,
                         ReadContext& context) {
@@ -71,8 +70,8 @@ Track<Value> read_track(const tinygltf::AnimationSampler& sampler, const std::st
     return track;
 }
 
-/// Reads a track of rotations. Quaternions of step and linear tracks are normalised, since files
-/// may be a little off unit length. Throws `bad_data` for zero or infinite length.
+/// Quaternions of step and linear tracks are normalised, since files may be a little off unit
+/// length. Throws `bad_data` for zero or infinite length.
 RotationTrack read_rotation_track(const tinygltf::AnimationSampler& sampler,
                                   const std::string& place, ReadContext& context) {
     RotationTrack turns = read_track<dvec4>(sampler, place, context);
@@ -85,7 +84,7 @@ RotationTrack read_rotation_track(const tinygltf::AnimationSampler& sampler,
     return turns;
 }
 
-/// Reads the tracks of one animation. Reads each sampler once for vectors and once for rotations.
+/// Reads each sampler once for vectors and once for rotations.
 class AnimationReader {
 public:
     AnimationReader(const tinygltf::Animation& from, std::string place, ReadContext& context)

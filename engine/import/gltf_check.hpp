@@ -31,7 +31,7 @@ void check_known_members(const JsonObject& root, LoadAccount& account);
 Json keep_known_members(Json document);
 
 /// Throws `bad_data` unless each view lies in its buffer and each accessor in its view. Unused
-/// views and accessors are checked, too. Defined in gltf_bounds.cpp.
+/// views and accessors are checked, too. Defined in gltf_accessor.cpp.
 void check_view_bounds(const JsonObject& root, const std::vector<GltfBuffer>& buffers);
 
 /// Checks rules that involve more than one member, and notes extensions and animation channels that

@@ -44,7 +44,7 @@ ByteRange find_buffer_bytes(const Container& container, const JsonObject& part) 
     return {container.files[buffer.file].data() + offset, length};
 }
 
-/// Adds bytes as a buffer of their own. Returns its index.
+/// Returns the new buffer's index.
 std::size_t append_buffer(Container& container, ByteList bytes) {
     container.buffers.push_back({container.files.size(), bytes.size()});
     container.files.push_back(std::move(bytes));
@@ -77,7 +77,6 @@ MeshoptMode read_meshopt_mode(const JsonObject& extension) {
     return static_cast<MeshoptMode>(mode - kModes.begin());
 }
 
-/// Returns the elements of a compressed view.
 ByteList decode_meshopt_view(const Container& container, const JsonObject& extension,
                              LoadAccount& account) {
     const ByteRange bytes = find_buffer_bytes(container, extension);

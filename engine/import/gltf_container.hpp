@@ -39,7 +39,7 @@ Container read_container(const std::string& file, FileOpener& files, LoadAccount
 /// Gives each accessor that is sparse, or has no view, a new view with its dense elements. Other
 /// views and files of the container stay as they are. The document must have been checked. Throws
 /// `bad_data` for a sparse index beyond the accessor, or for more bytes than the budget. Defined in
-/// gltf_sparse.cpp.
+/// gltf_accessor.cpp.
 void expand_sparse(Container& container, const std::string& file, LoadAccount& account);
 /// Decodes buffer views with EXT_meshopt_compression and primitives with
 /// KHR_draco_mesh_compression. They then name new buffers, views and accessors, and lose these

@@ -10,8 +10,8 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// Returns the callbacks through which tinygltf gets all bytes. Files are named by
-/// their index, in decimal. tinygltf asks for each file once, so its bytes are moved out.
+/// Returns the callbacks through which tinygltf gets all bytes. Files are named by their index, in
+/// decimal. tinygltf asks for each file once, so its bytes are moved out.
 tinygltf::FsCallbacks make_file_callbacks(std::vector<ByteList>& files) {
     return {.FileExists = [](const std::string&, void*) { return true; },
             .ExpandFilePath = [](const std::string& name, void*) { return name; },

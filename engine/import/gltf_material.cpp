@@ -43,7 +43,6 @@ dvec3 read_vec3(const JsonObject& item, std::string_view key, double otherwise) 
     return list.empty() ? dvec3(otherwise) : dvec3(list[0], list[1], list[2]);
 }
 
-/// Reads one material.
 class MaterialReader {
 public:
     /// `has_colours`: some primitive with this material has vertex colours.

@@ -36,7 +36,7 @@ struct Document {
     tinygltf::Model model;
     // These members are read before tinygltf parses the file. The library tinygltf does not read
     // some of these members, and cuts others to 32 bits.
-    std::vector<NodeExtras> marks; ///< marks of each node
+    std::vector<NodeExtras> marks; ///< of each node
     std::vector<Material> materials;
     PunctualLights lights;
     /// Morph target weights of each mesh.
@@ -102,7 +102,7 @@ struct ReadContext {
 
 // ---- gltf_node.cpp
 
-/// Reads the marks of each node, from its `extras`. Throws `bad_data`.
+/// Returns one entry for each node. Throws `bad_data`.
 std::vector<NodeExtras> read_all_extras(const JsonObject& root);
 /// Returns a node's transform into its parent's space. Throws `bad_data` for a rotation of zero or
 /// infinite length.

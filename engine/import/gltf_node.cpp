@@ -11,7 +11,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::size_t kMaxNodeDepth = 4096; // levels of nested nodes
+constexpr std::size_t kMaxNodeDepth = 4096;
 
 double read_positive(const JsonObject& item, const Json& value, std::string_view what) {
     item.require(value.is_number() && value.get<double>() > 0, what,

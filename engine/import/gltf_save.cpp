@@ -136,7 +136,7 @@ void add_object(Writer& writer, const Object& object) {
     add_object_node(writer, object.world_from_object, object.motion, std::move(node));
 }
 
-/// Adds a camera and its node. glTF cameras look along -z with +y up.
+/// glTF cameras look along -z with +y up.
 void add_camera(Writer& writer, const Camera& camera) {
     const double distance = glm::distance(camera.eye, camera.target);
     const dvec3 forward = normalized_or_zero(camera.target - camera.eye);
@@ -187,7 +187,7 @@ void add_light(Writer& writer, const PunctualLight& light) {
     add_object_node(writer, light.world_from_light, light.motion, std::move(node));
 }
 
-/// Returns the bytes of a GLB file with the writer's contents. Throws `io` above 4 GiB.
+/// Throws `io` above 4 GiB.
 std::string pack_glb(Writer& writer) {
     tinygltf::Model& model = writer.model;
     if (!writer.bytes.empty()) model.buffers.emplace_back().data = std::move(writer.bytes);

@@ -33,9 +33,9 @@ Value texture_transform(const Texture& texture) {
                                {"scale", number_list({scale_u, scale_v})}});
 }
 
-/// Writes the emission. If its largest component is above 1, that component is written as the
-/// strength of KHR_materials_emissive_strength. A largest component of at most 1e-6 needs the
-/// extension, too, because tinygltf treats it as black.
+/// If the largest component is above 1, that component is written as the strength of
+/// KHR_materials_emissive_strength. A largest component of at most 1e-6 needs the extension, too,
+/// because tinygltf treats it as black.
 void write_emission(Writer& writer, const Material& material, tinygltf::Material& to) {
     const dvec3 emission(material.emission);
     const double largest = std::max({emission.x, emission.y, emission.z});

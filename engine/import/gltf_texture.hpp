@@ -48,8 +48,7 @@ private:
     std::map<std::string, std::shared_ptr<const Image>> files_; ///< by real path
 };
 
-/// Reads all materials. Throws the same errors as `TextureReader`, and `bad_data` for invalid
-/// factors.
+/// Throws the same errors as `TextureReader`, and `bad_data` for invalid factors.
 std::vector<Material> read_materials(const MaterialContext& source);
 
 /// The lights of KHR_lights_punctual in the space of their nodes, and the light of each node, if
@@ -58,7 +57,7 @@ struct PunctualLights {
     std::vector<PunctualLight> lights;
     std::vector<std::optional<std::size_t>> of_node; ///< for each node, the index into `lights`
 };
-/// Reads all lights. Throws `bad_data`.
+/// Throws `bad_data`.
 PunctualLights read_lights(const MaterialContext& source);
 
 } // namespace catoptric::scene::gltf

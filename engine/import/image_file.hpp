@@ -18,7 +18,6 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
                                           const std::string& place, LoadAccount& account,
                                           bool is_light = true);
 
-/// Returns the bytes of a PNG file of the image.
 std::string encode_png(const Image& image);
 
 } // namespace catoptric::scene

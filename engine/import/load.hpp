@@ -17,11 +17,11 @@ struct LoadOptions {
     std::string animation;
 };
 
-/// Loads a built-in scene by name, or a .glb, .gltf or .obj file, and finds its mirrors.
-/// Throws `Failure::usage`, with the nearest built-in name, for a word that
-/// is neither. Throws `missing_input` for a file that does not exist. Throws `bad_data`, naming
-/// file and place, for content that cannot be read, exceeds the budget, or lies outside the allowed
-/// folders. The scene's warnings list what was left out or repaired, with a count for each kind.
+/// Loads a built-in scene by name, or a .glb, .gltf or .obj file, and finds its mirrors. Throws
+/// `Failure::usage`, with the nearest built-in name, for a word that is neither. Throws
+/// `missing_input` for a file that does not exist. Throws `bad_data`, naming file and place, for
+/// content that cannot be read, exceeds the budget, or lies outside the allowed folders. The
+/// scene's warnings list what was left out or repaired, with a count for each kind.
 CATOPTRIC_API Scene load(const std::string& name_or_path, const LoadOptions& options = {});
 
 /// Writes a scene as .glb, or as .obj with an .mtl file beside it. The same scene gives the same

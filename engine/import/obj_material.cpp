@@ -168,7 +168,7 @@ void add_statement(MtlLibrary& library, const Line& line, UnreadStatements& unre
     }
 }
 
-/// Reads the images of materials. Decodes each image once.
+/// Decodes each image once.
 class ImageReader {
 public:
     explicit ImageReader(ReadContext& context) : context_(context) {}

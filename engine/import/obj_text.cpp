@@ -130,7 +130,7 @@ void ObjReader::library(const Line& line) {
     }
 }
 
-/// Maps names to materials. If materials share a name, the first is used.
+/// If materials share a name, the first is used.
 void ObjReader::index_materials() {
     for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
         material_of_.try_emplace(text_.library.drafts[i].name, i);

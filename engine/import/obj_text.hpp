@@ -25,7 +25,7 @@ struct Line {
     std::string place() const { return *file + ":" + std::to_string(number); }
 
     const std::string* file;
-    std::size_t number;       ///< number of the line, from 1
+    std::size_t number;       ///< from 1
     std::string_view keyword; ///< first word; "#word" for a `# catoptric word` comment
     std::string_view rest;    ///< the text after the keyword, trimmed
 };
@@ -106,8 +106,8 @@ struct ReadContext {
 /// or `io`.
 void read_library(const std::filesystem::path& real, const std::string& place, ReadContext& context,
                   MtlLibrary& library);
-/// Builds the materials in file order, as scene.md describes them, and reads their images. Throws
-/// `bad_data` for an image that cannot be decoded.
+/// Builds the materials in file order, as docs/your-scenes.md describes them, and reads their
+/// images. Throws `bad_data` for an image that cannot be decoded.
 std::vector<Material> make_materials(const MtlLibrary& library, ReadContext& context);
 
 /// The contents of the `# catoptric` comments, by object name:
@@ -129,7 +129,7 @@ struct CatoptricComments {
     std::map<std::string, std::string> named_at;
 };
 
-/// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
+/// Throws `bad_data`, naming the line, for an invalid comment.
 void add_comment(CatoptricComments& remarks, const Line& line, LoadAccount& account);
 
 /// A corner of a face, as indices from 0.

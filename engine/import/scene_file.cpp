@@ -71,8 +71,8 @@ int read_bounded_whole(const JsonObject& file, const Json& value, const char* ke
     return static_cast<int>(number);
 }
 
-/// Calls `read`, which is shared with the command line, and turns its errors into
-/// errors of the file.
+/// Calls `read`, which is shared with the command line, and turns its errors into errors of the
+/// file.
 template <typename Read>
 auto rethrow_as_bad_data(const JsonObject& file, Read&& read) {
     try {

@@ -37,7 +37,7 @@ public:
     /// Throws `usage` unless both numbers lie between 0 and 1, .9999 at most.
     explicit Audit(const AuditedShare& tested = {});
 
-    /// Counts one audited frame. Costs some hundred operations.
+    /// Costs some hundred operations.
     void count_frame(bool passed);
 
     std::size_t frame_count() const { return frames_; }
@@ -47,7 +47,6 @@ public:
     /// mixture over t is the one for the tested q, whatever a is.
     double assurance_against(double failing_share) const;
     double assurance() const { return assurance_against(1 - tested_.share); } ///< E(1 - q)
-    /// Returns whether the frames audited so far assure q.
     bool is_assured() const { return assurance() >= threshold(); }
     /// Returns the largest assured share: 1 - a for the least a with E(a) >= 1/d; 0 if no share is
     /// assured. With probability 1 - d, the frames' mean probability of passing is above this share

@@ -38,7 +38,7 @@ public:
     /// Returns the number of frames of the present block; 0 before the first.
     std::size_t block_length() const { return block_; }
     double frames_ms() const { return frames_ms_; } ///< all frames without their audits
-    double audits_ms() const { return audits_ms_; } ///< time of all audits
+    double audits_ms() const { return audits_ms_; }
 
 private:
     double median_ms() const;

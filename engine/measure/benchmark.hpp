@@ -91,7 +91,6 @@ struct BenchmarkChange {
     std::vector<WorkChange> counts;  ///< counts that differ
     Outcome outcome() const;
 };
-/// Returns "slower", "faster", "mixed", "same" or "unknown".
 std::string outcome_name(BenchmarkChange::Outcome outcome);
 
 struct BenchmarkChanges {

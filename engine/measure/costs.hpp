@@ -17,7 +17,6 @@ namespace catoptric::measure {
 /// Where a cost comes from. fitted: from times measured on the device. literature: from published
 /// figures. given: from the user.
 enum class CostOrigin : std::uint8_t { fitted, literature, given };
-/// Returns "fitted", "literature" or "given".
 std::string_view cost_origin_name(CostOrigin origin);
 
 /// Cost of one unit of a kind of work, nanoseconds.
@@ -46,7 +45,7 @@ struct FitQuality {
 };
 
 struct DeviceCosts {
-    std::string device; ///< name of the device
+    std::string device;
     CostOrigin origin = CostOrigin::given;
     std::string note; ///< what the reader must know of the figures; may be empty
     std::vector<UnitCost> units;

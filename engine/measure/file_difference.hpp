@@ -6,7 +6,6 @@
 
 namespace catoptric::measure {
 
-/// Difference of two picture files.
 struct FileDifference {
     int width = 0, height = 0;
     Difference difference;

@@ -21,7 +21,7 @@ struct NoisyHalves {
     Picture mean;                 ///< mean of both halves
     std::vector<float> floor_map; ///< FLIP map of `a` and `b`
 };
-/// Returns halves with these pictures. `exposure`: stops, by which the pictures are multiplied.
+/// `exposure`: stops, by which the pictures are multiplied.
 NoisyHalves make_halves(const Picture& a, const Picture& b, double exposure);
 
 /// Returns the mean of a picture's FLIP maps against the two halves. `picture` is linear, before

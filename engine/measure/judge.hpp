@@ -19,7 +19,7 @@ bool has_known_error(const Row* row);
 /// Returns whether the row takes part in fastest, closest and front. A candidate is judged and
 /// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
 bool is_rankable(const Row& row);
-/// Returns whether the row's time is known. The time of a row whose picture is a file is NaN.
+/// The time of a row whose picture is a file is NaN.
 bool has_known_time(const Row& row);
 /// Returns whether the row is a candidate with a known time above 0 and a known FLIP. Only such
 /// rows beat others or are beaten.

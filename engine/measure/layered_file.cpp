@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array kExrChannelSuffixes{".R", ".G", ".B"};
 
-/// Returns the index of a channel. Throws `bad_data` if the file lacks it.
+/// Throws `bad_data` if the file lacks the channel.
 std::size_t find_channel(const ImageShape& shape, const std::string& channel,
                          const std::string& file) {
     const auto found = std::ranges::find(shape.channels, channel);

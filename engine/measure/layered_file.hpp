@@ -23,8 +23,7 @@ struct LayeredFile {
 /// Writes an OpenEXR file of 32-bit floats, with each value bit-exact. The file is replaced as a
 /// whole or not at all.
 void write_layers(const LayeredFile& file, const std::filesystem::path& path);
-/// Reads layers of these names. Throws `missing_input` for a missing file, and `bad_data` for a
-/// file without these layers.
+/// Throws `missing_input` for a missing file, and `bad_data` for a file without these layers.
 LayeredFile read_layers(const std::filesystem::path& path, std::span<const std::string> names);
 
 } // namespace catoptric::measure

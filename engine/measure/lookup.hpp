@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <span>
 
-// Direction errors of a search.
 namespace catoptric::measure {
 
 /// Summary of the direction errors of a search.
@@ -26,7 +25,7 @@ struct LookupError {
     double residual = 0;
 };
 
-/// Returns the summary of the pixels. All values are 0 for an empty list.
+/// All values are 0 for an empty list.
 LookupSummary summarise_lookups(std::span<const LookupError> pixels);
 
 /// Returns the angle between two directions in degrees. Small angles are exact too, because the

@@ -40,7 +40,6 @@ Mask mask_rough(std::span<const std::uint32_t> hits);
 /// Returns the masks of row_masks(), in the same order.
 std::vector<Mask> compute_masks(std::span<const std::uint32_t> hits);
 
-/// Returns how many pixels of a mask count.
 std::size_t count_pixels(const Mask& mask);
 
 } // namespace catoptric::measure

@@ -40,7 +40,6 @@ struct MetricParts {
 struct Studied {
     std::map<std::string, MetricValue, std::less<>> values;
 };
-/// Sets the row's value of a metric of a study.
 void set_study_metric(Row& row, const std::string& metric, MetricValue value);
 /// Returns the row's value of a metric of a study; no value if the study has not set it.
 MetricValue study_metric(const Row& row, std::string_view metric);

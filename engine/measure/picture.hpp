@@ -62,7 +62,7 @@ CATOPTRIC_API std::string encode_exr(const Picture& picture, const std::string& 
 /// [0,1]; NaN becomes 0. The same picture gives the same bytes.
 CATOPTRIC_API std::string encode_png(const Picture& display);
 
-/// Write these files. A file is replaced as a whole or not at all.
+/// A file is replaced as a whole or not at all.
 CATOPTRIC_API void write_exr(const Picture& picture, const std::filesystem::path& path,
                              const std::string& text = {});
 CATOPTRIC_API void write_png(const Picture& display, const std::filesystem::path& path);

@@ -15,7 +15,6 @@ public:
     PictureMean(int count, const Picture& mean, const Picture& variance);
     /// Adds a picture. Throws `bad_data` for another size than that of the first.
     void add(const Picture& picture);
-    /// Returns the number of pictures.
     int count() const { return count_; }
     /// Returns the mean of all pictures; a picture without pixels if there are none.
     Picture mean() const;

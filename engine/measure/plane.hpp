@@ -6,7 +6,6 @@
 
 namespace catoptric::measure {
 
-/// One channel of a picture.
 struct ChannelPlane {
     int width = 0;
     int height = 0;
@@ -41,7 +40,6 @@ struct FilterKernel {
 /// multiplications a pixel, on one core.
 void convolve_x(const ChannelPlane& in, const FilterKernel& kernel, int border, ChannelPlane& out);
 
-/// Plane and the kernel with which it is convolved.
 struct FilteredPlane {
     const ChannelPlane& plane;
     const FilterKernel& kernel;

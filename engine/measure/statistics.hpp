@@ -8,9 +8,9 @@
 // Summaries of measurements.
 namespace catoptric::measure {
 
-/// Returns the summary of a list. Throws `internal` if the list is empty or has a NaN or infinity.
+/// Throws `internal` if the list is empty or has a NaN or infinity.
 SampleSummary summarise(std::span<const double> samples);
-/// Returns the summary of measurements in rounds. Each round has at least one sample.
+/// Each round has at least one sample.
 SampleSummary summarise(std::span<const std::vector<double>> rounds);
 
 /// Returns the value below which `fraction` (0..1) of the values lie. Interpolates linearly between

@@ -63,7 +63,7 @@ struct StressResults {
     int width = 0, height = 0;
     std::uint64_t seed = 1;
     std::vector<StressRow> rows;
-    bool has_failed_row() const; ///< Returns whether a row failed.
+    bool has_failed_row() const;
     /// Returns "C9: why" for each row, and "L2, what: why" for each part of a row, that could not
     /// be run.
     std::vector<std::string> parts_not_run() const;

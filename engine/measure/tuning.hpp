@@ -11,8 +11,8 @@ namespace catoptric::measure {
 /// One variant and the default, measured in the same rounds.
 struct VariantTrial {
     std::string variant, choice, standard; ///< "groups", "in order", "scattered"
-    std::string benchmark;                 ///< name of the benchmark
-    std::vector<double> ms, standard_ms;   ///< milliseconds of each round, on the device
+    std::string benchmark;
+    std::vector<double> ms, standard_ms; ///< milliseconds of each round, on the device
 
     /// Returns the variant's time divided by the default's.
     CostRatio time_ratio() const { return cost_ratio(ms, standard_ms); }

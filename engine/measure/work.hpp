@@ -17,7 +17,6 @@ std::vector<Metric> work_metrics();
 void set_work(Row& row, const std::vector<PassWork>& passes);
 /// Returns the row's counts over all passes. Kinds that were not counted have no value.
 WorkCounts total_work(const Row& row);
-/// Returns whether the row's work was counted.
 bool has_counted_work(const Row& row);
 
 } // namespace catoptric::measure

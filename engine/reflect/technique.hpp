@@ -63,11 +63,11 @@ struct MirrorShading {
 /// How a technique with mirrored views draws flat mirrors (reflect/mirrored.cpp).
 struct MirroredViewOptions {
     int bounces = 0; ///< number of flat mirrors one behind the other that a mirrored view shows
-    /// How rough mirrors show their view: RoughLookup::none, mips or prefilter.
+    /// How rough mirrors show their view: Lookup::none, mips or prefilter.
     RoughKnobs::Lookup rough = RoughKnobs::Lookup::none;
-    /// How the blur depends on the distance of what the view shows: DistanceLaw::none or cone.
+    /// How the blur depends on the distance of what the view shows: Law::none or cone.
     RoughKnobs::Law law = RoughKnobs::Law::none;
-    std::uint32_t taps = 1; ///< look-ups of a pixel with RoughLookup::prefilter
+    std::uint32_t taps = 1; ///< look-ups of a pixel with Lookup::prefilter
 };
 
 struct Technique {
@@ -129,7 +129,7 @@ struct RegisteredTechnique {
 
 /// Returns all techniques, sorted by `order`.
 std::vector<const Technique*> techniques();
-/// Returns the technique of this name. Throws `Failure::usage` with the nearest name.
+/// Throws `Failure::usage` with the nearest name.
 const Technique& find_technique(std::string_view name);
 
 /// A technique with a value for each knob.

@@ -78,7 +78,6 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
     return state;
 }
 
-/// Binds the resources of a tracing pass.
 void bind_tracer(graph::PassCommands& commands, const render::GpuScene& scene,
                  const TracerSettings& tracer) {
     scene.bind(commands);

@@ -20,7 +20,6 @@ struct BackdropPlane {
     dvec3 normal; ///< unit length, towards the light
     double at;
     double room; ///< points up to this far behind the plane count as in it
-    /// Returns the distance of the point behind the plane.
     double distance_behind(const dvec3& point) const { return at - dot(normal, point); }
 };
 

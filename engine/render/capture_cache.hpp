@@ -16,7 +16,6 @@
 /// before. A frame that redraws no capture uses one set and leaves it unchanged.
 namespace catoptric::render {
 
-/// A face of a mirror's capture.
 struct CachedFace {
     /// Content hash of all surfaces and lights that the face shows, except mirrors; 0: the contents
     /// of the face are invalid.

@@ -25,8 +25,7 @@ public:
     /// waited.
     std::uint32_t frames_waited(std::uint32_t mirror) const;
 
-    /// Decides what the frame does with each of the six faces of a mirror's capture. Fills the
-    /// mirror's entries in `work` and `kept`.
+    /// Fills the mirror's entries in `work` and `kept`.
     void decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
     /// Returns whether drawing a mirror's capture again can wait for a later frame. For this, every
     /// face to be drawn must still have valid old contents.

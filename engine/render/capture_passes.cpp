@@ -46,7 +46,6 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
     if (area) pass.render_area(*area);
 }
 
-/// Returns whether the part of the face may show the object.
 bool may_face_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
                    const require::FacePart& part, std::size_t object) {
     return part.is_whole() ||

@@ -15,7 +15,7 @@ struct CapturedCubes {
     std::vector<std::byte> colour_bytes, distance_bytes;
     SceneUnits space;
 
-    /// Returns the colour of texel (x, y) of face `cube_face`, 0 to 5. Mirrors count from 0.
+    /// Mirrors count from 0, and `cube_face` is 0 to 5.
     vec3 colour(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const;
     /// Returns the stored distance, decoded from `format`: scene units from the centre, or the
     /// fraction of the range for r8_unorm.

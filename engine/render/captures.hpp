@@ -71,7 +71,7 @@ struct MirrorCaptures {
     /// numbers mean equal texels if the options are equal.
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
-    /// Returns the array that holds the mirror's capture; null if the mirror has none.
+    /// Null if the mirror has no capture.
     const CubeCaptureArray* find_array(std::uint32_t mirror) const {
         return places[mirror].has_capture() ? &arrays[places[mirror].array] : nullptr;
     }

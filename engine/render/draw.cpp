@@ -23,7 +23,7 @@ gpu::TriangleWinding back_face_winding(const shared::View& view) {
                : gpu::TriangleWinding::counterclockwise;
 }
 
-/// Returns the vertex shader for a view. `own`: the objects are stored in object space.
+/// `own`: the objects are stored in object space.
 std::string choose_vertex_shader(bool own, const shared::View& view) {
     return std::string(own ? "placed.vert" : "scene.vert") +
            (view.clip == vec4(0) ? "" : "#clipped");

@@ -8,7 +8,6 @@
 /// Functions that record the draws of scene objects into a raster pass.
 namespace catoptric::render {
 
-/// Binds the images of the lighting.
 void bind_lighting(graph::PassCommands& commands, const ShadingLights& lighting);
 
 /// Returns whether an object, given by its index, is drawn.
@@ -44,12 +43,11 @@ void draw_without_back_faces(graph::PassCommands& commands, const GpuScene& scen
                              const MirrorDrawNumbers& numbers, const ObjectFilter& wanted,
                              const DrawnParts& parts = {});
 
-/// The settings with which a picture of the scene is drawn.
 struct DrawSettings {
     std::uint32_t first_view = 0, layers = 1;
     ShadingLights lighting;
-    std::shared_ptr<const MirrorShaders> looks; ///< shaders of the mirrors
-    gpu::ShaderConstants store;                 ///< constants for storing distances and surfaces
+    std::shared_ptr<const MirrorShaders> looks;
+    gpu::ShaderConstants store; ///< constants for storing distances and surfaces
     ShadingTracer completing_tracer;
     /// Distances of a first layer; only surfaces behind them are drawn.
     std::optional<graph::ImageHandle> peeled;

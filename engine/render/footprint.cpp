@@ -14,7 +14,6 @@ namespace {
 constexpr double kRightAngle = std::numbers::pi / 2;
 constexpr std::uint32_t kEdgeMultiple = 16;
 
-/// One triangle of a mirror.
 struct MirrorFacet {
     std::array<dvec3, 3> position, normal;
 

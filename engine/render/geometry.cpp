@@ -21,7 +21,6 @@ bool is_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& tria
                a.normal + b.normal + c.normal) < 0;
 }
 
-/// Writes the indices of one object into the geometry.
 void write_object_indices(FrameGeometry& geometry, const scene::Mesh& mesh,
                           const DrawRange& range) {
     std::size_t index = range.first_index;

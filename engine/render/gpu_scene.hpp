@@ -45,9 +45,8 @@ public:
     bool uses_mirror_tree() const { return probes_.size() > kMaxMirrorsWithoutTree; }
     /// Returns whether some mirror is not an exact sphere, or emits or diffusely reflects light.
     bool has_complex_mirrors() const;
-    /// Returns whether some mirror reflects in lobes.
     bool has_rough_mirrors() const { return std::ranges::any_of(draw_ranges(), &DrawRange::rough); }
-    /// Returns whether the mirror reflects in lobes. Mirrors count from 0 here.
+    /// Mirrors count from 0 here.
     bool is_rough_mirror(std::uint32_t mirror) const {
         return draw_ranges()[mirror_object(mirror)].rough;
     }
@@ -64,9 +63,9 @@ public:
     const SceneUnits& scene_units() const { return space_; }
     const std::vector<DrawRange>& draw_ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& list_views() const { return views_; }
-    /// Returns the index of the object that is the given mirror. Mirrors count from 0 here.
+    /// Returns the index of an object. Mirrors count from 0 here.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
-    /// Returns a ball inside the mirror. Only mirrors that hide their own back have one.
+    /// Only mirrors that hide their own back have such a ball.
     const InnerBall& inner_ball(std::uint32_t mirror) const { return inner_balls_[mirror]; }
     /// Returns the mirror number of the object, from 1; 0: no mirror.
     std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
@@ -74,7 +73,6 @@ public:
     const std::vector<scene::FlatFaces>& flat_faces() const { return flats_; }
     /// Returns how far from flat a mirror may be to be drawn as a plane in this picture.
     double flat_tolerance() const { return scene::flat_tolerance(camera_, size_); }
-    /// Returns the eye from which mirrored views start.
     MirroredViewEye eye() const;
     /// Returns whether the object is a closed mirror with the camera inside, which no light from
     /// outside reaches.
@@ -104,12 +102,10 @@ public:
     bool has_blended_surfaces() const {
         return material_details_.has_blended() && device_.blends_floats();
     }
-    /// Returns whether rays pass through some surface.
     bool has_glass() const { return material_details_.has_glass(); }
     /// Returns whether glass attenuates the light for surfaces behind the glass (option
     /// --glass-shadow tint).
     bool has_tinted_shadows() const { return material_details_.has_tinted_shadows(); }
-    /// Returns whether some surface has more than one colour.
     bool has_varying_colours() const { return material_details_.has_varying_colours(); }
     /// Returns whether rays may leave some surface in directions drawn from a lobe, or in its coat
     /// or base as drawn.
@@ -143,12 +139,10 @@ public:
 
     /// Binds every buffer of the scene except the hierarchy, under its name in shaders/lib.
     void bind(graph::PassCommands& commands) const;
-    /// Binds the triangle that draws the sky.
     void bind_sky_vertices(graph::PassCommands& commands) const;
     /// Binds the object's vertices. Call it after `bind`, before each draw.
     void bind_vertices(graph::PassCommands& commands, std::size_t object) const;
 
-    /// Returns whether some light is a lamp with an extent.
     bool has_lamp_extents() const {
         return std::ranges::any_of(world_lights_, [](const scene::PointLight& light) {
             return light.half_axes != dmat3(0);

@@ -36,8 +36,6 @@ bool is_shown_by_probes(const DrawRange& range) { return !range.glass; }
 /// probes.
 bool is_lamp(const DrawRange& range) { return !range.casts_shadow && !range.glass; }
 
-/// Declares the pass that draws the capture of one probe, from 0.
-/// Records the draws of a light probe's capture.
 void record_probe_capture(graph::PassCommands& commands, const GpuScene& scene,
                           const DrawSettings& drawing, bool shows_surfaces) {
     const auto is_wanted = [&](std::size_t object) {
@@ -67,6 +65,7 @@ void record_probe_capture(graph::PassCommands& commands, const GpuScene& scene,
     draw_blended_surfaces(commands, scene, of_lamps, is_shown_lamp, shown);
 }
 
+/// `probe` counts from 0.
 void add_probe_capture(graph::Graph& graph, const FrameInputs& inputs, const LightProbes& probes,
                        std::uint32_t probe, const ShadingLights& lighting,
                        const std::shared_ptr<const MirrorShaders>& looks) {

@@ -12,10 +12,9 @@ struct SceneAmounts {
     std::uint64_t vertices = 0, triangles = 0, objects = 0, mirrors = 0;
     std::uint64_t environment_texels = 0;
 };
-/// Returns the amounts of a scene. Costs as much as find_sharing_objects.
+/// Costs as much as find_sharing_objects.
 SceneAmounts count_amounts(const scene::Scene& scene);
 
-/// The limits of a device.
 struct GeometryLimits {
     std::uint64_t texels = 0;        ///< most texels of a texel buffer, 16 bytes each
     std::uint64_t storage_bytes = 0; ///< most bytes of a storage buffer that shaders see

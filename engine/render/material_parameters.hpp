@@ -22,16 +22,16 @@ public:
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
-    bool has_clear_coats() const { return has_clear_coats_; } ///< some surface has a clear coat
+    bool has_clear_coats() const { return has_clear_coats_; }
     /// Returns whether glass attenuates the light that surfaces behind it receive.
     bool has_tinted_shadows() const { return has_tinted_shadows_; }
     bool has_glass() const { return has_glass_; } ///< rays pass through some surface
     /// Returns whether solid bodies of glass share space (scene/nested_glass.hpp).
     bool has_ranked_glass() const { return has_ranked_glass_; }
     bool has_blended() const { return has_blended_; } ///< some surface covers by its alpha
-    bool has_varying_colours() const { return any_; } ///< some surface has more than one colour
-    bool has_masks() const { return masks_; }         ///< some surface is partly cut out
-    bool has_lobes() const { return has_lobes_; }     ///< some surface reflects by a lobe
+    bool has_varying_colours() const { return any_; }
+    bool has_masks() const { return masks_; } ///< some surface is partly cut out
+    bool has_lobes() const { return has_lobes_; }
     bool has_normal_textures() const { return has_normal_textures_; }
     /// Returns, for each object, the index of its material parameters. Objects with equal
     /// parameters share an entry. Entries of ranked glass come first, by falling rank.

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-/// The shaders that draw mirrors.
 namespace catoptric::render {
 
 /// A fragment shader and the resources that it reads.
@@ -41,7 +40,6 @@ struct MirrorShaders {
     std::vector<PartShader> parts;        ///< triangles in no part are not drawn
 };
 
-/// Returns shaders that draw all mirrors alike.
 MirrorShaders use_same_shader(const GpuScene& scene, MirrorShader look);
 
 /// Declares that a pass reads the resources of these shaders and of the lighting, each once.

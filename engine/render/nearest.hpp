@@ -51,7 +51,6 @@ class NearestTriangle {
 public:
     /// Prepares for a new geometry layout.
     void set_geometry(const FrameGeometry& geometry);
-    /// Records that the object's triangles have moved.
     void record_move(std::size_t object);
 
     /// Returns the distance from a point to the nearest triangle, scene units. The result equals

@@ -46,7 +46,7 @@ struct MeshSpace {
     double unit = 1;    ///< object space units in one unit of the mesh
     Bounds<double> box; ///< bounds in object space
 };
-/// Returns the space of a mesh, with an empty box.
+/// The box of the result is empty.
 MeshSpace make_mesh_space(const scene::Mesh& mesh);
 /// Returns the placement of a copy's object space.
 ObjectSpace make_object_space(const MeshSpace& mesh, const dmat4& world_from_object,

@@ -60,7 +60,6 @@ OpaquePicture declare_opaque_picture(graph::Graph& graph, const FrameInputs& inp
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const MirrorCaptures& captures,
                   MirrorShaders looks, const CaptureWork& work = {});
 
-/// The outputs of the camera's view.
 struct CameraOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
     /// Image with the direction in which each mirror pixel looked into a capture, rgba32f: see

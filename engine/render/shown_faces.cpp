@@ -108,7 +108,6 @@ public:
         });
     }
 
-    /// Returns whether the face may show something in the sphere.
     bool may_show_sphere(const FaceSphere& sphere) const {
         const float nearest = sphere.distance - sphere.radius;
         // The angle between two directions is smaller than the distance between their points on the

@@ -11,7 +11,6 @@ namespace catoptric::render {
 
 class GpuScene;
 
-/// A scene's environment on the device.
 class DeviceEnvironment {
 public:
     explicit DeviceEnvironment(std::size_t slots);

@@ -33,7 +33,6 @@ class RayTracingTrees {
 public:
     explicit RayTracingTrees(std::size_t slots);
 
-    /// Records that the layout of objects changed.
     void record_layout_change();
     /// Records which objects cast a shadow on nothing for any light, by object (see backdrop.hpp).
     /// Shadow rays pass through such objects. Another set needs new hierarchies.

@@ -12,7 +12,6 @@ namespace catoptric::render {
 shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& space, uvec2 size,
                               float gap, const Bounds<float>& everything = {});
 
-/// Returns the bounds of all objects of the geometry.
 Bounds<float> geometry_bounds(const FrameGeometry& geometry);
 
 /// Returns six 90-degree views from a point along the world's axes. Their order and orientation are

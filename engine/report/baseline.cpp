@@ -28,7 +28,7 @@ double read_number(const Json& object, const char* name) {
     return value.is_number() ? value.get<double>() : NAN;
 }
 
-/// Reads the median of a time and its interval; NaN where they are not stated.
+/// Numbers that are not stated are NaN.
 measure::MedianWithInterval read_median(const Json& summary) {
     measure::MedianWithInterval time{read_number(summary, "median"), {}};
     const Json ci95 = find_member(summary, "ci95");
@@ -280,7 +280,6 @@ const Json* find_replacement(const Json& rows, const Json& rows_before, const Js
     return nullptr;
 }
 
-/// Returns what is said of a row of the baseline that this comparison lacks.
 BaselineFinding describe_missing_row(const Json& rows, const Json& rows_before,
                                      const Json& missing) {
     BaselineFinding finding{.row = row_name(missing),

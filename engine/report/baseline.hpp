@@ -24,7 +24,6 @@ enum class BaselineVerdict : std::uint8_t {
     replaced, ///< as `missing`, but a new row of the same technique and model errs no more
     added,    ///< the baseline lacks this row, so nothing of it is judged
 };
-/// Returns the name of the enumerator.
 const char* verdict_name(BaselineVerdict verdict);
 
 /// The verdict on one quantity of one row, with its earlier and its present value.

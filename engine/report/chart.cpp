@@ -15,7 +15,6 @@ namespace catoptric::report {
 
 namespace {
 
-/// Returns the values and intervals of a column for these rows.
 Json chart_column(const RowMetricColumn& column, const std::vector<std::size_t>& rows) {
     return {{"name", column.name},
             {"values",

@@ -12,7 +12,7 @@ namespace catoptric::report {
 
 /// Returns a script element that holds the data as JSON.
 std::string data_script(const Json& data);
-/// Returns a chart with its data. `fallback`: HTML for readers without script.
+/// `fallback`: HTML for readers without script.
 std::string html_chart(const Json& data, const std::string& fallback);
 
 /// Returns the rows of a comparison as a chart of time against any column of the table of all rows.

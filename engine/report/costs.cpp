@@ -59,7 +59,6 @@ struct CostValue {
         if (!json.is_string() || json.get_ref<const std::string&>().empty()) fail_expecting("text");
         return json.get<std::string>();
     }
-    /// Returns the text, or an empty one if the member is absent.
     std::string text_or_empty() const { return json.is_null() ? std::string() : read_text(); }
     double read_number(double low, const char* wanted) const {
         if (!json.is_number() || !std::isfinite(json.get<double>()) || json.get<double>() < low)
@@ -118,7 +117,6 @@ Json read_costs_json(const std::filesystem::path& file, const char* what) {
     return parse_json<Json>(file.string(), read_json_text(file, what, kMaxCostFileBytes));
 }
 
-/// Returns the measured and the predicted times of the rows of a fit.
 measure::FitQuality read_fit(const CostValue& value) {
     measure::FitQuality fit;
     for (const CostValue& row : value.find_member("left_out").elements()) {

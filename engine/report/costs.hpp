@@ -39,7 +39,7 @@ struct OtherDeviceTimes {
     };
     std::vector<TimedRow> rows;
 };
-/// Reads a file of times that were measured on another device. Throws as `read_costs_file` does.
+/// Throws as `read_costs_file` does.
 OtherDeviceTimes read_times_file(const std::filesystem::path& file);
 
 /// Times that another renderer took for the pictures of its rows (`compare --row`).
@@ -51,7 +51,7 @@ struct RowTimes {
     };
     std::vector<TimedRow> rows;
 };
-/// Reads a file of times that another renderer took. Throws as `read_costs_file` does.
+/// Throws as `read_costs_file` does.
 RowTimes read_row_times(const std::filesystem::path& file);
 
 } // namespace catoptric::report

@@ -22,7 +22,6 @@ struct CsvField {
     bool in_table = true; ///< whether CsvColumns::table has the column, too
 };
 
-/// The fields of a row.
 class CsvLine {
 public:
     void add_field(std::string name, std::string text, bool in_table = true) {
@@ -41,7 +40,7 @@ public:
     std::vector<CsvField> fields;
 };
 
-/// Returns a list of numbers as one field, separated by spaces.
+/// Returns one field, with spaces between the numbers.
 std::string format_number_list(const std::vector<double>& list) {
     std::vector<std::string> texts;
     for (const double value : list) texts.push_back(format_csv_number(value));

@@ -27,7 +27,7 @@ std::string describe_settings(const Comparison& comparison) {
                        comparison.ambient, comparison.exposure, comparison.model);
 }
 
-/// Returns the number of lights and the environment, such as "3 lights, environment studio".
+/// Returns text such as "3 lights, environment studio".
 std::string describe_lights(const SceneFacts& scene) {
     const measure::SceneContents& contents = measure::read_scene_contents(scene);
     std::string text = fmt::format("{} light{}", contents.lights.size(),

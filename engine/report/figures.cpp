@@ -42,7 +42,6 @@ std::string standalone_svg(const std::string& svg) {
            std::string(kFigureStyle) + svg.substr(end + 1) + "\n";
 }
 
-/// Returns text that LaTeX prints as it is.
 std::string escape_latex(std::string_view text) {
     std::string escaped;
     for (const char c : text) {

@@ -38,10 +38,9 @@ using DrawingConverter =
 
 /// Writes figures.tex, plot.svg, passes.svg, causes.svg, reference.png and crop-ROW.png into an
 /// existing folder, and a PDF of each SVG if there is a converter. Without one, removes the PDF
-/// files of earlier figures. Figures without data are left
-/// out. figures.tex holds a LaTeX figure with a caption for each, and a table of the rows. `crop`:
-/// pixels of the crops; empty: where rows differ most. Throws as check_crop and as the converter
-/// do, and `io` if a file cannot be written.
+/// files of earlier figures. Figures without data are left out. figures.tex holds a LaTeX figure
+/// with a caption for each, and a table of the rows. `crop`: pixels of the crops; empty: where rows
+/// differ most. Throws as check_crop and as the converter do, and `io` if a file cannot be written.
 void write_figures(const Comparison& comparison, const std::filesystem::path& folder,
                    std::optional<PixelRectangle> crop, const DrawingConverter& make_pdf = {});
 

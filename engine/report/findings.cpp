@@ -188,7 +188,6 @@ std::string describe_fastest(const measure::FastestRows& fastest) {
     return fmt::format("{} of {} rows may be fastest", fastest.rows.size(), fastest.candidates);
 }
 
-/// Returns the fastest and the closest rows in words.
 std::string describe_fastest_and_closest(const Comparison& comparison) {
     const measure::FastestRows fastest = measure::find_fastest_rows(comparison);
     if (fastest.rows.empty()) return "no row could be judged";

@@ -24,8 +24,7 @@ std::string html_cell(const TableColumn& column, const char* tag, const char* sc
                        content, tag);
 }
 
-/// Returns a table as HTML. If `linked` is given, the first cell of row i links to the pictures of
-/// its row i.
+/// If `linked` is given, the first cell of row i links to the pictures of its row i.
 std::string to_html(const ReportTable& table, const std::string& look,
                     const Comparison* linked = nullptr) {
     if (table.rows.empty()) return "";

@@ -222,7 +222,6 @@ void add_circumstances(Json& json, const Comparison& comparison) {
     json["warnings"] = comparison.warnings;
 }
 
-/// Returns the noise of a reference.
 Json to_json(const measure::ReferenceNoise& noise) {
     return {{"frames", noise.frames},
             {"rays", noise.rays},

@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-// Parts of JSON files. No installed header includes this one. New versions of a
-// file add fields and never remove any.
+// Parts of JSON files. No installed header includes this one. New versions of a file add fields and
+// never remove any.
 namespace catoptric::report {
 
 using Json = nlohmann::ordered_json;
@@ -34,15 +34,13 @@ Json numbers_json(const std::vector<double>& values);
 Json interval_json(const measure::Interval& interval);
 /// Describes a value for a message: "nothing", "a list", or its JSON in quotes.
 std::string describe(const Json& value);
-/// Returns the field "device".
 Json device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.
 Json row_times_json(const Row& row);
 /// Adds a field for each mask of pixels with all metrics of a difference, and "error_per_mirror".
 void add_errors(Json& json, const measure::Errors& errors);
-/// Returns the value of a metric as JSON, or null if the metric has no value.
+/// Returns null if the metric has no value.
 Json metric_json(const measure::MetricValue& value);
-/// Returns how far a reference is from path tracing.
 Json path_distance_json(const measure::PathDistance& distance);
 /// Returns the field "lag" of a comparison whose lag was measured.
 Json lag_json(const Comparison& comparison);
@@ -56,7 +54,6 @@ Json camera_json(const measure::CameraFacts& camera);
 Json lights_json(const std::vector<LightFacts>& lights);
 Json environment_json(const std::optional<EnvironmentFacts>& environment);
 Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
-/// Returns the field "scene".
 Json scene_json(const SceneFacts& scene);
 
 /// Returns a list with one object a mirror: mirror, name, technique, settings, why.

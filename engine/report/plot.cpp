@@ -67,7 +67,6 @@ std::vector<double> tick_values(const LogScale& scale) {
     return values;
 }
 
-/// Returns the ticks of a scale with their places.
 std::vector<AxisTick> make_ticks(const LogScale& scale, const std::vector<double>& values) {
     std::vector<AxisTick> list;
     for (const double value : values) list.push_back({value, scale(value)});
@@ -79,7 +78,7 @@ std::string svg_grid_line(double x0, double y0, double x1, double y1) {
                        x0, y0, x1, y1);
 }
 
-/// Returns a text element. `anchor` is start, middle or end. `content` is not escaped.
+/// `anchor`: start, middle or end. `content` is not escaped.
 std::string svg_text(double x, double y, const char* anchor, std::string_view content) {
     return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
                        content);

@@ -18,8 +18,8 @@ std::string time_axis_name(const Comparison& comparison);
 std::vector<std::vector<std::size_t>> knob_curves(const Comparison& comparison,
                                                   const std::vector<std::size_t>& rows);
 
-/// Returns the rows as an SVG: median ms against FLIP, both logarithmic. Error 0
-/// has a separate lane and the Pareto front is drawn. Empty if no row can be placed.
+/// Returns the rows as an SVG: median ms against FLIP, both logarithmic. Error 0 has a separate
+/// lane and the Pareto front is drawn. Empty if no row can be placed.
 std::string comparison_plot(const Comparison& comparison);
 
 /// Returns plots of the lag as a section of a page; empty if no row has a measured lag.

@@ -21,19 +21,18 @@ using measure::verdict_name;
 std::string to_json(const StressResults& stress);
 /// Returns the results as one self-contained HTML page.
 std::string to_html(const StressResults& stress);
-/// Returns the table of results as Markdown.
 std::string to_markdown(const StressResults& stress);
 /// Returns "2 of 27 rows: ..." for a run that goes on or was stopped, or an empty text if it is
 /// complete.
 std::string describe_incomplete_run(const StressResults& stress);
 
 /// Writes the results of the finished rows into a folder, which is made as for a comparison. Files:
-/// stress.json, stress.html, stress.md and images/ID-*.png. `write` is called again
-/// as rows are added and writes each picture once.
+/// stress.json, stress.html, stress.md and images/ID-*.png. `write` is called again as rows are
+/// added and writes each picture once.
 class StressWriter {
 public:
     explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
-    /// Writes all files. Throws `cannot_create`, `io`.
+    /// Throws `cannot_create`, `io`.
     void write(const StressResults& stress);
 
 private:

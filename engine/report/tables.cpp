@@ -87,7 +87,7 @@ std::string row_remark(const Comparison& comparison, const Row& row) {
     return join_texts(remarks, ", ");
 }
 
-/// Returns a cell of a metric's column. `decimals` is that of times in the whole table.
+/// `decimals`: that of times in the whole table.
 std::string format_metric_cell(const measure::MetricColumn& column,
                                const measure::MetricValue& value, int decimals) {
     using measure::ValueFormat;
@@ -103,8 +103,7 @@ std::string format_metric_cell(const measure::MetricColumn& column,
     return format_metric_number(*number, column, decimals);
 }
 
-/// Returns a cell with the FLIP of a row. If the FLIP is not larger than the noise of the
-/// reference, the cell says so.
+/// If the FLIP is not larger than the noise of the reference, the cell says so.
 std::string format_flip_cell(const measure::Difference& error) {
     return std::isfinite(error.flip) ? format_flip(error) : empty_cell();
 }

@@ -20,7 +20,6 @@ struct TableColumn {
     std::string name;
     bool is_number = true; ///< the column's cells are right-aligned
 };
-/// Returns a column of text.
 TableColumn text_column(const char* title);
 
 struct ReportTable {
@@ -31,7 +30,7 @@ struct ReportTable {
     std::vector<bool> marked = {}; ///< rows to highlight; empty or one entry a row
 };
 
-/// Returns the text of a number in a metric's column. `decimals` is that of times in the table.
+/// `decimals`: that of times in the table.
 std::string format_metric_number(double value, const measure::MetricColumn& column,
                                  int decimals = 0);
 /// Returns a pipe table under its title. Its columns also line up as plain text. Empty if the table
@@ -65,7 +64,7 @@ ReportTable mirror_table(const Comparison& comparison);
 /// Returns the errors of looked-up directions, for rows that search. Without such rows the table is
 /// empty.
 ReportTable lookup_table(const Comparison& comparison);
-/// Returns the unsupported features of the scene. The table is empty if the scene file has none.
+/// Empty if the scene file has no unsupported feature.
 ReportTable unsupported_table(const SceneFacts& scene);
 /// Returns a text that says how an unsupported feature is left out, approximated or replaced. Empty
 /// for an unknown id.

@@ -20,8 +20,8 @@ int choose_decimals(double value) {
     return std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
 }
 
-/// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
-/// these characters. Numbers may begin with them.
+/// Spreadsheet programs execute a cell that begins with one of these characters. Numbers may begin
+/// with them.
 bool is_spreadsheet_formula(const std::string& text) {
     constexpr std::string_view kCsvNumberCharacters = "0123456789.eE+- ";
     return text.find_first_of("=+-@") == 0 &&

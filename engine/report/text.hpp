@@ -39,7 +39,7 @@ std::string format_fps(double ms);
 std::string format_mebibytes(std::uint64_t bytes);
 /// Returns the path of a picture of the comparison, relative to the report's folder.
 std::string image_path(const Comparison& comparison, const std::string& file);
-/// Returns the settings as text: "bounces=3, face=256".
+/// Returns text such as "bounces=3, face=256".
 std::string format_settings(const Row& row);
 /// Returns how many of the requested rows a run has, and why it has no more: "4 of 8 rows: ...".
 std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
@@ -50,7 +50,7 @@ std::string describe_unfinished_phase(const Comparison& comparison);
 /// Returns how much of a comparison, including its lag, is finished, and why it ended early. Empty
 /// if the comparison is complete.
 std::string describe_incomplete_run(const Comparison& comparison);
-/// Returns text escaped for Markdown, on one line.
+/// The result is one line.
 std::string escape_markdown(const std::string& text);
 std::string join_texts(const std::vector<std::string>& parts, std::string_view between);
 std::string join_labels(const std::vector<const Row*>& rows, std::string_view between = ", ");

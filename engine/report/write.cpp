@@ -46,7 +46,6 @@ fs::path make_folder(const fs::path& folder, const Comparison& comparison) {
     return images;
 }
 
-/// Returns the bytes of a comparison's pictures in its page.
 std::size_t count_picture_bytes(const EncodedPictures& pictures) {
     std::size_t bytes = pictures.reference.size();
     for (const EncodedPictures::RowPictures& row : pictures.rows)

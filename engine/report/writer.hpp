@@ -56,7 +56,6 @@ std::string picture_file(const Comparison& comparison, const EncodedPictures& pi
 void encode_pictures(EncodedPictures& pictures, const Comparison& comparison,
                      const std::filesystem::path& images = {});
 
-/// Returns rows.csv with these columns.
 std::string to_csv(const Comparison& comparison, CsvColumns which);
 /// Returns rows.csv of several comparisons under one header.
 std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which);
@@ -64,12 +63,10 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
 /// Files: report.json, report.md, report.html, rows.csv, images/<row>.png and .exr,
 /// images/<row>-error.png and images/reference.png. The linear values for the page lie in
 /// images/<row>.js, images/reference.js and images/mirrors.js, and its heat maps in
-/// images/<row>-error.js. Rows with causes add
-/// images/causes-<row>.png, and drawn views add images/worst-<row>.png. Rows with lag add
-/// images/lag-<row>-moving.exr and .js, the same of -still and -reference, and
-/// images/lag-<row>-mirrors.js. `write` is called
-/// again as rows are added. It replaces only pictures that changed and all other files, each as a
-/// whole.
+/// images/<row>-error.js. Rows with causes add images/causes-<row>.png, and drawn views add
+/// images/worst-<row>.png. Rows with lag add images/lag-<row>-moving.exr and .js, the same of
+/// -still and -reference, and images/lag-<row>-mirrors.js. `write` is called again as rows are
+/// added. It replaces only pictures that changed and all other files, each as a whole.
 class ReportWriter {
 public:
     explicit ReportWriter(std::filesystem::path folder, CsvColumns csv = CsvColumns::table,
@@ -86,7 +83,6 @@ private:
     EncodedPictures pictures_;
 };
 
-/// Data of one report on several scenes.
 struct ScenesReport {
     std::vector<std::string> asked; ///< scenes as the user named them
     std::vector<Comparison> list;   ///< finished comparisons, each with its own `images`

@@ -6,13 +6,12 @@
 
 #include <vector>
 
-/// Content hashes of captures and shadow maps.
 namespace catoptric::require {
 
 /// Objects up to this size may be stored in object space on the device. The size is a part of the
-/// object's largest possible distance from the scene's origin
-/// (render::kSmallObjectRatio). Shaders contain the code for object space only if
-/// some object needs it. The first such object therefore changes the shaders of all objects.
+/// object's largest possible distance from the scene's origin (render::kSmallObjectRatio). Shaders
+/// contain the code for object space only if some object needs it. The first such object therefore
+/// changes the shaders of all objects.
 inline constexpr double kSmallObjectRatio = 0x1p-12;
 /// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
 /// falls.
@@ -43,10 +42,8 @@ public:
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
         std::shared_ptr<const MovingParts> pieces;
     };
-    /// Returns the content hashes of the six faces of a mirror's capture (MirrorRequirements).
     /// Takes O(movers + receivers of shadows), or O(1) if nothing has changed since the last call.
     const FaceHashes& face_hashes(const VisibilityScene& world, std::size_t mirror);
-    /// Returns the movers that cast shadows.
     std::vector<ShadowCaster> shadow_casters(const VisibilityScene& world) const;
 
 private:

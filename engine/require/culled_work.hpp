@@ -30,7 +30,7 @@ std::vector<CulledWork> find_culled_work(const WorkModel& model, const Visibilit
 /// Returns a light's name in quotes. Empty if a lamp's mesh makes several lights, because then no
 /// light has a name.
 std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::size_t count);
-/// Returns the names of the faces, such as "+X -Y".
+/// Returns "+X -Y", for example.
 std::string face_names(FaceBits faces);
 
 } // namespace catoptric::require

@@ -7,7 +7,6 @@ namespace catoptric::require {
 
 namespace {
 
-/// Returns the corner of the box that lies furthest along the normal.
 dvec3 farthest_corner(const Bounds<double>& box, const dvec3& normal) {
     return {normal.x > 0 ? box.hi.x : box.lo.x, normal.y > 0 ? box.hi.y : box.lo.y,
             normal.z > 0 ? box.hi.z : box.lo.z};

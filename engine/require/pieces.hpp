@@ -20,7 +20,6 @@ struct FacePart {
 };
 inline constexpr FacePart kEmptyFacePart{dvec2(1), dvec2(-1)};
 
-/// Returns the intersection.
 FacePart intersect(const FacePart& a, const FacePart& b);
 /// Returns the smallest rectangle that contains both rectangles.
 FacePart unite(const FacePart& a, const FacePart& b);

@@ -38,7 +38,6 @@ public:
     /// Adds the capture of a mirror, with six faces of `edge` texels. With `bounds`, `hybrid` finds
     /// the bounds of its distances. With `is_filtered`, its levels are filtered for rough mirrors.
     void add_capture(double edge, bool bounds, bool is_filtered);
-    /// Adds a mirrored view of this many pixels.
     void add_mirrored_view(double pixels);
     /// Adds the search of a capture for pixels.
     void add_search(double pixels);
@@ -48,7 +47,6 @@ public:
     void add_list();
     /// Adds rays, and what lights the surfaces that they meet.
     void add_rays(const RayWork& rays);
-    /// Adds the passes of a traced picture.
     void add_traced_picture();
 
     const WorkValues& work() const { return work_; }

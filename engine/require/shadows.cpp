@@ -33,7 +33,6 @@ double max_shadow_distance(const dvec3& axis, const Bounds<double>& box,
     return std::max(times, 0.);
 }
 
-/// Returns the largest distance from a point to the points of a box.
 double max_distance(const dvec3& place, const Bounds<double>& box) {
     return glm::length(glm::max(abs(box.lo - place), abs(box.hi - place)));
 }

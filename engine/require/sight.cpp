@@ -9,8 +9,8 @@ namespace catoptric::require {
 
 namespace {
 
-/// Returns the margin to the edges and planes of walls: four times
-/// VisibilityScene::rounding_error, in world units.
+/// Returns the margin to the edges and planes of walls: four times VisibilityScene::rounding_error,
+/// in world units.
 double wall_margin(const VisibilityScene& world) { return 4 * world.rounding_error(); }
 
 } // namespace

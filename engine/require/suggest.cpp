@@ -73,7 +73,6 @@ std::string write_rules(const std::map<std::string, std::vector<std::size_t>>& m
     return plan;
 }
 
-/// Returns the text of the plan that gives each mirror its technique.
 std::string write_plan(const PlanCandidate& candidate) {
     std::map<std::string, std::vector<std::size_t>> of_technique;
     for (std::size_t i = 0; i < candidate.techniques.size(); ++i)

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-/// Suggests a technique for each mirror of a picture.
 namespace catoptric::require {
 
 /// A mirror is hardly seen if at most this share of all mirror pixels show it, directly or in other

@@ -41,7 +41,6 @@ struct DeviceUnitCosts {
 /// for the newest card. `name` and `driver` are those of session::DeviceInfo.
 DeviceUnitCosts find_unit_costs(std::string_view name, std::string_view driver, bool is_processor);
 
-/// Returns the time that the costs predict for counts, milliseconds.
 double predict_ms(const WorkValues& counts, const UnitCosts& costs);
 
 } // namespace catoptric::require

@@ -12,7 +12,6 @@ namespace catoptric::require {
 /// Four corners in a plane, in order around. From the front, the order is counterclockwise.
 using QuadCorners = std::array<dvec3, 4>;
 
-/// Returns the eight corners of a box.
 std::array<dvec3, 8> box_corners(const Bounds<double>& box);
 
 /// Returns the least and the largest product of the axis with points of the box.
@@ -42,7 +41,7 @@ struct Wall {
         return dot(inward[edge], place - corners[edge]);
     }
 };
-/// Returns the wall of a quadrilateral of an object. A wall of zero area hides nothing.
+/// A wall of zero area hides nothing.
 Wall make_wall(const QuadCorners& corners, std::size_t object);
 
 /// Returns whether each segment from a point of `viewer` to a point of `target` crosses the wall.

@@ -29,7 +29,6 @@ MeshShape make_mesh_shape(const scene::Mesh& mesh) {
     return facts;
 }
 
-/// Returns the bounds of the transformed box.
 Bounds<double> transform_bounds(const Bounds<double>& box, const dmat4& place) {
     Bounds<double> result;
     if (!box.empty())
@@ -128,7 +127,6 @@ bool VisibilityScene::has_same_layout(const scene::Scene& now) const {
     return true;
 }
 
-/// Moves an object to its current place.
 void VisibilityScene::move_object(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
     VisibilityObject& thing = things_[index];

@@ -25,7 +25,7 @@ inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
 struct MeshShape {
-    Bounds<double> box; ///< box in the mesh's own space
+    Bounds<double> box; ///< in the mesh's own space
     double radius = 0;  ///< radius of all triangles of the mesh, around the middle of `box`
     std::uint64_t content_hash = 0;
     std::vector<QuadCorners> quads;
@@ -50,8 +50,8 @@ struct VisibilityObject {
 };
 
 /// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
-/// from movers. Objects that never moved cannot change a capture, so one hash
-/// (`static_hash`) covers all of them in content hashes.
+/// from movers. Objects that never moved cannot change a capture, so one hash (`static_hash`)
+/// covers all of them in content hashes.
 class VisibilityScene {
 public:
     /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
@@ -60,8 +60,8 @@ public:
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
     /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
-    /// edit changes `static_hash`, and so does another number of objects, material, light
-    /// or environment.
+    /// edit changes `static_hash`, and so does another number of objects, material, light or
+    /// environment.
     void update(const scene::Scene& now);
 
     const std::vector<VisibilityObject>& objects() const { return things_; }
@@ -71,7 +71,7 @@ public:
     const std::vector<std::size_t>& movers() const {
         return movers_;
     }                                                         ///< indices of the moving objects
-    const std::vector<Wall>& walls() const { return walls_; } ///< walls, the largest first
+    const std::vector<Wall>& walls() const { return walls_; } ///< the largest first
     const std::vector<scene::PointLight>& lights() const { return lights_; }
     const std::vector<MeshShape>& mesh_shapes() const { return meshes_; }
     const Bounds<double>& static_bounds() const {

@@ -16,7 +16,7 @@ void hash_values(ContentHash& content_hash, const std::vector<Value>& values) {
     content_hash.add_values(std::span<const Value>(values));
 }
 
-/// Content hashes of images. Each image is hashed once, even if several materials use it.
+/// Each image is hashed once, even if several materials use it.
 class ImageHashes {
 public:
     std::uint64_t operator[](const std::shared_ptr<const scene::Image>& image) {

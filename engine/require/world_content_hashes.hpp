@@ -10,7 +10,7 @@ namespace catoptric::require {
 std::uint64_t hash_mesh(const scene::Mesh& mesh);
 /// Returns the content hash of all materials, including the texels of their images. O(texels).
 std::uint64_t hash_materials(const std::vector<scene::Material>& materials);
-/// Returns the content hash of the environment. Null is a black environment.
+/// Null is a black environment.
 std::uint64_t hash_environment(const scene::Environment* environment);
 std::uint64_t hash_point_light(const scene::PointLight& light);
 

@@ -8,7 +8,7 @@
 /// Scene::objects and Scene::materials.
 namespace catoptric::scene {
 
-/// Appends a material to Scene::materials. Returns its index.
+/// Returns the index in Scene::materials.
 CATOPTRIC_API std::size_t add_material(Scene& scene, Material material);
 /// Appends the mesh and an object that shows it, named after the mesh.
 CATOPTRIC_API void add_mesh(Scene& scene, Mesh mesh, std::size_t material);
@@ -57,7 +57,7 @@ struct MaterialEdit {
     Material value;
 };
 
-/// Edit that removes an object. Later objects and mirrors move up by one. History is discarded.
+/// Later objects and mirrors move up by one. History is discarded.
 struct RemovalEdit {
     std::size_t object = 0;
 };
@@ -75,8 +75,8 @@ inline Edit set_material(std::size_t material, Material value) {
 }
 inline Edit remove(std::size_t object) { return RemovalEdit{object}; }
 
-/// Applies an edit. Throws `Failure::usage` for an index out of range or a transform that is not
-/// finite, affine and invertible, and as check_scene for a material; the scene is then unchanged.
+/// Throws `Failure::usage` for an index out of range or a transform that is not finite, affine and
+/// invertible, and as check_scene for a material; the scene is then unchanged.
 CATOPTRIC_API void apply_edit(Scene& scene, const Edit& edit);
 
 } // namespace catoptric::scene

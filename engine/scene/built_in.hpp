@@ -14,15 +14,14 @@ namespace catoptric::scene {
 struct BuiltInScene {
     std::string name;
     std::string summary; ///< one line for `list`
-    Scene (*make)();     ///< builds the scene; Scene::name equals `name`
+    Scene (*make)();     ///< Scene::name equals `name`
     int order = 1000;    ///< place in lists; equal orders are sorted by name
 };
-/// Registration of a built-in scene. A variable of this type at namespace scope adds the scene to
-/// the table while the program starts.
+/// A variable of this type at namespace scope adds the scene to the table while the program starts.
 struct RegisteredBuiltInScene {
     explicit RegisteredBuiltInScene(BuiltInScene scene);
 };
-/// Returns every built-in scene, sorted by `order`, then by name.
+/// Sorted by `order`, then by name.
 const std::vector<BuiltInScene>& built_in_scenes();
 
 /// Builds the Cornell box with four mirror balls (contract: "The built-in scene").

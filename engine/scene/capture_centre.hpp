@@ -20,8 +20,7 @@ std::vector<std::size_t> objects_within(std::span<const Bounds<double>> bounds, 
 /// is the centre. Costs O(n) in the triangles of objects whose bounds contain a tried place.
 dvec3 capture_centre(const Scene& scene, std::size_t mirror, std::span<const std::size_t> within);
 
-/// Returns capture_centre of each mirror, in the order of scene::mirrors. Costs O(n) in
-/// vertices.
+/// Returns capture_centre of each mirror, in the order of scene::mirrors. Costs O(n) in vertices.
 std::vector<dvec3> capture_centres(const Scene& scene);
 
 } // namespace catoptric::scene

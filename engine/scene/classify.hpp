@@ -16,7 +16,6 @@ inline constexpr std::size_t kMaxGlassMirrors = 64;
 /// Returns F0 (the reflectance seen head-on) of a material with this base colour and metallic
 /// value, by channel.
 vec3 compute_f0(const Material& material, const vec3& colour, float metallic);
-/// Returns the largest channel of a colour, for comparisons that need one number.
 float largest_channel(const vec3& colour);
 
 /// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000

@@ -18,8 +18,7 @@ dvec3 round_short(const dvec3& point, double distance) {
 } // namespace
 
 Camera default_camera(const Scene& scene, double aspect) {
-    constexpr double kSceneShareOfPicture = .9, kAzimuthDegrees = 30,
-                     kElevationDegrees = 20; // degrees
+    constexpr double kSceneShareOfPicture = .9, kAzimuthDegrees = 30, kElevationDegrees = 20;
     Bounds<double> box = bounds(scene);
     if (box.empty()) box.lo = dvec3(-1), box.hi = dvec3(1);
     const double across = glm::radians(kAzimuthDegrees), above = glm::radians(kElevationDegrees);

@@ -65,7 +65,7 @@ constexpr double kCoplanarTolerance =
 /// Triangles of a mesh in the world.
 struct MeshTriangles {
     const Mesh& mesh;
-    std::vector<dvec3> places, normals; ///< places and normals of the mesh's vertices
+    std::vector<dvec3> places, normals; ///< of the mesh's vertices
 
     MeshTriangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
         const dmat3 turns = normal_matrix(world_from_object);

@@ -27,10 +27,9 @@ struct FlatFace {
     double share = 1; ///< share of the surface's area, 0 to 1
     /// True for a face of a closed body, which can be seen only from the side of the normal.
     bool is_one_sided = false;
-    std::vector<TriangleRun> triangles; ///< triangles of this face, ascending
+    std::vector<TriangleRun> triangles; ///< ascending
 };
 
-/// Flat faces of a surface.
 struct FlatFaces {
     std::vector<FlatFace> faces;   ///< largest first, at most kMaxFlatFaces
     std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
@@ -40,7 +39,6 @@ struct FlatFaces {
     bool is_rough = false; ///< the surface reflects by a lobe (may_reflect_by_lobe)
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
     double flat_share(double tolerance) const;
-    /// Returns whether the whole surface lies in one plane.
     bool is_plane() const { return faces.size() == 1 && bent.empty(); }
 };
 

@@ -23,8 +23,8 @@ double closed_volume(const Mesh& mesh);
 /// Returns the simple body that is closest to a glass object, or nothing if the object is no glass.
 /// The choice depends on the share of the object's bounds that the object fills, and on the sides
 /// of the bounds. For example, a ball fills .52 of a cube, an upright pane all of its bounds, and a
-/// bottle or an oblique pane little. Sheets and open meshes are thin. `volume`:
-/// closed_volume of the object's mesh. Takes O(vertices), for the bounds.
+/// bottle or an oblique pane little. Sheets and open meshes are thin. `volume`: closed_volume of
+/// the object's mesh. Takes O(vertices), for the bounds.
 std::optional<GlassBody> choose_glass_body(const Scene& scene, const Object& object, double volume);
 
 } // namespace catoptric::scene

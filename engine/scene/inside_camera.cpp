@@ -28,7 +28,6 @@ public:
 
     /// Returns the first surface that a ray from a camera meets.
     std::optional<SurfaceHit> first_hit(const dvec3& origin, const dvec3& direction) const;
-    /// Returns whether a surface lies between the two places.
     bool is_blocked(const dvec3& from, const dvec3& to) const {
         constexpr double kShortenedRayFactor = 1 - 1e-6; // excludes the surface at `to`
         const auto met = first_hit(from, to - from);

@@ -263,7 +263,6 @@ void sort_facets(std::vector<LampFacet>& facets) {
     facets = std::move(sorted);
 }
 
-/// Returns the triangles of the mesh by component.
 std::vector<std::vector<LampFacet>> lamp_facets(const Mesh& mesh, const dmat4& world_from_object,
                                                 const MeshComponents& components) {
     std::vector<dvec3> world;

@@ -11,10 +11,10 @@ namespace catoptric::scene {
 /// Light as the shading formula sees it: a point or a direction. A one-sided lamp also has a cosine
 /// to its normal.
 struct PointLight {
-    dvec3 position{0};    ///< position of the light; for a lamp, the mean of its vertices
+    dvec3 position{0};    ///< for a lamp, the mean of its vertices
     dvec3 normal{0};      ///< of an open one-sided lamp: mean vertex normal, unit length or zero
     double area = 0;      ///< world units squared; 1 for a light without a surface
-    bool is_lamp = false; ///< whether the light is a lamp, which has a mesh
+    bool is_lamp = false; ///< has a mesh
     bool closed = false;  ///< true for a lamp whose every edge has two triangles
     /// For an open two-sided lamp: orthogonal unit axes, right-handed. `cosines` holds the mean
     /// |cosine| of the lamp's facets to each axis, over its area. Both are zero for any other
@@ -30,7 +30,7 @@ struct PointLight {
     double range = std::numeric_limits<double>::infinity();
     double cos_inner = 1, cos_outer = -1; ///< cosines of a spot's half angles
     bool directional = false;             ///< infinitely far away; shines along `axis`
-    PunctualLight::Kind kind = PunctualLight::Kind::point; ///< kind of a light without a surface
+    PunctualLight::Kind kind = PunctualLight::Kind::point; ///< of a light without a surface
 };
 
 /// Returns the scene's lights: Scene::light_samples lights for each connected component of each

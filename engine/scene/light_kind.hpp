@@ -47,15 +47,14 @@ struct LightKind {
     void (*read)(const gltf::JsonObject& light, PunctualLight& to) = nullptr;
 };
 
-/// Registers a kind of light. Define it at namespace scope: the kind enters the table while the
-/// program starts.
+/// Define it at namespace scope: the kind enters the table while the program starts.
 struct RegisteredLightKind {
     explicit RegisteredLightKind(const LightKind& kind);
 };
 
 /// Returns all kinds by `id`.
 const std::vector<LightKind>& light_kinds();
-/// Returns the row of a kind. Throws `internal` for a kind that is not in the table.
+/// Throws `internal` for a kind that is not in the table.
 const LightKind& find_light_kind(PunctualLight::Kind id);
 /// Returns the type of a kind in KHR_lights_punctual.
 std::string_view gltf_type_of(const LightKind& kind);

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-/// Materials of surfaces, with their textures.
 namespace catoptric::scene {
 
 /// Decoded picture, 8 bits a channel as in the file, red in the low byte. Row-major from the top.

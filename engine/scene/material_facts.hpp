@@ -64,8 +64,7 @@ bool has_specular(const Material& material);
 /// Returns whether rays pass through the surface: it transmits at least half of the light and has
 /// no metal. Glass casts no shadow unless Scene::tints_glass_shadows is set.
 bool is_glass(const Material& material);
-/// Returns whether a clear coat covers the surface. Glass, unlit surfaces and materials with
-/// `mirror` have no clear coat.
+/// Glass, unlit surfaces and materials with `mirror` have no clear coat.
 bool has_clear_coat(const Material& material);
 /// Returns F0 of a dielectric with this finite index of refraction in air (Fresnel's equations).
 inline double f0_from_ior(double ior) {
@@ -76,7 +75,6 @@ inline double f0_from_ior(double ior) {
 bool is_visibly_emissive(const Material& material);
 /// Returns the radiance with which the surface lights others; 0 if it lights nothing.
 vec3 emitted_radiance(const Material& material);
-/// Returns whether an alpha mask may cut out parts of the surface.
 bool has_alpha_mask(const Material& material);
 
 } // namespace catoptric::scene

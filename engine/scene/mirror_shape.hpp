@@ -24,10 +24,10 @@ struct MirrorShape {
 ///     length) goes that way, seen from the front.
 MirrorShape classify_shape(const Scene& scene, const Object& object);
 
-/// Sets Object::sphere of each mirror that classify_shape calls a sphere. Rays then
-/// intersect the exact sphere. Mirrors that have a sphere keep it. A mirror that a rig stretches
-/// into an ellipsoid at some time gets none, nor does glass, in which rays run inside. A mirror
-/// that is no ball is rejected in O(vertices) at most.
+/// Sets Object::sphere of each mirror that classify_shape calls a sphere. Rays then intersect the
+/// exact sphere. Mirrors that have a sphere keep it. A mirror that a rig stretches into an
+/// ellipsoid at some time gets none, nor does glass, in which rays run inside. A mirror that is no
+/// ball is rejected in O(vertices) at most.
 void find_exact_spheres(Scene& scene);
 
 /// Returns "flat", "sphere", "convex", "concave" or "other".

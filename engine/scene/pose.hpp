@@ -6,7 +6,6 @@
 
 namespace catoptric::scene {
 
-/// Returns one camera `seconds` after the start.
 Camera camera_at(const Camera& camera, double seconds);
 
 /// Returns whether some object, light or camera moves.
@@ -15,8 +14,8 @@ bool is_animated(const Scene& scene);
 double scene_period(const Scene& scene);
 
 /// Sets `still` to the scene at this time, without copying a mesh or a material. `still` is a copy
-/// of the scene or an earlier result of this function. Throws `Failure::usage` for a time
-/// that is not finite.
+/// of the scene or an earlier result of this function. Throws `Failure::usage` for a time that is
+/// not finite.
 void move_to_time(Scene& still, const Scene& scene, double seconds);
 
 /// Scene at an instant, valid as long as `scene` lives. Only an animated scene is copied, with each

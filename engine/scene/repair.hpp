@@ -19,7 +19,7 @@ std::size_t repair_mesh(Mesh& mesh);
 /// direction. The mesh has one normal for each position.
 std::size_t count_missing_normals(const Mesh& mesh);
 
-/// Returns whether an emission is valid: each component finite and at least 0.
+/// Returns whether each component is finite and at least 0.
 bool is_valid_radiance(const vec3& emission);
 
 /// Drops objects that have no triangle with an area, or that lie too far out

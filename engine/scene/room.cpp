@@ -42,7 +42,6 @@ void add_copies(Scene& scene, Mesh mesh, std::size_t material, const std::vector
     scene.meshes.push_back(std::move(mesh));
 }
 
-/// Returns several boxes as one mesh.
 Mesh make_boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
     Mesh all{.name = name};
     for (const auto& [lo, hi] : of) {

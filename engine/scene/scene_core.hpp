@@ -14,8 +14,8 @@ namespace catoptric::scene {
 /// a scene without triangles.
 Bounds<double> core_bounds(const Scene& scene);
 
-/// Largest distance from the core of the scene (core_bounds) at which objects can be
-/// rendered, in sizes of the core. The square of a distance must stay a finite float.
+/// Largest distance from the core of the scene (core_bounds) at which objects can be rendered, in
+/// sizes of the core. The square of a distance must stay a finite float.
 inline constexpr double kMaxSceneRadius = 1e18;
 
 /// Removes the objects that reach farther from the core than kMaxSceneRadius. Returns their names.

@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::string_view kRoughnessPrefix = ",roughness=";
 
-/// Replaces `value` if `stronger` is set.
 template <typename Value>
 void replace_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
     if (stronger) value = stronger;
@@ -191,7 +190,7 @@ MirrorOverride parse_mirror_override(const std::string& option, const std::strin
 }
 
 std::string mirror_pattern(const std::string& name) {
-    constexpr std::size_t kMaxNameBytes = 60; // bytes; a longer name is reduced to its beginning
+    constexpr std::size_t kMaxNameBytes = 60; // a longer name is reduced to its beginning
     std::size_t size = std::min(name.size(), kMaxNameBytes);
     while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
         --size; // keeps UTF-8 characters whole

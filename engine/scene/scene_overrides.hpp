@@ -25,7 +25,7 @@ struct MirrorOverride {
 Material make_mirror_material(std::string name, const MirrorOverride& wish);
 
 struct ExposureOverride {
-    std::optional<double> stops; ///< exposure in stops; none: "auto"
+    std::optional<double> stops; ///< none: "auto"
     bool operator==(const ExposureOverride&) const = default;
 };
 

@@ -22,7 +22,6 @@ inline bool has_distinct_corners(const TriangleCorners& t) {
 /// tolerance is needed because files compute the two ends of a seam apart. O(n).
 std::vector<std::size_t> weld_vertices(std::span<const dvec3> positions);
 
-/// Edge of one triangle.
 struct TriangleEdge {
     std::size_t low, high; ///< ends of the edge
     std::size_t triangle;

@@ -21,7 +21,7 @@ void turn_transform(dmat4& world_from) {
         world_from[column] = dvec4(turn_vector(dvec3(world_from[column])), world_from[column].w);
 }
 
-/// Turns motions. Objects that share a rig share the turned rig.
+/// Objects that share a rig share the turned rig.
 class MotionTurner {
 public:
     void operator()(std::monostate&) {}

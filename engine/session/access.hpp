@@ -77,7 +77,6 @@ enum class PipelineCacheState { none, made, used };
 /// Output format of a frame's compiled plan.
 enum class PlanFormat { text, dot, json };
 
-/// Counters of a session's work so far.
 struct SessionCounters {
     std::uint64_t frames = 0;
     std::uint64_t updates = 0; ///< writes of scene data to the device

@@ -34,7 +34,7 @@ std::string quote_for_shell(const std::string& text) {
 }
 
 std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::size_t most) {
-    constexpr std::size_t kMaxExaminedObjects = 20'000; // objects that are examined
+    constexpr std::size_t kMaxExaminedObjects = 20'000;
     std::vector<MirrorCandidate> candidates;
     std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
     for (std::size_t i = 0; i < std::min(scene.objects.size(), kMaxExaminedObjects); ++i) {

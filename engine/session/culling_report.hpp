@@ -10,8 +10,8 @@
 /// device.
 namespace catoptric::session {
 
-/// Returns the report as text for the user. `costs`: of the device for which a plan is suggested.
-/// `capture_budget`: only if there is a budget.
+/// `costs`: of the device for which a plan is suggested. `capture_budget`: only if there is a
+/// budget.
 std::string culling_to_text(const Request& request, const require::DeviceUnitCosts& costs,
                             const std::optional<CaptureBudget>& capture_budget = {});
 /// Returns the report as JSON with a final newline: {"schema": "catoptric/why/1", "mirrors": [...],

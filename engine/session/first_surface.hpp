@@ -35,7 +35,6 @@ enum class ReflectionTier : std::uint8_t {
     mirrored     ///< a mirrored view of the scene, drawn for a flat mirror
 };
 
-/// Name and explanation of a tier.
 struct TierInfo {
     std::string_view name, help;
 };

@@ -63,7 +63,6 @@ std::vector<std::uint32_t> decode_hits(const std::vector<std::byte>& texels) {
     return hits;
 }
 
-/// Adds the counters of one ray-tracing pass.
 void add_ray_counters(const std::vector<std::byte>& bytes, TechniqueResult& part) {
     shared::Counters counters;
     std::memcpy(&counters, bytes.data(), sizeof counters);

@@ -30,7 +30,7 @@ public:
     FrameLoop(Session& session, const Request& request, const FrameHooks& hooks = {},
               StartHistory history = StartHistory::none);
 
-    /// Renders the next frame. Returns false after the last.
+    /// Returns false after the last frame.
     bool render_next() { return render_next(request_.camera); }
     /// As above, with this camera in place of the request's. A run that ends when the picture
     /// settles needs the same camera in each frame.

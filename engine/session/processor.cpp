@@ -47,7 +47,6 @@ std::vector<int> find_threads(const std::string& prefix) {
     return threads;
 }
 
-/// Returns the processors that this process's threads may use.
 cpu_set_t read_allowed_processors() {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);

@@ -18,12 +18,12 @@ namespace {
 constexpr const char* kProfileSchema = "catoptric/device-profile/1";
 constexpr std::uintmax_t kMaxProfileBytes = 1U << 20U;
 
-/// Returns the value as text for messages, without JSON's quotes.
+/// Leaves out JSON's quotes.
 std::string format_for_message(const Json& value) {
     return value.is_string() ? quote(value.get<std::string>()) : report::describe(value);
 }
 
-/// Returns the index of the variant, or throws `failure` with `place` in front.
+/// Throws `failure` with `place` in front.
 std::size_t find_variant_index(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
     for (std::size_t i = 0; i < gpu::kVariantCount; ++i) {

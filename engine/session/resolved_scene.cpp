@@ -95,7 +95,7 @@ void check_environment_exists(const scene::SceneOverrides& overrides,
         check(!is_said, by->failure, by->where, ": wanted an environment, found none; ", remedy);
 }
 
-/// Applies the overrides of the environment. `said`: those of the command line.
+/// `said`: overrides of the command line.
 void apply_environment(ResolvedScene& wanted, const scene::SceneOverrides& said) {
     scene::Scene& scene = wanted.scene;
     const scene::SceneOverrides& overrides = wanted.overrides;
@@ -153,7 +153,6 @@ void apply_light_samples(ResolvedScene& wanted) {
     scene.light_samples = samples;
 }
 
-/// Adds a message about the cost of many mirrors.
 void warn_of_many_mirrors(scene::Scene& scene) {
     // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
     // it come distance and, for one frame, the number of the surface seen.
@@ -200,7 +199,7 @@ void copy_file_settings(ResolvedScene& wanted, const scene::SceneFile& filed,
     for (const std::filesystem::path& file : filed.files) record_file(scene, file);
 }
 
-/// Applies all overrides to the scene. `said`: those of the command line.
+/// `said`: overrides of the command line.
 void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& said,
                            const std::optional<scene::SceneFile>& filed) {
     scene::Scene& scene = wanted.scene;

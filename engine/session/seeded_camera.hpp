@@ -21,7 +21,7 @@ namespace catoptric::session {
 /// without mirrors all objects count as mirrors. Throws `Failure::usage` if 1000 draws see no
 /// mirror.
 scene::Camera make_seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed);
-/// Draws a camera for each seed. Prepares the scene for rays only once.
+/// Prepares the scene for rays only once.
 std::vector<scene::Camera> make_seeded_cameras(const scene::Scene& scene, double seconds,
                                                std::span<const std::uint64_t> seeds);
 

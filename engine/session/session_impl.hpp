@@ -31,7 +31,7 @@ struct Session::Impl {
         mirrors = mirror_names(scene);
     }
 
-    /// Submits a frame. `finish` adds passes that belong to no technique; empty: none.
+    /// `finish` adds passes that belong to no technique; empty: none.
     std::shared_ptr<Access::FrameImpl>
     submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec, const FrameHooks& hooks,
            const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
@@ -46,7 +46,7 @@ struct Session::Impl {
     /// work.
     double update_scene(const render::ShownInstant& wanted);
     double write_scene(const render::ShownInstant& wanted);
-    /// Waits until no frame in flight reads copy `of` of the scene data.
+    /// Waits until no frame in flight reads this copy of the scene data.
     void wait_for_copy(std::size_t copy_index);
     /// Returns the plans of the frame's techniques: those of the last frame if the texts are equal.
     /// Otherwise reads the texts, and `auto` chooses.

@@ -14,7 +14,7 @@ struct ParsedTechnique {
     std::string technique, label, file_name;
     std::vector<Setting> settings;                 ///< values of all knobs
     const TechniqueTraits* of_technique = nullptr; ///< null: a plan
-    /// Returns the traits of the technique; the defaults for a plan.
+    /// Returns the defaults for a plan.
     const TechniqueTraits& traits() const;
 };
 ParsedTechnique parse_technique(const std::string& text);

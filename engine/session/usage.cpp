@@ -31,8 +31,7 @@ int open_perf_counter(std::uint64_t event, bool of_threads_to_come) {
         ::syscall(SYS_perf_event_open, &wanted, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
 }
 
-/// Returns the count. It is scaled up if the counter had to share the processor's hardware
-/// counters.
+/// The count is scaled up if the counter had to share the processor's hardware counters.
 std::optional<double> read_perf_counter(int counter) {
     struct {
         std::uint64_t value, enabled, running;

@@ -17,7 +17,6 @@ struct ProcessorUsage {
     ProcessorUsage operator-(const ProcessorUsage& before) const;
 };
 
-/// Meter of the processor time that threads have used.
 class UsageMeter {
 public:
     enum class Threads : std::uint8_t {

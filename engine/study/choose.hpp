@@ -56,8 +56,8 @@ enum class TimeVerdict : std::uint8_t { keeps, may_keep, breaks };
 struct PlanProof {
     JudgedPlan plan;
     std::size_t failures = 0; ///< views above the limit of error; 0 without a limit
-    /// measure::passing_share_bound of the failures. With noise, it is lowered for
-    /// the failures that the noise may hide (measure::kNoiseMissProbability).
+    /// measure::passing_share_bound of the failures. With noise, it is lowered for the failures
+    /// that the noise may hide (measure::kNoiseMissProbability).
     double share_bound = 0;
     /// Error that the share `share` of all views does not exceed, with confidence `confidence`
     /// (measure::upper_tolerance_limit).

@@ -16,8 +16,7 @@ using namespace session;
 report::Json choice_json(const ChooseRequest& request, const PlanChoice& choice,
                          const std::string& scene);
 /// Returns the file of a plan that was tested alone. Its `certificate` is named `not_proved` if the
-/// plan does not hold. `plan`: its text in Request::techniques; a
-/// file that it names must exist.
+/// plan does not hold. `plan`: its text in Request::techniques; a file that it names must exist.
 report::Json proved_plan_json(const ChooseRequest& request, const std::string& plan,
                               const PlanProof& proof, const std::string& scene);
 /// Returns one sentence with the result of testing a plan on the proof views.

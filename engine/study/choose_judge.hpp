@@ -32,12 +32,11 @@ struct ResolvedRequest : ChooseRequest {
 /// in the other training views.
 inline constexpr int kFirstTrainingViews = 12;
 
-/// Returns the number of training views. By default, a plan that breaks the limit of error in more
-/// than the allowed share of views shows it in one of them, with the requested confidence.
+/// By default, a plan that breaks the limit of error in more than the allowed share of views shows
+/// it in one of them, with the requested confidence.
 int count_training_views(const ChooseRequest& request);
 /// Returns the least number of proof views that can prove the share, and that `compare` accepts.
 int min_proof_views(const ChooseRequest& request);
-/// Returns the number of fresh views in which plans are proved.
 int count_proof_views(const ChooseRequest& request);
 /// Returns the seed of the training views after the first kFirstTrainingViews.
 std::uint64_t further_training_seed(const ChooseRequest& request);

@@ -58,7 +58,7 @@ bool have_equal_pixels(const measure::Picture& a, const measure::Picture& b) {
                               std::as_bytes(std::span(b.pixels)));
 }
 
-/// Returns the present time in UTC: "2026-11-24T03:05:10Z".
+/// Returns text such as "2026-11-24T03:05:10Z".
 std::string utc_now() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
@@ -234,9 +234,9 @@ private:
     }
 
     /// Measures the FLIP over the mirrors between the default reference, whose pixels are their
-    /// centres, and the mean of kAreaSamples samples over each pixel's area. Does
-    /// nothing for other references, which may refuse samples, and if the samples would take longer
-    /// than kMaxAreaSeconds.
+    /// centres, and the mean of kAreaSamples samples over each pixel's area. Does nothing for other
+    /// references, which may refuse samples, and if the samples would take longer than
+    /// kMaxAreaSeconds.
     void measure_centre_error() {
         if (truths_.has_noise() ||
             !is_same_choice(parse_technique(request_.reference), parse_technique(kReference)) ||
@@ -357,7 +357,6 @@ private:
         return text;
     }
 
-    /// Number of frames of the first round.
     int count_first_frames() const {
         return frames_of_round(request_.base.frames, comparison_.rounds, 0);
     }

@@ -1,4 +1,3 @@
-// Checks the request of a comparison.
 #include "study/compare_checks.hpp"
 #include "compare.hpp"
 #include "core/error.hpp"

@@ -20,7 +20,6 @@ report::Row describe_row(const std::string& text, const TechniqueResult& part);
 /// whose name begins with `prefix`. `on_processor`: the device is a processor.
 void fill_row_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
                     const std::string& prefix, bool on_processor);
-/// Picture that a row is compared with.
 struct ComparedReference {
     const measure::Picture& hdr; ///< linear; of a reference with noise, the mean of its halves
     /// Halves of a reference with noise, at the comparison's exposure; null: no noise.

@@ -152,7 +152,6 @@ private:
         frames_expected_ = frames;
     }
 
-    /// Renders a frame of the current row.
     Frame render_frame(const std::string& technique, double seconds) {
         FrameSpec spec = request_.base;
         spec.techniques = {technique};

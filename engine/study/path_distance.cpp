@@ -75,7 +75,6 @@ std::string frame_technique(const std::string& reference) {
     return text;
 }
 
-/// Returns a word of a command for the shell.
 std::string quote_for_shell(const std::string& word) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                         "0123456789._/+-=:,@";

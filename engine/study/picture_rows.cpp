@@ -30,7 +30,6 @@ measure::SampleSummary unknown_time() {
     return time;
 }
 
-/// Returns the picture with its rows in reverse order.
 measure::Picture flip_vertically(const measure::Picture& picture) {
     measure::Picture turned(picture.width, picture.height);
     for (int y = 0; y < picture.height; ++y)

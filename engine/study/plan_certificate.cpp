@@ -51,9 +51,7 @@ std::optional<std::string> describe_certificate(const Json& certificate) {
         !std::isfinite(share + confidence + views + failures + error + width + height))
         return std::nullopt;
     if (!std::isnan(limit) && !(proved >= share))
-        return std::nullopt; // the proved share is
-                             // smaller than the claimed
-                             // share
+        return std::nullopt; // the proved share is smaller than the claimed share
     return fmt::format("at least {:.4g} % of views have {} <= {:.4g}, with {:.4g} % confidence "
                        "({:.0f} views, {:.0f} failures), at {:.0f}x{:.0f}",
                        100 * share, quantity, error, 100 * confidence, views, failures, width,

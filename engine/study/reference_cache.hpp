@@ -71,7 +71,7 @@ struct ReferencePicture {
     ComparedReference compared() const { return {part.hdr, noisy ? &noisy->halves : nullptr}; }
 };
 
-/// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
+/// Returns "1" for rows without the knob `samples`.
 std::string sample_count(const ParsedTechnique& choice);
 /// Returns the text of the reference with `samples` set. Returns the text unchanged if it has no
 /// such knob, or if it states more than one sample, because it is then the reference of all rows.
@@ -113,7 +113,6 @@ public:
     const std::vector<std::uint32_t>& hits() { return hits(base_.total()); }
     const std::vector<std::uint32_t>& hits(int number);
 
-    /// Returns whether the reference has noise.
     bool has_noise() const;
     /// Adds frames to both halves of the reference of a row's last frame, until each half has the
     /// rays that the reference asks for, and the error between the halves over the mirrors is at

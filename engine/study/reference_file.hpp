@@ -20,7 +20,6 @@ using ReferenceKey = std::vector<std::pair<std::string, std::string>>;
 /// light, technique and seed.
 ReferenceKey make_reference_key(const Request& base, const std::string& technique);
 
-/// The content of a file.
 struct StoredReference {
     measure::PictureMean a, b;
     std::vector<int> seeds;     ///< values of the knob `seed` of all frames

@@ -12,7 +12,6 @@ namespace catoptric::study {
 
 using namespace session;
 
-/// Computes the errors of a comparison's rows.
 class RowErrorJudge {
 public:
     /// All objects passed by reference must outlive the judge. `base` shows the session's scene.

@@ -39,8 +39,8 @@ public:
     /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure_round(int frames);
     /// After all rounds, measures frames again whose times replace the times of the first round. In
-    /// a moving scene these frames show later instants. Afterwards, `results`
-    /// returns the picture of the last of these frames.
+    /// a moving scene these frames show later instants. Afterwards, `results` returns the picture
+    /// of the last of these frames.
     void repeat_first_round();
     void replace_first_round();
     /// Returns the results of the last frame. Call before `suspend_frames`.

@@ -27,7 +27,7 @@ namespace catoptric::study {
 
 namespace {
 
-constexpr int kPictureGapColumns = 4; // columns between two pictures
+constexpr int kPictureGapColumns = 4;
 
 /// Returns the instant at `share` of the period after `start`, rounded to about a thousandth of the
 /// period.

@@ -98,7 +98,7 @@ struct SceneDefaults {
 SceneDefaults choose_defaults(const scene::Scene& scene, const std::optional<scene::Camera>& camera,
                               std::optional<double> ambient, std::optional<double> exposure);
 
-/// Returns the model with this name: "everything" or "required".
+/// `name`: "everything" or "required".
 session::RenderedWork parse_model(const std::string& name);
 
 /// Returns the size of a picture from (width, height). Throws `usage` for a side below 1.

@@ -18,7 +18,6 @@ namespace catoptric::python {
 
 namespace {
 
-/// A rendered picture with its times.
 struct RenderedFrame {
     session::TechniqueResult result;
     session::FrameTimes times;

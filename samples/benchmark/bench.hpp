@@ -38,7 +38,7 @@ Subject make_subject(std::string name, std::function<void()> work, int warmup = 
 struct BenchOptions {
     /// Iterations of each subject over all rounds; frames_of_round distributes them.
     int iterations = 20;
-    int rounds = 6; ///< number of rounds, at most one per iteration
+    int rounds = 6; ///< at most one per iteration
     Watcher watcher;
 };
 

@@ -48,7 +48,6 @@ std::vector<float> to_floats(const std::vector<std::uint32_t>& numbers) {
     return values;
 }
 
-/// Returns the values of a layer's channel.
 std::vector<float> aov_values(PictureAov aov, int channel, const session::FirstSurfaces& surfaces,
                               const std::optional<session::ReflectionTiers>& tiers) {
     std::vector<float> values;

@@ -19,7 +19,7 @@ std::vector<PictureAov> parse_aovs(const std::string& text);
 /// Returns a line for the help about each layer, with its channels.
 std::string describe_aovs();
 
-/// Returns the channels of the layers. `tiers`: set if `aovs` has PictureAov::tier.
+/// `tiers`: set if `aovs` has PictureAov::tier.
 std::vector<measure::ExtraChannel>
 aov_channels(const std::vector<PictureAov>& aovs, const session::FirstSurfaces& surfaces,
              const std::optional<session::ReflectionTiers>& tiers);

@@ -104,7 +104,6 @@ void load_benchmark_scene(const CommonOptions& common) {
                                           .use_scene_file = common.use_scene_file});
 }
 
-/// Adds the subjects to measure for one scene.
 void add_subjects(session::Engine& engine, const SceneSelection& asked, session::Request request,
                   int iterations, std::vector<benchmark::Subject>& subjects) {
     const CommonOptions common = asked.common;

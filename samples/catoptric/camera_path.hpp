@@ -53,7 +53,6 @@ public:
     double frame_count() const;
     /// Returns whether the file has an instant of the scene's motion for each frame.
     bool has_instants() const { return !path_; }
-    /// Returns the camera of frame `number`.
     scene::Camera camera_of(int number) const;
     /// Returns the instant of frame `number`, in seconds; only with `has_instants`.
     double instant_of(int number) const { return view_of(number).seconds; }

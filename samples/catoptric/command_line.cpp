@@ -73,7 +73,6 @@ std::string wrap_paragraphs(const std::string& text) {
     return result;
 }
 
-/// Returns the help without repeated empty lines.
 std::string merge_empty_lines(std::string text) {
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;

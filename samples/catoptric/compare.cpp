@@ -404,7 +404,7 @@ void add_study_options(Verb& verb, CompareOptions& options, StudyOptionKind kind
     }
 }
 
-/// Adds the arguments and options of `compare`. `options` must outlive the parsing.
+/// `options` must outlive the parsing.
 void add_compare_options(Verb& verb, const std::shared_ptr<CompareOptions>& options) {
     verb.arguments(
         "SCENE",

@@ -18,7 +18,6 @@ struct CompareWords {
 /// Throws `usage` for several scenes, and for options such as --help that end the program.
 CompareWords parse_compare_words(std::vector<std::string> words);
 
-/// Returns the options of `compare`.
 std::vector<CompletionOption> compare_options();
 
 } // namespace catoptric::cli

@@ -17,7 +17,6 @@ namespace {
 
 constexpr const char* kNoConfigOption = "--no-config";
 
-/// Returns whether the words set the option.
 bool is_option_given(const std::vector<std::string>& words, const CompletionOption& option) {
     return std::ranges::any_of(words, [&](const std::string& word) {
         return word == option.name || word.starts_with(option.name + "=") ||

@@ -14,7 +14,7 @@ namespace catoptric::cli {
 struct FigureOptions {
     std::string folder;                         ///< empty: no figures
     std::optional<report::PixelRectangle> crop; ///< empty: where the rows differ most
-    /// Returns the folder of a scene's figures. `images`: see measure::Comparison::images.
+    /// `images`: see measure::Comparison::images.
     std::filesystem::path scene_folder(const std::string& images) const {
         return std::filesystem::path(folder) / images;
     }

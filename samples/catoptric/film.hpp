@@ -13,7 +13,7 @@
 // Films, which the program ffmpeg encodes.
 namespace catoptric::cli {
 
-/// Returns whether the name is that of a film: whether it ends in .mp4.
+/// Returns whether the name ends in .mp4.
 bool is_film_name(const std::string& name);
 
 /// Throws `missing_input`, with the package to install, if PATH holds no ffmpeg. Throws `usage` for

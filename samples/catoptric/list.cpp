@@ -57,7 +57,7 @@ std::string describe_technique(const session::TechniqueInfo& technique) {
     return text;
 }
 
-/// Returns only the technique of this name. Throws `usage` for an unknown name, with the nearest.
+/// Throws `usage` for an unknown name, with the nearest.
 std::vector<session::TechniqueInfo>
 keep_named_technique(std::vector<session::TechniqueInfo> techniques, const std::string& name) {
     if (name == "auto") return {{.name = "auto", .summary = kAutoSummary}};

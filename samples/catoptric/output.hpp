@@ -23,8 +23,7 @@ struct OutputOptions {
 void prepare_streams();
 
 /// Writes the result, text or JSON, to stdout and flushes it. Escapes characters that a terminal
-/// might obey (`escape`). Throws `Failure::io`, without a message if the reader
-/// has gone.
+/// might obey (`escape`). Throws `Failure::io`, without a message if the reader has gone.
 void print_result(std::string_view result);
 /// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `print_result`
 /// does.
@@ -34,8 +33,8 @@ void print_bytes(std::string_view result);
 /// escaped.
 void print_message(const std::string& text);
 
-/// Writes a line to stderr: `print_note` unless --quiet, `print_detail`
-/// only with -v, `print_warning` always.
+/// Writes a line to stderr: `print_note` unless --quiet, `print_detail` only with -v,
+/// `print_warning` always.
 void print_note(const OutputOptions& output_options, const std::string& text);
 void print_detail(const OutputOptions& output_options, const std::string& text);
 void print_warning(const std::string& text);

@@ -39,7 +39,7 @@ auto parse_option(const std::string& option, Work&& work) {
     }
 }
 
-/// Returns the parts separated by commas: "a, b, c".
+/// Returns text such as "a, b, c".
 std::string join_with_commas(const std::vector<std::string>& parts);
 
 } // namespace catoptric::cli

@@ -34,7 +34,7 @@ void print_failure(const std::string& name, const std::string& message) {
     if (!message.empty()) print_message(name + ": " + message);
 }
 
-/// Adds all verbs. `command` is the whole command line, which reports record.
+/// `command`: the whole command line, which reports record.
 void add_all_verbs(CommandLine& program, const std::vector<std::string>& command) {
     add_compare_verb(program, command);
     add_choose_verb(program, command);
@@ -69,7 +69,7 @@ int run_checked(int argc, char** argv) {
     return program->parse(std::move(words))();
 }
 
-/// Runs the work, and prints errors to stderr. Returns the exit code.
+/// Prints errors of the work to stderr.
 int exit_code_of(const std::string& name, const std::function<int()>& work) {
     try {
         return work();

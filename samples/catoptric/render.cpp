@@ -86,7 +86,7 @@ bool writes_aov(const RenderOptions& options, PictureAov aov) {
     return std::ranges::find(options.aovs, aov) != options.aovs.end();
 }
 
-constexpr int kMaxSequencePictures = 100'000; ///< limit of a sequence
+constexpr int kMaxSequencePictures = 100'000;
 
 /// Returns whether only a picture is wanted, without times or a certain number of frames.
 bool wants_only_picture(const RenderOptions& options) {

@@ -33,7 +33,7 @@ std::string format_info_line(const std::string& name, const std::string& value) 
     return fmt::format("{:<12} {}\n", name, value);
 }
 
-/// Returns a table under its title; empty if it has no rows.
+/// Empty if the table has no rows.
 std::string titled_table(const std::string& title, const SceneTableCells& cells) {
     return cells.size() < 2 ? "" : "\n" + title + "\n" + align_columns(cells, 0);
 }

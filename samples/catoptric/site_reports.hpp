@@ -8,7 +8,6 @@
 // Reports as a site of results shows them (results_site.hpp).
 namespace catoptric::cli {
 
-/// A row of a report.
 struct SiteRow {
     std::string label;
     double ms = NAN, ms_low = NAN, ms_high = NAN; ///< device time of a frame, and its 95 % interval

@@ -10,7 +10,6 @@
 
 namespace catoptric::cli {
 
-/// State of the pieces of a sweep.
 struct SweepState {
     std::size_t pieces = 0, finished = 0;
     std::vector<std::string> missing; ///< ids of pieces that have no result and that no process has

@@ -306,7 +306,6 @@ SweepPiece make_piece(SweepJson content) {
     return {std::move(id), std::move(content)};
 }
 
-/// Adds the pieces of one scene with one set of options to the plan.
 void add_pieces(const SweepRequest& sweep, const std::string& scene, const SweepJson& options,
                 const fs::path& folder, std::vector<SweepPiece>& pieces) {
     SweepJson content{{"kind", "picture"}, {"scene", scene}, {"options", options}};
@@ -388,7 +387,6 @@ void check_piece_members(const SweepJson& content, const SweepPlace& place) {
             "null, or a view with index, seed and time");
 }
 
-/// Returns the pieces of a plan's file.
 std::vector<SweepPiece> read_pieces(const SweepJson& list, const SweepPlace& place) {
     place.check(list.is_array() && !list.empty(), "wanted a list that is not empty, found ",
                 describe(list));

@@ -53,7 +53,6 @@ SweepJson device_options(const SweepJson& content);
 std::vector<std::string> compare_words(const SweepJson& content,
                                        const std::filesystem::path& folder);
 
-/// Returns the path of the file for the result of a piece.
 std::filesystem::path result_file(const std::filesystem::path& folder, const std::string& id);
 /// Returns the result of a piece, or none if its file does not exist. Throws `bad_data` if the file
 /// is not the result of this piece.

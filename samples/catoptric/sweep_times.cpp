@@ -198,7 +198,6 @@ std::string describe_sweep_setting(const SweepGroup& group, const std::vector<st
     return text;
 }
 
-/// Returns the values of the sweep's axes as text.
 std::string describe_axis_values(const SweepGroup& group, const std::vector<std::string>& axes) {
     std::string text;
     for (const std::string& axis : axes) {

@@ -19,7 +19,7 @@ std::string format_milliseconds(double ms) {
     return std::isfinite(ms) ? fmt::format("{:.3f}", ms) : "-";
 }
 
-/// Returns a number with five decimals, or a dash if it is not finite.
+/// Returns a dash if the number is not finite.
 std::string format_five_decimals(double value) {
     return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
 }

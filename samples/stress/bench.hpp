@@ -43,7 +43,6 @@ public:
     /// default: the defaults would take most of the time. Options in the text stay.
     std::string fit_captures(const std::string& technique) const;
 
-    /// Adds a measured value and its limit.
     void add_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, false});
     }

@@ -17,7 +17,7 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMaxBounces = 6;              // largest number of bounces
+constexpr int kMaxBounces = 6;
 constexpr double kMaxBounceStepRatio = 0.4; // a step is at most this share of the step before
 /// Least edge of pictures of late bounces, which cover few pixels.
 constexpr std::uint32_t kMinBouncePictureEdge = 256;

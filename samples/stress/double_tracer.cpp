@@ -7,7 +7,7 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr double kTracerRayOffset = 1e-9; // offset of rays, for scenes about 1 in size
+constexpr double kTracerRayOffset = 1e-9; // for scenes about 1 in size
 
 } // namespace
 

@@ -36,7 +36,7 @@ double relative_difference(double a, double b) {
     return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
 }
 
-constexpr int kDirectionPairs = 20'000; // number of pairs of directions
+constexpr int kDirectionPairs = 20'000;
 
 /// Returns the largest relative difference of `reflect` with viewer and light exchanged. Half of
 /// the pairs have a light less than a degree above the surface. `reflect(alpha, to_eye, to_light)`

@@ -11,7 +11,7 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr std::uint32_t kStripWidthPixels = 32; // width of a strip in the picture
+constexpr std::uint32_t kStripWidthPixels = 32;
 constexpr uvec2 kFloorPictureSize{kStripWidthPixels * kFloorStripRoughness.size(), 32};
 
 /// Returns an environment of radiance 1. All scenes share it, because the engine filters each

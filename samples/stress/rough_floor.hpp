@@ -16,8 +16,7 @@ constexpr std::array kFloorStripRoughness{.05, .1, .2, .3, .5, .7, .85, 1.};
 scene::Scene make_rough_floor(const scene::Material& material, double degrees, bool is_mirror);
 
 scene::Material make_white_metal();
-/// Returns the material of white plastic. It reflects .04 of the light head-on, and all at grazing
-/// angle.
+/// Reflects .04 of the light head-on, and all at grazing angle.
 scene::Material make_white_plastic();
 
 /// Returns the mean radiance of each strip in a picture of the floor that `technique` renders

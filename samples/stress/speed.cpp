@@ -9,8 +9,8 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMovingCameraFrames = 6, kRestingCameraFrames = 10; // numbers of frames
-constexpr double kBrightestRoomValue = 6;                         // brightest value of the room
+constexpr int kMovingCameraFrames = 6, kRestingCameraFrames = 10;
+constexpr double kBrightestRoomValue = 6;
 
 /// Returns the room with a motion of its last ball, which moves by `distance` and back, twice a
 /// second.

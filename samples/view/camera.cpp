@@ -11,7 +11,7 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr double kRadiansPerPixel = .005;  // radians per pixel
+constexpr double kRadiansPerPixel = .005;
 constexpr double kMaxCameraPitch = 1.5533; // 89 degrees, so that up stays up
 constexpr double kWheelNotchFactor = .9;   // factor on the distance per wheel notch
 

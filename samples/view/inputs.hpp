@@ -57,7 +57,7 @@ struct UserInput {
 class MouseDrag {
 public:
     /// Moves the divider or the camera of `state`. `size` is the picture's size; `reach` is that of
-    /// `moved`. Returns the pixel that was clicked without dragging, if any.
+    /// `move_camera`. Returns the pixel that was clicked without dragging, if any.
     std::optional<uvec2> apply_drag(const UserInput& inputs, ViewState& state, uvec2 size,
                                     double reach);
 

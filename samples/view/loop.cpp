@@ -93,7 +93,6 @@ void ViewLoop::open(SceneChangeOrigin scene) {
     good_ = state_;
 }
 
-/// Renders a frame of the state.
 void ViewLoop::render(const UserInput& inputs, session::WindowOverlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
     const uvec2 size = is_simulated() && is_first && state_.shows_panels == settings_.shows_panels

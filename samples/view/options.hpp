@@ -8,7 +8,6 @@
 
 namespace catoptric::view {
 
-/// The options of the command line.
 struct ViewOptions {
     cli::CommonOptions common;
     cli::TechniqueOption drawn;

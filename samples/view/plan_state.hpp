@@ -37,16 +37,15 @@ std::vector<std::string> plan_words(const EditedPlan& plan);
 EditedPlan parse_plan(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
 EditedPlan resolve_plan(const EditedPlan& plan, const std::vector<PlanEntry>& entries);
-/// Sets a knob. Removes its entry if the value is the default.
+/// Removes the knob's entry if the value is the default.
 void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::string& value);
-/// Returns the value of a knob.
 std::string knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
 EditedPlan set_knob(EditedPlan plan, const std::string& knob, const std::string& value);
 /// Returns the plan as JSON that --plan reads.
 std::string plan_to_json(const EditedPlan& plan);
 
-/// Returns all techniques. The list is built once.
+/// The list is built once.
 const std::vector<session::TechniqueInfo>& technique_infos();
 /// Returns the technique of this name, or null.
 const session::TechniqueInfo* technique_info(const std::string& technique);

@@ -20,7 +20,7 @@ void separate_materials(scene::Scene& scene);
 /// Returns the roughness of a mirror, from 0 (sharp), if the window can change it: its material
 /// must be one that `--mirror NAME=R,roughness=A` makes. A material with textures is not.
 std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uint32_t mirror);
-/// Returns the material of a mirror with another roughness. The mirror must be editable.
+/// The mirror must be editable.
 scene::Material change_roughness(const scene::Scene& scene, std::uint32_t mirror, float roughness);
 /// Returns the words of `--mirror` options that give the mirrors of another scene the same
 /// roughness as the mirrors of `scene`.

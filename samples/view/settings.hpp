@@ -9,7 +9,7 @@ namespace catoptric::view {
 
 /// Settings that are kept from run to run.
 struct ViewerSettings {
-    uvec2 window{0, 0}; ///< in desktop units, as Window takes it; 0: never set
+    uvec2 window{0, 0}; ///< in desktop units, as ViewWindow takes it; 0: never set
     bool shows_panels = true;
     bool flies = false;
     double speed = 1; ///< speed factor of motion
@@ -25,7 +25,7 @@ ViewerSettings parse_settings(const std::string& text);
 std::string serialise_settings(const ViewerSettings& settings);
 /// Returns the settings in the file, or defaults if the file cannot be read.
 ViewerSettings load_settings(const std::filesystem::path& file);
-/// Writes the settings and makes missing folders. Throws as write_file.
+/// Makes missing folders. Throws as write_file does.
 void save_settings(const ViewerSettings& settings, const std::filesystem::path& file);
 
 } // namespace catoptric::view

@@ -24,7 +24,6 @@ enum class ViewMode {
 inline constexpr int kViewModeCount = 6;
 const char* mode_name(ViewMode mode);
 
-/// The picture that the plan is compared with.
 enum class ComparisonPicture { other, reference };
 
 /// Scene time, in seconds.
@@ -67,7 +66,7 @@ struct ShownPictures {
 bool needs_host_picture(const ViewState& state);
 ShownPictures choose_shown_pictures(const ViewState& state);
 
-/// A cause of error with its name for the user. Bits are shared::kAblate...
+/// Bits are shared::kAblate...
 struct CauseLabel {
     std::uint32_t bit;
     const char* name;

@@ -70,7 +70,7 @@ void SceneViewer::discard_history() {
     ++cuts_;
 }
 
-/// Gives the session's mirrors their roughness. Returns whether any changed.
+/// Returns whether any roughness changed.
 bool SceneViewer::update_roughness(const MirrorRoughness& roughness) {
     if (roughness == roughness_) return false;
     const std::vector<std::size_t> mirrors = scene::mirrors(given_);

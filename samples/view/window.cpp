@@ -99,7 +99,7 @@ void ViewWindow::add_hooks(session::EngineHooks& hooks) const {
 }
 
 UserInput ViewWindow::poll_events(bool wait) {
-    constexpr double kMaxWaitSeconds = .1; // longest wait in seconds
+    constexpr double kMaxWaitSeconds = .1;
     if (wait)
         glfwWaitEventsTimeout(kMaxWaitSeconds);
     else

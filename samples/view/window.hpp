@@ -26,7 +26,7 @@ public:
     /// Returns the input since the last call. With `wait`, sleeps up to a tenth of a second until
     /// something happens.
     UserInput poll_events(bool wait);
-    void resize(uvec2 size); ///< sets the window's size in desktop units
+    void resize(uvec2 size); ///< desktop units
     void copy_to_clipboard(const std::string& text);
     GLFWwindow* glfw_window() const { return window_; }
 
