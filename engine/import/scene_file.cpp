@@ -274,6 +274,8 @@ SceneOverrides read_override(const std::string& text) {
     const auto key = std::ranges::find(kFileKeys, name, &FileKey::name);
     const ValueForm form = key == kFileKeys.end() ? ValueForm::text : key->form;
     Json parsed = Json::parse(value, nullptr, false);
+    const std::optional<double> number = parse_number(value); // such as .5, which JSON lacks
+    if (form == ValueForm::json && parsed.is_discarded() && number) parsed = *number;
     if (form == ValueForm::text || parsed.is_discarded()) parsed = value;
     if (form == ValueForm::list && !parsed.is_array()) parsed = Json::array({value});
     try {

@@ -79,7 +79,8 @@ std::string merge_empty_lines(std::string text) {
 }
 
 /// Formats the help of CLI11 in kHelpWidth columns. A help of more than kHelpLines lines
-/// describes the common options, and only names the others; --help-all describes all.
+/// describes the common options, names the others, and keeps the examples of the footer if all of
+/// it does not fit; --help-all describes all.
 class HelpFormatter : public CLI::Formatter {
 public:
     std::string make_help(const CLI::App* app, std::string name,
@@ -98,7 +99,10 @@ public:
                 names += (names.empty() ? "" : " ") + option->get_name();
             if (!names.empty()) text += format_entry(group, names);
         }
-        return text + make_footer(app);
+        const std::string footer = make_footer(app);
+        if (std::ranges::count(text + footer, '\n') <= kHelpLines) return text + footer;
+        return text + footer.substr(0, footer.find("\n\n", 1) + 1) +
+               "\n--help-all explains the options further.\n";
     }
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
         return format_entry(make_option_name(option, is_positional) + make_option_opts(option),

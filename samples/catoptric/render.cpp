@@ -384,13 +384,13 @@ void add_render_verb(CommandLine& program) {
         "for a PNG on stdout; required",
         options->output);
     verb.option("--camera-path", "FILE",
-                "file with a motion of the camera, in place of --camera; see the notes below",
+                "file with a motion of the camera, in place of --camera; see --help-all",
                 options->camera_path);
     verb.option("--aov", "LIST",
                 "layers to add to OUT.exr, separated by commas: distance, normal, object, mirror, "
-                "tier, roughness, or all; see the notes below",
+                "tier, roughness, or all; see --help-all",
                 [options](const std::string& text) { options->aovs = parse_aovs(text); });
-    verb.flag("--origin", "write into the header of OUT.exr how it was made, see the notes below",
+    verb.flag("--origin", "write into the header of OUT.exr how it was made, see --help-all",
               options->origin);
     verb.heading(kMeasuringOptions);
     verb.option("--trace", "T.json",

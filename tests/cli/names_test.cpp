@@ -3,6 +3,7 @@
 // or the word.
 #include "cli/program.hpp"
 #include "core/image_codec.hpp"
+#include "core/text.hpp"
 
 #include <map>
 #include <random>
@@ -93,7 +94,8 @@ TEST_F(NameTest, DrawnWordsOfEachOptionAreRefusedWithItsName) {
             if (ended.exit_code == 0) continue; // the word is a value, such as a name of a file
             EXPECT_TRUE(ended.err.find(option) != std::string::npos ||
                         (option == "--output" && ended.err.find("-o") != std::string::npos) ||
-                        ended.err.find(word) != std::string::npos)
+                        ended.err.find(word) != std::string::npos ||
+                        ended.err.find(catoptric::escape(word)) != std::string::npos)
                 << verb << " " << option << "='" << word << "': " << ended.err;
         }
 }
