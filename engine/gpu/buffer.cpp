@@ -65,8 +65,8 @@ ChosenMemoryType choose_memory_type(const Device& device, const VkMemoryRequirem
         const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHostMemoryFlags);
         const std::uint64_t window = seen < 0 ? 0
                                               : device.heap_bytes(static_cast<std::uint32_t>(seen));
-        if (!device.needs_staging() &&
-            (window == device.memory_budget() || needs.size <= window / kHostVisibleHeapDivisor))
+        if (!device.needs_staging() && (window == device.largest_heap_bytes() ||
+                                        needs.size <= window / kHostVisibleHeapDivisor))
             return {seen, true};
         return {find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), false};
     }

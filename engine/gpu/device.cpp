@@ -82,7 +82,7 @@ int Device::find_memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags prop
     return -1;
 }
 
-std::uint64_t Device::memory_budget() const {
+std::uint64_t Device::largest_heap_bytes() const {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < memory_.memoryHeapCount; ++i)
         if (memory_.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
@@ -100,7 +100,7 @@ UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type,
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory),
              "allocate " + std::to_string(bytes) + " bytes for " + what + " (the device has " +
-                 std::to_string(memory_budget()) + ")");
+                 std::to_string(largest_heap_bytes()) + ")");
     UniqueMemory owned(handle(), memory);
     set_debug_name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), what);
     return owned;

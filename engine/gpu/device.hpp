@@ -112,7 +112,7 @@ public:
     /// `properties`, or -1.
     int find_memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
     /// Returns the bytes of the largest device-local heap.
-    std::uint64_t memory_budget() const;
+    std::uint64_t largest_heap_bytes() const;
     /// Returns the most bytes of one allocation.
     std::uint64_t max_allocation() const { return max_allocation_; }
     std::uint64_t heap_bytes(std::uint32_t type) const {

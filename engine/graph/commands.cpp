@@ -14,7 +14,7 @@ constexpr const char* kCountWorkConstant = "count_work";
 constexpr std::string_view kWorkBufferName = "WorkBuffer";
 
 /// Returns the bytes of the part's first mip.
-std::uint64_t mip_bytes(const ImageDesc& desc, const ImageHandle& part) {
+std::uint64_t first_mip_bytes(const ImageDesc& desc, const ImageHandle& part) {
     return std::uint64_t{mip_size(desc.width, part.first_mip)} *
            mip_size(desc.height, part.first_mip) * part.layer_count * bytes_per_texel(desc.format);
 }
@@ -171,7 +171,7 @@ void PassCommands::copy_image(ImageHandle from, ImageHandle to) {
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
     region.extent = {mip_size(desc.width, from.first_mip), mip_size(desc.height, from.first_mip),
                      1};
-    add_work(WorkKind::bytes, mip_bytes(desc, from));
+    add_work(WorkKind::bytes, first_mip_bytes(desc, from));
     vkCmdCopyImage(commands_, recorder_.physical_image(from).image,
                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.physical_image(to).image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
@@ -181,7 +181,7 @@ void PassCommands::copy_image(ImageHandle from, BufferHandle to) {
     check_declared(from, "source of a copy");
     check_declared(to, "target of a copy");
     const VkBufferImageCopy region = copy_region(graph_.images()[from.id], from);
-    add_work(WorkKind::bytes, mip_bytes(graph_.images()[from.id], from));
+    add_work(WorkKind::bytes, first_mip_bytes(graph_.images()[from.id], from));
     vkCmdCopyImageToBuffer(commands_, recorder_.physical_image(from).image,
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.vulkan_buffer(to), 1,
                            &region);

@@ -89,7 +89,7 @@ void FramePieces::submit_and_wait() {
     device_.check_wait(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), doing);
     const double ms = ms_since(start);
     wait_ms_ += ms;
-    end_submission(ms);
+    note_submission_ms(ms);
     slot_->end_piece();
     traced_ += rays_, rays_ = 0;
     if (const WorkWatch* const watch = current_watch(); watch != nullptr && watch->on_piece)

@@ -37,7 +37,7 @@ public:
     /// Submits the ended command buffer of the slot and waits for it. Empties the slot's command
     /// buffer and descriptors. Throws `device_lost`, and as look_at_stop() does.
     void submit_and_wait();
-    void end_submission(double ms) { slowest_ms_ = std::max(slowest_ms_, ms); }
+    void note_submission_ms(double ms) { slowest_ms_ = std::max(slowest_ms_, ms); }
     /// Returns the semaphore that the frame's last submission waits for; null: none.
     VkSemaphore wait_semaphore() const { return submitted_ == 0 ? wait_ : VK_NULL_HANDLE; }
     /// Returns the number of pieces submitted in this frame, without the last.

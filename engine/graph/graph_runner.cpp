@@ -76,7 +76,7 @@ void GraphRunner::discard_contents() {
 GraphLimits GraphRunner::limits() const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
     return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
-            limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
+            limits.maxFramebufferLayers, device_.largest_heap_bytes(), device_.max_allocation()};
 }
 
 CompiledGraph& GraphRunner::compile(const Graph& graph) {
@@ -209,7 +209,7 @@ void GraphRunner::finish_frame(FrameSlot& slot) {
     const double waited = ms_since(begin);
     const double ran = ms_since(slot.submitted);
     slot.times.wall_ms += ran;
-    pieces_.end_submission(ran);
+    pieces_.note_submission_ms(ran);
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;

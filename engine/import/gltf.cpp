@@ -126,12 +126,12 @@ std::string GltfBuilder::object_name(std::size_t node, std::size_t mesh, std::si
 
 void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part) {
     const std::string place = node_place(node);
-    const gltf::NodeExtras& marks = context.document.marks[node];
+    const gltf::NodeExtras& extras = context.document.extras[node];
     const auto its_mesh = std::size_t(context.document.model.nodes[node].mesh);
     context.account.objects.add(1, place);
     Object object{.name = object_name(node, its_mesh, part),
                   .material = parts[its_mesh][part].material,
-                  .seen_by_camera = marks.seen_by_camera};
+                  .seen_by_camera = extras.seen_by_camera};
     const int skin = context.document.model.nodes[node].skin;
     if (skin < 0) // joints place a skinned mesh, not its node
         object.world_from_object = placed.world_from_node, object.motion = placed.motion;
@@ -141,10 +141,10 @@ void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, s
     const Mesh& mesh = scene.meshes[object.mesh];
     context.account.shown_vertices.add(mesh.positions.size(), place);
     context.account.shown_triangles.add(mesh.triangles.size(), place);
-    if (marks.sphere) {
+    if (extras.sphere) {
         const RigAttachment* follows = followed_node(object.motion);
         if (!follows || preserves_spheres(*follows))
-            object.sphere = sphere_in_world(*marks.sphere, mesh, placed.world_from_node);
+            object.sphere = sphere_in_world(*extras.sphere, mesh, placed.world_from_node);
         if (!object.sphere)
             context.notes.add("nodes marked as a sphere whose mesh or scale is not one",
                               context.document.describe_node(node));
@@ -165,7 +165,7 @@ void GltfBuilder::add_camera(std::size_t node, const gltf::PlacedNode& placed) {
     check(glm::cross(forward, up) != dvec3(0), Failure::bad_data, place,
           ": wanted a camera's node with three axes, found a scale of zero");
     camera.eye = dvec3(world[3]);
-    camera.target = camera.eye + context.document.marks[node].distance.value_or(1) * forward;
+    camera.target = camera.eye + context.document.extras[node].distance.value_or(1) * forward;
     check(is_finite(camera.eye) && is_finite(camera.target), Failure::bad_data, place,
           ": wanted a camera at finite coordinates, found an overflow");
     camera.up = up;

@@ -109,7 +109,7 @@ Document read_document(const std::string& file, FileOpener& files, LoadAccount& 
     {
         const JsonObject root(container.document, file);
         check_cross_references(root, files, notes);
-        document.marks = read_all_extras(root);
+        document.extras = read_all_extras(root);
         document.exposure = read_exposure(root);
         document.weights = read_morph_weights(root, "meshes");
         document.node_weights = read_morph_weights(root, "nodes");

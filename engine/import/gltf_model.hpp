@@ -36,7 +36,7 @@ struct Document {
     tinygltf::Model model;
     // These members are read before tinygltf parses the file. The library tinygltf does not read
     // some of these members, and cuts others to 32 bits.
-    std::vector<NodeExtras> marks; ///< of each node
+    std::vector<NodeExtras> extras; ///< of each node
     std::vector<Material> materials;
     PunctualLights lights;
     /// Morph target weights of each mesh.

@@ -31,24 +31,24 @@ std::optional<Sphere> read_sphere(const JsonObject& ours) {
 }
 
 NodeExtras read_node_extras(const JsonObject& node) {
-    NodeExtras marks;
-    const Json* extras = node.find("extras"); // any type; only objects are ours
-    if (extras == nullptr || !extras->is_object()) return marks;
+    NodeExtras extras;
+    const Json* found = node.find("extras"); // any type; only objects are ours
+    if (found == nullptr || !found->is_object()) return extras;
     const std::optional<JsonObject> ours = node.object("extras")->object("catoptric");
-    if (!ours) return marks;
-    marks.sphere = read_sphere(*ours);
+    if (!ours) return extras;
+    extras.sphere = read_sphere(*ours);
     if (const Json* distance = ours->find("distance"))
-        marks.distance = read_positive(*ours, *distance, "distance");
-    marks.seen_by_camera = ours->flag("seen_by_camera", true);
-    return marks;
+        extras.distance = read_positive(*ours, *distance, "distance");
+    extras.seen_by_camera = ours->flag("seen_by_camera", true);
+    return extras;
 }
 
 } // namespace
 
 std::vector<NodeExtras> read_all_extras(const JsonObject& root) {
-    std::vector<NodeExtras> marks;
-    root.each("nodes", [&](const JsonObject& node) { marks.push_back(read_node_extras(node)); });
-    return marks;
+    std::vector<NodeExtras> extras;
+    root.each("nodes", [&](const JsonObject& node) { extras.push_back(read_node_extras(node)); });
+    return extras;
 }
 
 std::vector<Camera> read_cameras(const Document& document) {

@@ -1,6 +1,6 @@
 // Writes a scene as .glb. A mirror is metallic 1, roughness 0. A light uses
 // KHR_materials_emissive_strength, and motion is a CUBICSPLINE translation. The camera is written,
-// too. Our own marks are in gltf_model.hpp.
+// too. Our own extras are in gltf_model.hpp.
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "import/gltf_writer.hpp"
@@ -71,8 +71,8 @@ int find_or_write_mesh(Writer& writer, const Object& object) {
     return entry->second;
 }
 
-/// Returns the marks of an object (gltf_model.hpp), with the sphere in node space. Returns an empty
-/// value if all marks have their defaults.
+/// Returns the extras of an object (gltf_model.hpp), with the sphere in node space. Returns an
+/// empty value if all extras have their defaults.
 Value make_object_extras(const Object& object) {
     Value::Object ours;
     const dmat4& world = object.world_from_object;

@@ -94,7 +94,7 @@ Sphere parse_sphere(const Line& line, const Words& words) {
 
 } // namespace
 
-void add_comment(CatoptricComments& remarks, const Line& line, LoadAccount& account) {
+void add_comment(CatoptricComments& comments, const Line& line, LoadAccount& account) {
     const Words list = split_words(line);
     check(!list.empty(), Failure::bad_data, line.place(), ": ", quote(line.keyword),
           " wants a name, found none");
@@ -103,25 +103,25 @@ void add_comment(CatoptricComments& remarks, const Line& line, LoadAccount& acco
         check(std::abs(stops) <= kMaxExposureStops, Failure::bad_data, line.place(),
               ": exposure wants ", -kMaxExposureStops, " to ", kMaxExposureStops, ", found ",
               stops);
-        remarks.exposure = stops;
+        comments.exposure = stops;
         return;
     }
     const std::string name(list[0]);
     if (line.keyword == "#camera") {
         account.cameras.add(1, line.place());
-        remarks.cameras.push_back(parse_camera(line, list));
+        comments.cameras.push_back(parse_camera(line, list));
         return;
     }
-    if (!remarks.named_at.contains(name)) {
+    if (!comments.named_at.contains(name)) {
         account.remarks.add(1, line.place());
-        remarks.named_at[name] = line.place();
+        comments.named_at[name] = line.place();
     }
     if (line.keyword == "#motion")
-        remarks.motions[name] = parse_motion(line, account);
+        comments.motions[name] = parse_motion(line, account);
     else if (line.keyword == "#sphere")
-        remarks.spheres[name] = parse_sphere(line, list);
+        comments.spheres[name] = parse_sphere(line, list);
     else if (line.keyword == "#hidden")
-        remarks.hidden[name] = true;
+        comments.hidden[name] = true;
     else
         fail(Failure::bad_data, line.place(),
              ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",

@@ -130,7 +130,7 @@ struct CatoptricComments {
 };
 
 /// Throws `bad_data`, naming the line, for an invalid comment.
-void add_comment(CatoptricComments& remarks, const Line& line, LoadAccount& account);
+void add_comment(CatoptricComments& comments, const Line& line, LoadAccount& account);
 
 /// A corner of a face, as indices from 0.
 struct Corner {

@@ -11,9 +11,9 @@ namespace catoptric::measure {
 
 namespace {
 
-bool is_row_metric(const Metric& quantity) {
-    return std::holds_alternative<Metric::RowMetricFunction>(quantity.get) ||
-           std::holds_alternative<Metric::FromStudy>(quantity.get);
+bool is_row_metric(const Metric& metric) {
+    return std::holds_alternative<Metric::RowMetricFunction>(metric.get) ||
+           std::holds_alternative<Metric::FromStudy>(metric.get);
 }
 
 std::vector<Metric> sorted_metrics() {
@@ -25,10 +25,10 @@ std::vector<Metric> sorted_metrics() {
 }
 
 /// Returns the index of a metric among those that are computed from pictures.
-std::size_t picture_metric_index(const Metric& quantity) {
+std::size_t picture_metric_index(const Metric& metric) {
     std::size_t index = 0;
     for (const Metric& row : metrics()) {
-        if (row.name == quantity.name) break;
+        if (row.name == metric.name) break;
         index += std::holds_alternative<Metric::PictureMetricFunction>(row.get);
     }
     return index;
@@ -47,9 +47,9 @@ constexpr RowMask kRowMasks[] = {
 
 } // namespace
 
-RegisteredMetric::RegisteredMetric(Metric quantity) {
-    if (!is_row_metric(quantity)) quantity.mask = "each";
-    table_rows<Metric>().push_back(std::move(quantity));
+RegisteredMetric::RegisteredMetric(Metric metric) {
+    if (!is_row_metric(metric)) metric.mask = "each";
+    table_rows<Metric>().push_back(std::move(metric));
 }
 
 const std::vector<Metric>& metrics() {
@@ -77,25 +77,24 @@ MetricValue study_metric(const Row& row, std::string_view metric) {
     return found == row.studied->values.end() ? MetricValue() : found->second;
 }
 
-MetricValue metric_value(const Metric& quantity, const Row& row) {
-    check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
-          "' is no figure of a row");
-    if (const auto* get = std::get_if<Metric::RowMetricFunction>(&quantity.get)) return (*get)(row);
-    return study_metric(row, quantity.name);
+MetricValue metric_value(const Metric& metric, const Row& row) {
+    check(is_row_metric(metric), Failure::internal, "'", metric.name, "' is no figure of a row");
+    if (const auto* get = std::get_if<Metric::RowMetricFunction>(&metric.get)) return (*get)(row);
+    return study_metric(row, metric.name);
 }
 
-MetricValue metric_value(const Metric& quantity, const Difference& difference) {
-    check(!is_row_metric(quantity), Failure::internal, "'", quantity.name,
+MetricValue metric_value(const Metric& metric, const Difference& difference) {
+    check(!is_row_metric(metric), Failure::internal, "'", metric.name,
           "' is no figure of a difference");
-    if (const auto* get = std::get_if<Metric::DifferenceFunction>(&quantity.get))
+    if (const auto* get = std::get_if<Metric::DifferenceFunction>(&metric.get))
         return (*get)(difference);
-    const std::size_t index = picture_metric_index(quantity);
+    const std::size_t index = picture_metric_index(metric);
     return index < difference.others.size() ? difference.others[index] : NAN;
 }
 
-bool is_shown(const Metric& quantity, const Comparison& comparison) {
-    return quantity.study.empty() ||
-           std::ranges::find(comparison.studies, quantity.study) != comparison.studies.end();
+bool is_shown(const Metric& metric, const Comparison& comparison) {
+    return metric.study.empty() ||
+           std::ranges::find(comparison.studies, metric.study) != comparison.studies.end();
 }
 
 bool is_missing(const MetricValue& value) {
@@ -116,8 +115,8 @@ bool is_missing(const MetricValue& value) {
 
 std::vector<double> picture_metrics(const PicturePair& compared) {
     std::vector<double> figures;
-    for (const Metric& quantity : metrics())
-        if (const auto* get = std::get_if<Metric::PictureMetricFunction>(&quantity.get))
+    for (const Metric& metric : metrics())
+        if (const auto* get = std::get_if<Metric::PictureMetricFunction>(&metric.get))
             figures.push_back((*get)(compared));
     return figures;
 }

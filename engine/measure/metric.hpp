@@ -110,7 +110,7 @@ struct Metric {
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program
 /// starts.
 struct RegisteredMetric {
-    explicit RegisteredMetric(Metric quantity);
+    explicit RegisteredMetric(Metric metric);
 };
 
 /// Upper limit of Metric::order for metrics of differences, which use orders from 100 on.
@@ -123,10 +123,10 @@ const std::vector<Metric>& difference_metrics();
 
 /// Return the value of a metric. The first overload throws `internal` for a metric of a difference,
 /// the second for a metric of a row.
-MetricValue metric_value(const Metric& quantity, const Row& row);
-MetricValue metric_value(const Metric& quantity, const Difference& difference);
+MetricValue metric_value(const Metric& metric, const Row& row);
+MetricValue metric_value(const Metric& metric, const Difference& difference);
 /// Returns whether reports on the comparison show the metric (see Metric::study).
-bool is_shown(const Metric& quantity, const Comparison& comparison);
+bool is_shown(const Metric& metric, const Comparison& comparison);
 /// Returns whether a value counts as none (see MetricValue).
 bool is_missing(const MetricValue& value);
 

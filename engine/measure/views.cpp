@@ -26,15 +26,15 @@ const Metric& find_metric(std::string_view name) {
     return *found;
 }
 
-double scalar_value(const Metric& figure, const Difference& error) {
-    const MetricValue value = metric_value(figure, error);
+double scalar_value(const Metric& metric, const Difference& error) {
+    const MetricValue value = metric_value(metric, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
 }
 
 /// Returns the difference of two errors below which they cannot be told apart.
-double find_noise_floor(const Metric& figure, const Difference& a, const Difference& b) {
-    return figure.name == "flip" ? flip_noise_floor(a, b) : 0;
+double find_noise_floor(const Metric& metric, const Difference& a, const Difference& b) {
+    return metric.name == "flip" ? flip_noise_floor(a, b) : 0;
 }
 
 double median_of(std::vector<double> values) {
@@ -53,7 +53,7 @@ int ranking_score(const Row& row, const std::vector<const Row*>& rows, std::stri
 RowOrder order_by_metric(std::string_view name, const std::vector<const Row*>& rows) {
     RowOrder order{&find_metric(name), rows, {}, {}};
     std::ranges::stable_sort(order.rows, {}, [&](const Row* row) {
-        const double median = metric_over_views(*row, find_mirror_mask(), *order.figure).median;
+        const double median = metric_over_views(*row, find_mirror_mask(), *order.metric).median;
         return std::pair(-ranking_score(*row, rows, name), std::isnan(median) ? INFINITY : median);
     });
     for (std::size_t i = 0; i < order.rows.size(); ++i)
@@ -67,15 +67,15 @@ RowOrder order_by_metric(std::string_view name, const std::vector<const Row*>& r
 
 } // namespace
 
-bool is_scalar(const Metric& figure) {
-    return figure.mask == "each" &&
-           std::holds_alternative<double>(metric_value(figure, Difference{}));
+bool is_scalar(const Metric& metric) {
+    return metric.mask == "each" &&
+           std::holds_alternative<double>(metric_value(metric, Difference{}));
 }
 
-MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure) {
+MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& metric) {
     MetricOverViews over;
     for (const Errors& errors : row.views)
-        over.values.push_back(scalar_value(figure, errors.*mask.error));
+        over.values.push_back(scalar_value(metric, errors.*mask.error));
     std::vector<double> known = over.values;
     std::erase_if(known, [](double value) { return !std::isfinite(value); });
     over.ci95 = median_interval(known);
@@ -119,14 +119,14 @@ std::optional<SharedInstants> estimate_shared_instants(const std::vector<View>& 
 }
 
 Interval metric_difference_interval(const Row& a, const Row& b, std::string_view figure) {
-    const Metric& quantity = find_metric(figure);
+    const Metric& metric = find_metric(figure);
     std::vector<double> of_a, of_b;
     for (std::size_t i = 0; i < std::min(a.views.size(), b.views.size()); ++i) {
-        const double in_a = scalar_value(quantity, a.views[i].error),
-                     in_b = scalar_value(quantity, b.views[i].error);
+        const double in_a = scalar_value(metric, a.views[i].error),
+                     in_b = scalar_value(metric, b.views[i].error);
         if (!std::isfinite(in_a) || !std::isfinite(in_b)) continue;
         const bool is_noise = std::abs(in_a - in_b) <
-                              find_noise_floor(quantity, a.views[i].error, b.views[i].error);
+                              find_noise_floor(metric, a.views[i].error, b.views[i].error);
         of_a.push_back(is_noise ? in_b : in_a);
         of_b.push_back(in_b);
     }
@@ -137,9 +137,9 @@ bool is_metric_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
         // False if the interval is not known.
         return metric_difference_interval(a, b, figure).high < 0;
-    const Metric& quantity = find_metric(figure);
-    return scalar_value(quantity, a.error) + find_noise_floor(quantity, a.error, b.error) <
-           scalar_value(quantity, b.error);
+    const Metric& metric = find_metric(figure);
+    return scalar_value(metric, a.error) + find_noise_floor(metric, a.error, b.error) <
+           scalar_value(metric, b.error);
 }
 
 bool rows_differ(const Row& a, const Row& b, std::string_view figure) {

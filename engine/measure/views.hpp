@@ -25,9 +25,9 @@ struct MetricOverViews {
     std::vector<double> values; ///< value in each view, in order; NaN where it is not defined
 };
 
-/// Returns a metric of a row over its views. `figure` must be a metric of a difference that is one
+/// Returns a metric of a row over its views. `metric` must be a metric of a difference that is one
 /// number.
-MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure);
+MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& metric);
 
 /// How much a metric tells over views of which several share an instant. Such views resemble each
 /// other, so their mean is less certain than that of as many views with an instant each.
@@ -47,7 +47,7 @@ std::optional<SharedInstants> estimate_shared_instants(const std::vector<View>& 
                                                        std::span<const double> values);
 
 /// Returns whether the value of a metric is one number. Only such metrics have a median over views.
-bool is_scalar(const Metric& figure);
+bool is_scalar(const Metric& metric);
 
 /// Returns the 95 % interval of the median of a's metric minus b's, over the mirrors, view by view.
 /// `figure` is a name such as "flip", "off" or "mae". Views in which either is not finite are left
@@ -68,7 +68,7 @@ bool rows_differ(const Row& a, const Row& b, std::string_view figure);
 struct RowOrder {
     /// Pairs of rows that tie, in the order of `rows`.
     using RowPairs = std::vector<std::pair<const Row*, const Row*>>;
-    const Metric* figure;
+    const Metric* metric;
     /// All rows except the reference and failed rows. A row's score in the metric is the number of
     /// rows with larger values minus the number of rows with smaller values, over the views. Rows
     /// with a larger score come first, and between equal scores the row with the smaller median.

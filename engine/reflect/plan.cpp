@@ -190,19 +190,19 @@ Assignment assign_techniques(const TechniquePlan& plan, const std::vector<std::s
     return assignment;
 }
 
-void add_capture_needs(require::WorkModelInput& question, const std::vector<TechniquePlan>& plans) {
+void add_capture_needs(require::WorkModelInput& input, const std::vector<TechniquePlan>& plans) {
     std::optional<std::uint32_t> coarsest;
     for (const TechniquePlan& plan : plans)
         for (const auto& [pattern, choice] : plan.rules) {
             const TechniqueChoice& searching = choice.rest ? *choice.rest : choice;
-            question.whole_cubes = question.whole_cubes || searching.technique->reads_whole_cubes;
-            question.asks_all = question.asks_all || searching.shared.search.asks_all;
+            input.whole_cubes = input.whole_cubes || searching.technique->reads_whole_cubes;
+            input.asks_all = input.asks_all || searching.shared.search.asks_all;
             if (choice.shared.shadow.method == ShadowKnobs::Method::none) continue;
             const std::uint32_t edge = choice.shared.shadow.edge;
             coarsest = std::min(coarsest.value_or(edge), edge);
-            question.has_soft_shadows = question.has_soft_shadows || choice.shared.shadow.is_soft;
+            input.has_soft_shadows = input.has_soft_shadows || choice.shared.shadow.is_soft;
         }
-    question.shadow_edge = coarsest.value_or(question.shadow_edge);
+    input.shadow_edge = coarsest.value_or(input.shadow_edge);
 }
 
 Assignment replace_unfit(Assignment assignment, const std::vector<scene::FlatFaces>& flats,

@@ -71,7 +71,7 @@ Assignment assign_techniques(const TechniquePlan& plan, const std::vector<std::s
 
 /// Adds to the model's input the needs of the plan's techniques that do not depend on visibility:
 /// whole cubes, captures of all mirrors, and the edge of the coarsest shadow map.
-void add_capture_needs(require::WorkModelInput& question, const std::vector<TechniquePlan>& plans);
+void add_capture_needs(require::WorkModelInput& input, const std::vector<TechniquePlan>& plans);
 
 /// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The
 /// knob `rest` names the replacement, which keeps the shadow settings.

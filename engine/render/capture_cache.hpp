@@ -24,7 +24,7 @@ struct CachedFace {
     bool is_behind = false; ///< whether the face shows an old state, because its redraw had to wait
     /// Content hash of all surfaces and lights that the face shows, except mirrors and the moving
     /// objects in `pieces`.
-    std::uint64_t settings = 0;
+    std::uint64_t still_hash = 0;
     std::shared_ptr<const require::MovingParts>
         pieces; ///< parts of moving objects that the faces showed when `content_hash` was made
     bool operator==(const CachedFace&) const = default;

@@ -106,7 +106,7 @@ FaceUpdate CaptureDecider::decide(std::uint32_t mirror, std::uint32_t face,
         return FaceUpdate::clear;
     }
     now = {content_hash, drawing_number(content_hash, seen), false,
-           ContentHash(shown).add(needs.settings[face]).sum(), needs.pieces};
+           ContentHash(shown).add(needs.still_hashes[face]).sum(), needs.pieces};
     return shows_same && compares_ ? FaceUpdate::compare : FaceUpdate::draw;
 }
 
@@ -115,7 +115,7 @@ require::FacePart CaptureDecider::changed_part(std::uint32_t mirror, std::uint32
                                                const CachedFace& now) const {
     if (!had_same_layout(mirror)) return {};
     const CachedFace& before = before_->faces[mirror][face];
-    if (before.content_hash == 0 || before.is_behind || before.settings != now.settings ||
+    if (before.content_hash == 0 || before.is_behind || before.still_hash != now.still_hash ||
         !before.pieces || !now.pieces)
         return {};
     require::FacePart part = require::find_changed_part(before.pieces->faces[face],

@@ -66,7 +66,7 @@ std::vector<bool> find_moving_objects(const scene::Scene& scene) {
 const scene::Scene& check_fits(const gpu::Device& device, const scene::Scene& scene) {
     check_limits(scene.name, count_amounts(scene),
                  {device.max_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
-                  device.max_allocation(), device.memory_budget()});
+                  device.max_allocation(), device.largest_heap_bytes()});
     return scene;
 }
 

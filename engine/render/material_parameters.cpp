@@ -182,7 +182,7 @@ void MaterialLists::fill(const scene::Scene& now, const SceneUnits& space,
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.assign(geometry.ranges.size(), 0);
-    any_ = masks_ = has_normal_textures_ = has_ranked_glass_ = false;
+    has_varying_colours_ = has_masks_ = has_normal_textures_ = has_ranked_glass_ = false;
     std::vector<std::uint32_t> ranks(geometry.ranges.size());
     if (has_glass_) ranks = scene::rank_nested_glass(now);
     std::vector<std::size_t> order(geometry.ranges.size());
@@ -203,16 +203,16 @@ void MaterialLists::fill(const scene::Scene& now, const SceneUnits& space,
             }
         }
         has_normal_textures_ = has_normal_textures_ || range.has_normal_texture;
-        any_ = any_ || range.varies || range.turns;
+        has_varying_colours_ = has_varying_colours_ || range.varies || range.turns;
         if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
             const std::size_t mesh = now.objects[i].mesh;
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
             if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
             const bool differs = entry->second || range.has_normal_texture;
             detail.flags |= flag_if_set(differs, shared::kMaterialTestsFacetSideFlag);
-            any_ = any_ || differs;
+            has_varying_colours_ = has_varying_colours_ || differs;
         }
-        masks_ = masks_ || range.masked;
+        has_masks_ = has_masks_ || range.masked;
         std::array<char, 4 * shared::kWordsPerMaterial> bytes{}; // all bytes except the padding
         std::memcpy(bytes.data(), &detail, bytes.size());
         const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()) +

@@ -29,8 +29,8 @@ public:
     /// Returns whether solid bodies of glass share space (scene/nested_glass.hpp).
     bool has_ranked_glass() const { return has_ranked_glass_; }
     bool has_blended() const { return has_blended_; } ///< some surface covers by its alpha
-    bool has_varying_colours() const { return any_; }
-    bool has_masks() const { return masks_; } ///< some surface is partly cut out
+    bool has_varying_colours() const { return has_varying_colours_; }
+    bool has_masks() const { return has_masks_; } ///< some surface is partly cut out
     bool has_lobes() const { return has_lobes_; }
     bool has_normal_textures() const { return has_normal_textures_; }
     /// Returns, for each object, the index of its material parameters. Objects with equal
@@ -50,7 +50,7 @@ private:
     std::vector<std::shared_ptr<const scene::Image>> images_;
     std::vector<std::uint32_t> first_texels_; ///< first texel of each image
     std::vector<std::uint32_t> indices_;      ///< index of each object's parameters
-    bool any_ = false, masks_ = false, has_normal_textures_ = false;
+    bool has_varying_colours_ = false, has_masks_ = false, has_normal_textures_ = false;
     bool has_lobes_ = false, has_glass_ = false, has_clear_coats_ = false, has_blended_ = false;
     bool has_tinted_shadows_ = false, has_ranked_glass_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes

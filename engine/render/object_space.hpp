@@ -34,8 +34,8 @@ std::vector<bool> find_sharing_objects(const scene::Scene& scene);
 /// Returns whether a copy may share its mesh in its present state.
 bool may_share_mesh(const scene::Scene& now, const scene::Object& object);
 
-/// Returns whether the object is smaller than kSmallObjectRatio of its distance from
-/// the origin. Costs O(triangles).
+/// Returns whether the object is smaller than require::kSmallObjectRatio of its distance from the
+/// origin. Costs O(triangles).
 bool is_small_for_distance(const scene::Scene& now, const scene::Object& object,
                            const SceneUnits& space);
 

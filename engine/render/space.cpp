@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/shader_math.hpp"
+#include "require/content_hashes.hpp"
 #include "scene/scene_core.hpp"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin) {
     const double size = largest_component(box.extent()),
                  distance = largest_component(
                      glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
-    return size > 0 && size < kSmallObjectRatio * distance;
+    return size > 0 && size < require::kSmallObjectRatio * distance;
 }
 
 SceneUnits make_scene_units(const scene::Scene& scene) {

@@ -21,12 +21,9 @@ struct SceneUnits {
     float to_scene_length(double world) const { return static_cast<float>(world * scale); }
 };
 
-/// An object smaller than this fraction of its distance from the origin loses half of a float's
-/// digits.
-inline constexpr double kSmallObjectRatio = 0x1p-12;
-
-/// Returns whether the box is small in that sense; world units. The distance is that of its
-/// farthest corner. Empty boxes and points are not small.
+/// Returns whether the box is smaller than require::kSmallObjectRatio of its distance from the
+/// origin; world units. The distance is that of its farthest corner. Empty boxes and points are not
+/// small.
 bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin);
 
 /// Returns the scene units of a scene at rest. All frames use the same units, so that motion does

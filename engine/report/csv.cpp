@@ -87,8 +87,8 @@ void CsvLine::add_field(const std::string& name, const measure::MetricValue& val
 }
 
 /// Returns whether the report's table of rows has a column of this metric.
-bool is_in_rows_table(const measure::Metric& quantity) {
-    return std::ranges::any_of(quantity.columns, [](const measure::MetricColumn& column) {
+bool is_in_rows_table(const measure::Metric& metric) {
+    return std::ranges::any_of(metric.columns, [](const measure::MetricColumn& column) {
         return column.table == measure::TableKind::rows;
     });
 }
@@ -98,9 +98,9 @@ bool is_in_rows_table(const measure::Metric& quantity) {
 template <class Predicate>
 void add_differences(CsvLine& line, const std::string& mask, const measure::Difference& error,
                      Predicate is_in_table) {
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        line.add_field(mask + "_" + std::string(quantity.name),
-                       measure::metric_value(quantity, error), is_in_table(quantity));
+    for (const measure::Metric& metric : measure::difference_metrics())
+        line.add_field(mask + "_" + std::string(metric.name), measure::metric_value(metric, error),
+                       is_in_table(metric));
 }
 
 /// Appends fields with the errors over each mask of pixels, then over each mirror. Appends fields
@@ -124,12 +124,12 @@ void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& ro
 void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                        std::size_t mirrors) {
     bool has_errors = false;
-    for (const measure::Metric& quantity : measure::metrics()) {
-        if (!measure::is_shown(quantity, comparison)) continue;
-        if (quantity.mask != "each") {
-            std::string name(quantity.name);
+    for (const measure::Metric& metric : measure::metrics()) {
+        if (!measure::is_shown(metric, comparison)) continue;
+        if (metric.mask != "each") {
+            std::string name(metric.name);
             std::ranges::replace(name, '/', '_');
-            line.add_field(name, measure::metric_value(quantity, row), is_in_rows_table(quantity));
+            line.add_field(name, measure::metric_value(metric, row), is_in_rows_table(metric));
         } else if (!std::exchange(has_errors, true)) {
             add_error_fields(line, comparison, row, mirrors);
         }
@@ -139,11 +139,11 @@ void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& r
 /// Adds the errors over the mirrors in the drawn views. Adds no columns if no views were drawn.
 void add_view_fields(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
-    for (const measure::Metric& quantity : measure::difference_metrics()) {
-        if (!measure::is_scalar(quantity)) continue;
+    for (const measure::Metric& metric : measure::difference_metrics()) {
+        if (!measure::is_scalar(metric)) continue;
         const measure::MetricOverViews over = measure::metric_over_views(
-            row, measure::row_masks().front(), quantity);
-        const std::string name = "views_" + std::string(quantity.name);
+            row, measure::row_masks().front(), metric);
+        const std::string name = "views_" + std::string(metric.name);
         line.add_field(name + "_median", over.median);
         line.add_field(name + "_low", over.ci95.low);
         line.add_field(name + "_high", over.ci95.high);

@@ -94,8 +94,8 @@ struct JsonValueWriter {
 
 /// Returns an object that begins with `json` and has all metrics of a difference.
 Json add_difference(Json json, const measure::Difference& error) {
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        json[std::string(quantity.name)] = metric_json(measure::metric_value(quantity, error));
+    for (const measure::Metric& metric : measure::difference_metrics())
+        json[std::string(metric.name)] = metric_json(measure::metric_value(metric, error));
     return json;
 }
 
@@ -135,31 +135,31 @@ Json budget_json(const Comparison& comparison) {
 
 /// Adds a metric to an object of metrics. The object is null as long as none of its metrics has a
 /// value.
-void add_metric(Json& json, const measure::Metric& quantity, const measure::MetricValue& value) {
-    const std::size_t slash = quantity.name.find('/');
-    Json& object = json[std::string(quantity.name.substr(0, slash))];
+void add_metric(Json& json, const measure::Metric& metric, const measure::MetricValue& value) {
+    const std::size_t slash = metric.name.find('/');
+    Json& object = json[std::string(metric.name.substr(0, slash))];
     if (object.is_null() && measure::is_missing(value)) return;
-    if (object.is_null() && !quantity.mask.empty()) object["mask"] = quantity.mask;
-    object[std::string(quantity.name.substr(slash + 1))] = metric_json(value);
+    if (object.is_null() && !metric.mask.empty()) object["mask"] = metric.mask;
+    object[std::string(metric.name.substr(slash + 1))] = metric_json(value);
 }
 
-void add_metric(Json& json, const measure::Metric& quantity, const Row& row) {
-    const measure::MetricValue value = measure::metric_value(quantity, row);
+void add_metric(Json& json, const measure::Metric& metric, const Row& row) {
+    const measure::MetricValue value = measure::metric_value(metric, row);
     const bool* mark = std::get_if<bool>(&value);
-    if (quantity.only_where_true && mark != nullptr && !*mark) return;
-    if (quantity.name.find('/') != std::string_view::npos)
-        add_metric(json, quantity, value);
+    if (metric.only_where_true && mark != nullptr && !*mark) return;
+    if (metric.name.find('/') != std::string_view::npos)
+        add_metric(json, metric, value);
     else
-        json[std::string(quantity.name)] = metric_json(value);
+        json[std::string(metric.name)] = metric_json(value);
 }
 
 /// Adds all metrics of the table to a row. Metrics of differences are written together, at the
 /// place of the first of them.
 void add_row_metrics(Json& json, const Comparison& comparison, const Row& row) {
-    for (const measure::Metric& quantity : measure::metrics()) {
-        if (!measure::is_shown(quantity, comparison)) continue;
-        if (quantity.mask != "each")
-            add_metric(json, quantity, row);
+    for (const measure::Metric& metric : measure::metrics()) {
+        if (!measure::is_shown(metric, comparison)) continue;
+        if (metric.mask != "each")
+            add_metric(json, metric, row);
         else if (!json.contains("error"))
             add_errors(json, row);
     }
@@ -252,8 +252,8 @@ Json plan_json(const std::vector<PlanEntry>& plan) {
 
 Json row_times_json(const Row& row) {
     Json json = Json::object();
-    for (const measure::Metric& quantity : measure::metrics())
-        if (quantity.unit == "ms" && quantity.study.empty()) add_metric(json, quantity, row);
+    for (const measure::Metric& metric : measure::metrics())
+        if (metric.unit == "ms" && metric.study.empty()) add_metric(json, metric, row);
     return json;
 }
 

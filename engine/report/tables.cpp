@@ -21,7 +21,7 @@ namespace {
 std::string empty_cell() { return std::string(kEmptyCell); }
 
 /// Returns the interval of the median.
-std::string format_median(const measure::SampleSummary& times, int decimals) {
+std::string format_interval(const measure::SampleSummary& times, int decimals) {
     if (!times.ci95.is_known()) return empty_cell();
     return format_fixed(times.ci95.low, decimals) + "–" + format_fixed(times.ci95.high, decimals);
 }
@@ -50,7 +50,7 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             std::to_string(row.scene_passes),
             std::to_string(row.scene_draws),
             format_fixed(row.time_ms().median, decimals),
-            format_median(row.time_ms(), decimals),
+            format_interval(row.time_ms(), decimals),
             format_time_places(measure::find_rank_range(comparison, row)),
             format_fps(row.elapsed_ms().median),
             format_flip(row.error),
@@ -93,7 +93,7 @@ std::string format_metric_cell(const measure::MetricColumn& column,
     using measure::ValueFormat;
     if (measure::is_missing(value)) return empty_cell();
     if (const auto* times = std::get_if<measure::SampleSummary>(&value)) {
-        if (column.style == ValueFormat::time_interval) return format_median(*times, decimals);
+        if (column.style == ValueFormat::time_interval) return format_interval(*times, decimals);
         return column.style == ValueFormat::times ? format_fixed(times->median, decimals)
                                                   : format_ms(times->median);
     }
@@ -110,14 +110,14 @@ std::string format_flip_cell(const measure::Difference& error) {
 
 /// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
 struct MetricTableColumn {
-    const measure::Metric* quantity;
+    const measure::Metric* metric;
     measure::MetricColumn column;
     const measure::RowMask* mask = nullptr;
 
-    int order() const { return column.order != 0 ? column.order : quantity->order; }
+    int order() const { return column.order != 0 ? column.order : metric->order; }
     measure::MetricValue value(const Row& row) const {
-        return mask == nullptr ? measure::metric_value(*quantity, row)
-                               : measure::metric_value(*quantity, row.*mask->error);
+        return mask == nullptr ? measure::metric_value(*metric, row)
+                               : measure::metric_value(*metric, row.*mask->error);
     }
     std::string title() const {
         const std::string words(column.title);
@@ -132,19 +132,19 @@ std::vector<MetricTableColumn> metric_columns(measure::TableKind table,
                                               const Comparison& comparison) {
     std::vector<MetricTableColumn> columns;
     int last = 0; // the last order of a metric of differences
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        if (quantity.order < measure::kOrderAfterDifferences) last = quantity.order;
-    for (const measure::Metric& quantity : measure::metrics())
-        for (const measure::MetricColumn& column : quantity.columns) {
-            if (column.table != table || !measure::is_shown(quantity, comparison)) continue;
-            if (quantity.mask != "each") {
-                columns.push_back({&quantity, column});
+    for (const measure::Metric& metric : measure::difference_metrics())
+        if (metric.order < measure::kOrderAfterDifferences) last = metric.order;
+    for (const measure::Metric& metric : measure::metrics())
+        for (const measure::MetricColumn& column : metric.columns) {
+            if (column.table != table || !measure::is_shown(metric, comparison)) continue;
+            if (metric.mask != "each") {
+                columns.push_back({&metric, column});
                 continue;
             }
             for (const measure::RowMask& mask : measure::row_masks()) {
-                if (!mask.title.empty() && !quantity.each_mask_in_table) continue;
+                if (!mask.title.empty() && !metric.each_mask_in_table) continue;
                 if (!measure::has_table_columns(mask, comparison)) continue;
-                columns.push_back({&quantity, column, &mask});
+                columns.push_back({&metric, column, &mask});
                 if (!mask.title.empty()) columns.back().column.order = last;
             }
         }
@@ -160,7 +160,7 @@ std::vector<std::string>
 format_row_cells(const Row& row, const std::vector<MetricTableColumn>& columns, int decimals) {
     std::vector<std::string> cells{row.label};
     for (const MetricTableColumn& column : columns)
-        cells.push_back(column.mask != nullptr && column.quantity->name == "flip"
+        cells.push_back(column.mask != nullptr && column.metric->name == "flip"
                             ? format_flip_cell(row.*column.mask->error)
                             : format_metric_cell(column.column, column.value(row), decimals));
     return cells;
@@ -311,7 +311,7 @@ std::vector<RowMetricColumn> row_metric_columns(const Comparison& comparison) {
     std::vector<RowMetricColumn> list;
     for (const MetricTableColumn& column : metric_columns(measure::TableKind::rows, comparison)) {
         const ValueFormat style = column.column.style;
-        if (style == ValueFormat::time_interval || column.quantity->name == ranked) continue;
+        if (style == ValueFormat::time_interval || column.metric->name == ranked) continue;
         const bool is_over_mirrors = column.mask != nullptr && column.mask->title.empty();
         RowMetricColumn numbers{
             column.title() + (is_over_mirrors ? " over the mirrors" : ""), {}, {}};
@@ -327,7 +327,7 @@ std::vector<RowMetricColumn> row_metric_columns(const Comparison& comparison) {
                                      : times != nullptr  ? times->median
                                      : number != nullptr ? scale * *number
                                                          : NAN);
-            const bool is_rmse = is_over_mirrors && column.quantity->name == "rmse";
+            const bool is_rmse = is_over_mirrors && column.metric->name == "rmse";
             numbers.intervals.push_back(times != nullptr ? times->ci95
                                         : is_rmse        ? find_rmse_interval(row)
                                                          : measure::Interval());

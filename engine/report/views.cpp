@@ -17,22 +17,22 @@ namespace catoptric::report {
 namespace {
 
 struct DrawnViewMetric {
-    const measure::Metric* quantity;
+    const measure::Metric* metric;
     const measure::MetricColumn* column;
 };
 
 /// Returns the metrics of differences that the table of rows shows, too.
 std::vector<DrawnViewMetric> view_metrics() {
     std::vector<DrawnViewMetric> list;
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        for (const measure::MetricColumn& column : quantity.columns)
-            if (measure::is_scalar(quantity)) list.push_back({&quantity, &column});
+    for (const measure::Metric& metric : measure::difference_metrics())
+        for (const measure::MetricColumn& column : metric.columns)
+            if (measure::is_scalar(metric)) list.push_back({&metric, &column});
     return list;
 }
 
 std::string format_view_cell(const Row& row, const DrawnViewMetric& figure) {
     const measure::MetricOverViews over = measure::metric_over_views(
-        row, measure::row_masks().front(), *figure.quantity);
+        row, measure::row_masks().front(), *figure.metric);
     const measure::MetricColumn& column = *figure.column;
     const std::string median = format_metric_number(over.median, column);
     if (!over.ci95.is_known()) return median;
@@ -49,8 +49,8 @@ std::optional<measure::SharedInstants> find_instant_effect(const Comparison& com
 }
 
 /// Returns the title of the metric's column without the unit.
-std::string_view metric_title(const measure::Metric& quantity) {
-    const std::string_view title = quantity.columns.front().title;
+std::string_view metric_title(const measure::Metric& metric) {
+    const std::string_view title = metric.columns.front().title;
     return title.substr(0, title.find(','));
 }
 
@@ -75,12 +75,12 @@ std::string format_tied_rows(const measure::RowOrder& order) {
 /// mask of pixels.
 Json view_metrics_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
-    for (const measure::Metric& quantity : measure::difference_metrics()) {
-        if (!measure::is_scalar(quantity)) continue;
-        const measure::MetricOverViews over = measure::metric_over_views(row, mask, quantity);
-        figures[std::string(quantity.name)] = {{"median", number_json(over.median)},
-                                               {"ci95", interval_json(over.ci95)},
-                                               {"values", metric_json(over.values)}};
+    for (const measure::Metric& metric : measure::difference_metrics()) {
+        if (!measure::is_scalar(metric)) continue;
+        const measure::MetricOverViews over = measure::metric_over_views(row, mask, metric);
+        figures[std::string(metric.name)] = {{"median", number_json(over.median)},
+                                             {"ci95", interval_json(over.ci95)},
+                                             {"values", metric_json(over.values)}};
     }
     return figures;
 }
@@ -184,7 +184,7 @@ std::vector<std::string> describe_drawn_views(const Comparison& comparison) {
     std::vector<std::string> sentences;
     for (const measure::RowOrder& order : measure::order_rows(comparison))
         sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
-                                        metric_title(*order.figure), join_labels(order.rows),
+                                        metric_title(*order.metric), join_labels(order.rows),
                                         format_tied_rows(order)));
     if (!sentences.empty())
         sentences.emplace_back(

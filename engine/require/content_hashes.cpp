@@ -25,24 +25,24 @@ bool may_have_object_space(const VisibilityScene& world, const VisibilityObject&
 
 void ContentHashes::update(const VisibilityScene& world, std::uint32_t shadow_edge,
                            bool has_soft_shadows) {
-    const bool is_new_layout = layout_ != world.layout_count();
+    const bool is_new_layout = layout_ != world.layout_version();
     if (!world.has_changed() && !is_new_layout && shadow_edge_ == shadow_edge &&
         has_soft_shadows_ == has_soft_shadows)
         return;
     if (is_new_layout) mirrors_.assign(world.mirrors().size(), {});
     ++changes_;
-    layout_ = world.layout_count(), static_hash_ = world.static_hash(), shadow_edge_ = shadow_edge,
-    has_soft_shadows_ = has_soft_shadows;
+    layout_ = world.layout_version(), static_hash_ = world.static_hash(),
+    shadow_edge_ = shadow_edge, has_soft_shadows_ = has_soft_shadows;
     ContentHash all(static_hash_);
     for (const std::size_t mover : world.movers()) all.add(world.objects()[mover].content_hash);
     all_ = all.sum();
     const std::size_t movers = world.movers().size(), mirrors = world.mirrors().size();
     is_much_ = movers * world.lights().size() * world.objects().size() > kMaxVisibilityPairs ||
                movers * mirrors > kMaxVisibilityPairs;
-    landings_.clear();
+    receivers_.clear();
     if (is_much_) return;
-    find_shadow_receivers(world, shadow_edge, has_soft_shadows, landings_);
-    is_much_ = landings_.size() * mirrors > kMaxShadowReceiverTests;
+    find_shadow_receivers(world, shadow_edge, has_soft_shadows, receivers_);
+    is_much_ = receivers_.size() * mirrors > kMaxShadowReceiverTests;
 }
 
 const ContentHashes::FaceHashes& ContentHashes::face_hashes(const VisibilityScene& world,
@@ -87,22 +87,22 @@ void ContentHashes::combine_hashes(const VisibilityScene& world, FaceHashes& fac
             add(faces_showing_box(box) & faces_showing_ball(thing.middle - centre, thing.radius),
                 thing.content_hash, [&](int face) { return face_part_containing(face, box); });
     }
-    for (const ShadowReceiver& landing : landings_) {
-        if (landing.receiver == object) continue;
-        const Bounds<double> box = relative_to(centre, landing.box),
-                             from = relative_to(centre, landing.shade.from),
-                             to = relative_to(centre, landing.shade.to);
+    for (const ShadowReceiver& part : receivers_) {
+        if (part.receiver == object) continue;
+        const Bounds<double> box = relative_to(centre, part.box),
+                             from = relative_to(centre, part.shade.from),
+                             to = relative_to(centre, part.shade.to);
         add(faces_showing_box(box) & faces_showing_hull(from, to),
-            ContentHash(world.objects()[landing.caster].content_hash).add(landing.receiver).sum(),
+            ContentHash(world.objects()[part.caster].content_hash).add(part.receiver).sum(),
             [&](int face) {
                 return intersect(face_part_containing(face, box),
                                  face_part_containing(face, from, to));
             });
     }
     for (std::size_t face = 0; face < 6; ++face) {
-        faces.settings[face] =
+        faces.still_hashes[face] =
             ContentHash(static_hash_).add(own.content_hash).add(mirror).add(face).sum();
-        faces.content_hashes[face] = ContentHash(faces.settings[face]).add(sums[face]).sum();
+        faces.content_hashes[face] = ContentHash(faces.still_hashes[face]).add(sums[face]).sum();
     }
     if (are_many) return;
     pieces->sort();

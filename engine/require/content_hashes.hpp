@@ -8,8 +8,8 @@
 
 namespace catoptric::require {
 
-/// Objects up to this size may be stored in object space on the device. The size is a part of the
-/// object's largest possible distance from the scene's origin (render::kSmallObjectRatio). Shaders
+/// An object smaller than this part of its distance from the scene's origin loses half of a float's
+/// digits, and may be stored in object space on the device (render::is_small_for_distance). Shaders
 /// contain the code for object space only if some object needs it. The first such object therefore
 /// changes the shaders of all objects.
 inline constexpr double kSmallObjectRatio = 0x1p-12;
@@ -39,7 +39,7 @@ public:
     /// Content hashes of the six faces of a mirror's capture.
     struct FaceHashes {
         std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
-        std::array<std::uint64_t, 6> content_hashes{}, settings{};
+        std::array<std::uint64_t, 6> content_hashes{}, still_hashes{};
         std::shared_ptr<const MovingParts> pieces;
     };
     /// Takes O(movers + receivers of shadows), or O(1) if nothing has changed since the last call.
@@ -50,7 +50,7 @@ private:
     void combine_hashes(const VisibilityScene& world, FaceHashes& faces, std::size_t mirror) const;
 
     std::vector<FaceHashes> mirrors_;
-    std::vector<ShadowReceiver> landings_;
+    std::vector<ShadowReceiver> receivers_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
     std::uint64_t all_ = 0;     ///< content hash of the whole scene
     std::uint64_t static_hash_ = 0, layout_ = 0;

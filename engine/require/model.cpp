@@ -3,10 +3,10 @@
 
 namespace catoptric::require {
 
-WorkModel make_everything_model(const WorkModelInput& question) {
+WorkModel make_everything_model(const WorkModelInput& input) {
     return {.is_everything = true,
-            .mirrors = std::vector<MirrorRequirements>(scene::mirrors(question.now).size()),
-            .lights = std::vector<LightRequirements>(scene::list_lights(question.now).size()),
+            .mirrors = std::vector<MirrorRequirements>(scene::mirrors(input.now).size()),
+            .lights = std::vector<LightRequirements>(scene::list_lights(input.now).size()),
             .left_out = {}};
 }
 

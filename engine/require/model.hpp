@@ -51,7 +51,7 @@ struct MirrorRequirements {
     /// of the face and the views of the shadow maps stay the same.
     std::array<std::uint64_t, 6> content_hashes{};
     /// Content hashes of the same data without the movers and shadows that `pieces` lists.
-    std::array<std::uint64_t, 6> settings{};
+    std::array<std::uint64_t, 6> still_hashes{};
     std::shared_ptr<const MovingParts> pieces; ///< null: movers are not listed one by one
     std::vector<std::uint32_t>
         /// The other mirrors that its capture shows, numbered from 0, in ascending order.
@@ -82,11 +82,11 @@ struct WorkModel {
 };
 
 /// Returns the model that culls no work and keeps no captures.
-WorkModel make_everything_model(const WorkModelInput& question);
+WorkModel make_everything_model(const WorkModelInput& input);
 /// Returns the model with only the work that the picture requires. All faces have one content hash
 /// that covers the whole scene, because a single picture does not tell which objects move.
 /// O(vertices). Use WorkModelBuilder for many pictures of one scene.
-WorkModel make_required_model(const WorkModelInput& question);
+WorkModel make_required_model(const WorkModelInput& input);
 
 /// Computes the models of successive pictures of one scene whose meshes stay the same. Content
 /// hashes tell which captures show an object that moved. Equal hashes stand for equal bytes only
@@ -103,7 +103,7 @@ public:
     /// Returns the model of a picture. The reference is valid until the next call. O(objects) if
     /// nothing has changed; else also mirrors * (walls + movers + their shadows). Figures are in
     /// docs/require.md.
-    const WorkModel& model(const WorkModelInput& question);
+    const WorkModel& model(const WorkModelInput& input);
 
 private:
     struct Impl;

@@ -20,15 +20,15 @@ namespace {
 /// The scene's triangles relative to the eye, with the normals of their corners.
 class PathTracer {
 public:
-    explicit PathTracer(const WorkModelInput& question)
-        : mirror_numbers_(question.now.objects.size(), 0) {
-        const scene::Scene& now = question.now;
+    explicit PathTracer(const WorkModelInput& input)
+        : mirror_numbers_(input.now.objects.size(), 0) {
+        const scene::Scene& now = input.now;
         std::uint32_t mirrors = 0;
         for (const std::size_t object : scene::mirrors(now)) mirror_numbers_[object] = ++mirrors;
         for (const dvec3& centre : scene::capture_centres(now))
-            centres_.emplace_back(centre - question.camera.eye);
+            centres_.emplace_back(centre - input.camera.eye);
         std::vector<bvh::Triangle> triangles;
-        for (std::size_t i = 0; i < now.objects.size(); ++i) add_object(question, i, triangles);
+        for (std::size_t i = 0; i < now.objects.size(); ++i) add_object(input, i, triangles);
         tree_ = bvh::build(triangles, {}, bvh::CopyScope::across_objects);
     }
 
@@ -90,11 +90,11 @@ private:
         return hit;
     }
 
-    void add_object(const WorkModelInput& question, std::size_t index,
+    void add_object(const WorkModelInput& input, std::size_t index,
                     std::vector<bvh::Triangle>& triangles) {
-        const scene::Object& object = question.now.objects[index];
-        const scene::Mesh& mesh = question.now.meshes[object.mesh];
-        const scene::Material& material = question.now.materials[object.material];
+        const scene::Object& object = input.now.objects[index];
+        const scene::Mesh& mesh = input.now.meshes[object.mesh];
+        const scene::Material& material = input.now.materials[object.material];
         const bool is_mirror = mirror_numbers_[index] > 0;
         const SurfaceReflection reflection = find_reflection(material, is_mirror);
         reflections_.push_back(reflection);
@@ -105,7 +105,7 @@ private:
         const dmat3 turns = scene::normal_matrix(object.world_from_object);
         const auto place = [&](std::uint32_t i) {
             return vec3(scene::transform_point(object.world_from_object, mesh.positions[i]) -
-                        question.camera.eye);
+                        input.camera.eye);
         };
         for (const uvec3& t : mesh.triangles) {
             triangles.push_back(
@@ -212,21 +212,21 @@ std::size_t PathCounts::on_mirrors() const {
     return std::accumulate(first.begin(), first.end(), std::size_t{0});
 }
 
-PathCounts trace_paths(const WorkModelInput& question) {
-    const scene::Camera& camera = question.camera;
-    const std::size_t mirrors = scene::mirrors(question.now).size();
-    const PathTracer stage(question);
-    const uvec2 grid = choose_ray_grid(question.size);
+PathCounts trace_paths(const WorkModelInput& input) {
+    const scene::Camera& camera = input.camera;
+    const std::size_t mirrors = scene::mirrors(input.now).size();
+    const PathTracer stage(input);
+    const uvec2 grid = choose_ray_grid(input.size);
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
     const bool is_parallel = camera.orthographic_height > 0;
     const double half = is_parallel ? camera.orthographic_height / 2
                                     : std::tan(glm::radians(camera.vertical_fov_degrees) / 2),
-                 aspect = 1.0 * question.size.x / question.size.y;
+                 aspect = 1.0 * input.size.x / input.size.y;
     PathCounts paths{.first = std::vector<std::size_t>(mirrors),
                      .reached = std::vector<std::size_t>(mirrors),
                      .hidden = std::vector<std::size_t>(mirrors)};
-    RaySums sums(paths, 1.0 * question.size.x / grid.x);
+    RaySums sums(paths, 1.0 * input.size.x / grid.x);
     for (std::uint32_t y = 0; y < grid.y; ++y) {
         for (std::uint32_t x = 0; x < grid.x; ++x, ++paths.count) {
             const dvec2 at = (dvec2(x, y) + .5) / dvec2(grid) * 2.0 - 1.0;

@@ -52,6 +52,6 @@ struct PathCounts {
 
 /// Builds a BVH over all triangles (bvh::build) and follows at most kMaxMirrorPaths rays, in
 /// floats relative to the eye. Each reflection costs one more ray, from a capture's centre.
-PathCounts trace_paths(const WorkModelInput& question);
+PathCounts trace_paths(const WorkModelInput& input);
 
 } // namespace catoptric::require

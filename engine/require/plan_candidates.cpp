@@ -33,12 +33,11 @@ std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
         path.begin());
 }
 
-bool is_mirror_flat(const WorkModelInput& question, const scene::Object& object) {
-    const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
+bool is_mirror_flat(const WorkModelInput& input, const scene::Object& object) {
+    const scene::FlatFaces flats = scene::find_flat_faces(input.now, object);
     // The errors of the candidates are those of sharp mirrors. A blurred view has a larger error.
     return !flats.is_rough &&
-           flats.flat_share(scene::flat_tolerance(question.camera, question.size)) >=
-               1 - kMaxCurvedShare;
+           flats.flat_share(scene::flat_tolerance(input.camera, input.size)) >= 1 - kMaxCurvedShare;
 }
 
 /// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
@@ -212,16 +211,15 @@ PlanCandidate make_traced_candidate(const CostInputs& known, const UnitCosts& co
 
 } // namespace
 
-CostInputs gather_cost_inputs(const WorkModelInput& question) {
-    CostInputs known{.paths = trace_paths(question)};
-    for (const std::size_t object : scene::mirrors(question.now)) {
-        known.is_flat.push_back(is_mirror_flat(question, question.now.objects[object]));
+CostInputs gather_cost_inputs(const WorkModelInput& input) {
+    CostInputs known{.paths = trace_paths(input)};
+    for (const std::size_t object : scene::mirrors(input.now)) {
+        known.is_flat.push_back(is_mirror_flat(input, input.now.objects[object]));
         known.is_glass.push_back(
-            scene::is_glass(question.now.materials[question.now.objects[object].material]));
-        known.is_rough.push_back(
-            scene::may_reflect_by_lobe(question.now, question.now.objects[object]));
+            scene::is_glass(input.now.materials[input.now.objects[object].material]));
+        known.is_rough.push_back(scene::may_reflect_by_lobe(input.now, input.now.objects[object]));
     }
-    known.picture = count_picture(question, known.paths);
+    known.picture = count_picture(input, known.paths);
     known.on_mirrors = static_cast<double>(std::max<std::size_t>(1, known.paths.on_mirrors()));
     for (const std::size_t reached : known.paths.reached)
         known.is_seen.push_back(static_cast<double>(reached) > kHardlySeenShare * known.on_mirrors);

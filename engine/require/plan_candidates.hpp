@@ -25,7 +25,7 @@ struct CostInputs {
     }
 };
 
-CostInputs gather_cost_inputs(const WorkModelInput& question);
+CostInputs gather_cost_inputs(const WorkModelInput& input);
 
 /// Returns a candidate with rasterised mirrors. Flat mirrors get `planar` if `planes` is set.
 /// Hardly seen mirrors get small captures, and all others get searches.

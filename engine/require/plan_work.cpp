@@ -52,21 +52,21 @@ bool has_varying_material(const scene::Scene& now, const scene::Object& object) 
 
 } // namespace
 
-PictureCounts count_picture(const WorkModelInput& question, const PathCounts& paths) {
-    PictureCounts picture{.pixels = 1.0 * question.size.x * question.size.y,
-                          .triangles = static_cast<double>(scene::triangle_count(question.now)),
-                          .objects = static_cast<double>(question.now.objects.size())};
-    for (const scene::PointLight& light : scene::list_lights(question.now)) {
+PictureCounts count_picture(const WorkModelInput& input, const PathCounts& paths) {
+    PictureCounts picture{.pixels = 1.0 * input.size.x * input.size.y,
+                          .triangles = static_cast<double>(scene::triangle_count(input.now)),
+                          .objects = static_cast<double>(input.now.objects.size())};
+    for (const scene::PointLight& light : scene::list_lights(input.now)) {
         const bool has_one_face = light.directional || light.axis != dvec3(0);
         picture.lights += 1;
         picture.shadow_faces += has_one_face ? 1 : kShadowMapFaces;
     }
     picture.cleared_shadow_faces = picture.lights * kShadowMapFaces;
     const bool is_textured = std::ranges::any_of(
-        question.now.materials, [](const scene::Material& m) { return bool(m.albedo_texture); });
+        input.now.materials, [](const scene::Material& m) { return bool(m.albedo_texture); });
     picture.textures = is_textured ? 1 : 0;
-    const bool varies = std::ranges::any_of(question.now.objects, [&](const scene::Object& object) {
-        return has_varying_material(question.now, object);
+    const bool varies = std::ranges::any_of(input.now.objects, [&](const scene::Object& object) {
+        return has_varying_material(input.now, object);
     });
     picture.materials = varies ? 1 : 0;
     picture.pixels_per_path = picture.pixels /

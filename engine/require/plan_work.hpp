@@ -19,7 +19,7 @@ struct PictureCounts {
     double textures = 0;        ///< look-ups in textures for each point: 1 or 0
     double pixels_per_path = 0; ///< pixels of the picture that one path stands for
 };
-PictureCounts count_picture(const WorkModelInput& question, const PathCounts& paths);
+PictureCounts count_picture(const WorkModelInput& input, const PathCounts& paths);
 
 /// Rays of a kind, and the nodes that they visit.
 struct RayWork {

@@ -62,12 +62,12 @@ void WorkModelBuilder::Impl::find_capture_needs(std::size_t mirror, bool asks_al
     if (!needs.is_captured) {
         listed[mirror] = false;
         needs.sees.clear();
-        needs.content_hashes = needs.settings = {};
+        needs.content_hashes = needs.still_hashes = {};
         needs.pieces = nullptr;
         return;
     }
     const ContentHashes::FaceHashes& faces = content_hashes.face_hashes(world, mirror);
-    needs.content_hashes = faces.content_hashes, needs.settings = faces.settings,
+    needs.content_hashes = faces.content_hashes, needs.still_hashes = faces.still_hashes,
     needs.pieces = faces.pieces;
     if (listed[mirror] && !sight.has_changed(mirror)) return;
     listed[mirror] = true;
@@ -117,30 +117,30 @@ WorkModelBuilder::~WorkModelBuilder() = default;
 WorkModelBuilder::WorkModelBuilder(WorkModelBuilder&&) noexcept = default;
 WorkModelBuilder& WorkModelBuilder::operator=(WorkModelBuilder&&) noexcept = default;
 
-const WorkModel& WorkModelBuilder::model(const WorkModelInput& question) {
+const WorkModel& WorkModelBuilder::model(const WorkModelInput& input) {
     Impl& impl = *impl_;
-    const PictureFrustum picture(question.camera, question.size);
-    impl.world.update(question.now);
+    const PictureFrustum picture(input.camera, input.size);
+    impl.world.update(input.now);
     impl.sight.update(impl.world);
-    impl.content_hashes.update(impl.world, question.shadow_edge, question.has_soft_shadows);
-    impl.find_visible_mirrors(picture, question.now);
+    impl.content_hashes.update(impl.world, input.shadow_edge, input.has_soft_shadows);
+    impl.find_visible_mirrors(picture, input.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
-        impl.find_capture_needs(i, question.asks_all);
+        impl.find_capture_needs(i, input.asks_all);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
-        impl.model.mirrors[i].faces = question.asks_all || question.whole_cubes
+        impl.model.mirrors[i].faces = input.asks_all || input.whole_cubes
                                           ? kAllFaces
                                           : impl.find_faces(picture, i);
     impl.find_shadow_maps(picture);
     set_key(impl.findings, impl.model);
     if (impl.findings.key != impl.known_key) {
         impl.known_key = impl.findings.key;
-        impl.model.left_out = find_culled_work(impl.model, impl.findings, question.now);
+        impl.model.left_out = find_culled_work(impl.model, impl.findings, input.now);
     }
     return impl.model;
 }
 
-WorkModel make_required_model(const WorkModelInput& question) {
-    return WorkModelBuilder(question.now).model(question);
+WorkModel make_required_model(const WorkModelInput& input) {
+    return WorkModelBuilder(input.now).model(input);
 }
 
 } // namespace catoptric::require

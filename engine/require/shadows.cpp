@@ -70,8 +70,8 @@ ShadowedVolume shadowed_volume(const scene::PointLight& light, const Bounds<doub
 }
 
 void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge, bool is_soft,
-                           std::vector<ShadowReceiver>& landings) {
-    landings.clear();
+                           std::vector<ShadowReceiver>& receivers) {
+    receivers.clear();
     Bounds<double> everything;
     for (const VisibilityObject& thing : world.objects()) everything.add(thing.box);
     for (const std::size_t mover : world.movers()) {
@@ -89,7 +89,7 @@ void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge, boo
                 const double room = filter_length(light, receiver, everything, edge);
                 const Bounds<double> box = intersect_boxes(expand(shade, room), receiver);
                 if (!box.empty())
-                    landings.push_back({mover, i, box, {expand(from, room), expand(to, room)}});
+                    receivers.push_back({mover, i, box, {expand(from, room), expand(to, room)}});
             }
         }
     }

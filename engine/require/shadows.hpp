@@ -38,6 +38,6 @@ struct ShadowReceiver {
 /// kShadowFilterTexels of a map whose faces have `edge` texels. With `is_soft`, the shade of a lamp
 /// is everything. O(movers * lights * objects).
 void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge, bool is_soft,
-                           std::vector<ShadowReceiver>& landings);
+                           std::vector<ShadowReceiver>& receivers);
 
 } // namespace catoptric::require

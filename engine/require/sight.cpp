@@ -106,8 +106,8 @@ void MirrorVisibility::update_row(const VisibilityScene& world, std::size_t view
 
 void MirrorVisibility::update(const VisibilityScene& world) {
     count_ = world.mirrors().size();
-    if (layout_ != world.layout_count()) {
-        layout_ = world.layout_count();
+    if (layout_ != world.layout_version()) {
+        layout_ = world.layout_version();
         rows_.assign(count_, {});
         changed_.assign(count_, true);
         places_.clear(), two_sided_ = 0;

@@ -22,8 +22,8 @@ std::string format_percent(double share) {
 }
 
 /// Returns the reason that follows the mirror's technique.
-std::string explain_choice(const WorkModelInput& question, const CostInputs& known,
-                           std::size_t mirror, const scene::Object& object, DrawMethod way) {
+std::string explain_choice(const WorkModelInput& input, const CostInputs& known, std::size_t mirror,
+                           const scene::Object& object, DrawMethod way) {
     const auto share = [&](std::size_t paths) {
         return format_percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
     };
@@ -32,10 +32,10 @@ std::string explain_choice(const WorkModelInput& question, const CostInputs& kno
                                     : share(first) + " of the picture, " + share(reached) +
                                           " with what other mirrors show of it";
     if (reached == first && first > 0) seen = share(first) + " of the picture";
-    const scene::MirrorShape::Kind kind = scene::classify_shape(question.now, object).kind;
-    const char* shape = known.is_glass[mirror]                                   ? "glass"
-                        : scene::may_reflect_by_lobe(question.now, object)       ? "rough"
-                        : question.now.materials[object.material].normal_texture ? "bumpy"
+    const scene::MirrorShape::Kind kind = scene::classify_shape(input.now, object).kind;
+    const char* shape = known.is_glass[mirror]                                ? "glass"
+                        : scene::may_reflect_by_lobe(input.now, object)       ? "rough"
+                        : input.now.materials[object.material].normal_texture ? "bumpy"
                         : known.is_flat[mirror]
                             ? kind == scene::MirrorShape::Kind::flat ? "flat" : "flat faces"
                         : kind == scene::MirrorShape::Kind::flat   ? "not quite flat"
@@ -82,14 +82,14 @@ std::string write_plan(const PlanCandidate& candidate) {
 
 } // namespace
 
-PlanSuggestion suggest_plan(const WorkModelInput& question, const UnitCosts& costs) {
-    const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
+PlanSuggestion suggest_plan(const WorkModelInput& input, const UnitCosts& costs) {
+    const std::vector<std::size_t> mirrors = scene::mirrors(input.now);
     PlanSuggestion suggestion;
     if (mirrors.empty()) {
         suggestion.plan = "hybrid";
         return suggestion;
     }
-    const CostInputs known = gather_cost_inputs(question);
+    const CostInputs known = gather_cost_inputs(input);
     std::vector<PlanCandidate>& candidates = suggestion.candidates;
     candidates.push_back(make_captured_candidate(known, costs, true));
     if (PlanCandidate searched = make_captured_candidate(known, costs, false);
@@ -102,8 +102,7 @@ PlanSuggestion suggest_plan(const WorkModelInput& question, const UnitCosts& cos
     suggestion.plan = candidates.front().plan;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         suggestion.reasons.push_back(candidates.front().techniques[i] + ": " +
-                                     explain_choice(question, known, i,
-                                                    question.now.objects[mirrors[i]],
+                                     explain_choice(input, known, i, input.now.objects[mirrors[i]],
                                                     candidates.front().ways[i]));
     }
     return suggestion;

@@ -68,7 +68,7 @@ struct PlanSuggestion {
 ///
 /// The candidate with the least PlanCandidate::score wins. Its time is the sum of estimated counts
 /// (FrameWork) times the unit costs. The same picture and costs always give the same plan.
-PlanSuggestion suggest_plan(const WorkModelInput& question,
+PlanSuggestion suggest_plan(const WorkModelInput& input,
                             const UnitCosts& costs = default_unit_costs());
 
 /// Returns the candidates with time, error and the rule of the choice, for the user. `costs`:

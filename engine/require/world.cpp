@@ -77,7 +77,7 @@ VisibilityScene::VisibilityScene(const scene::Scene& rest) {
 }
 
 void VisibilityScene::set_layout(const scene::Scene& now) {
-    ++layouts_;
+    ++layout_version_;
     materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
     materials_stamp_ = hash_materials(now.materials);
     environment_stamp_ = hash_environment(now.environment.get());

@@ -82,7 +82,8 @@ public:
     std::uint64_t static_hash() const {
         return static_hash_;
     } ///< content hash of all that is no mover, and of the lights
-    std::uint64_t layout_count() const { return layouts_; } ///< number of calls of set_layout
+    /// Returns the number of calls of set_layout.
+    std::uint64_t layout_version() const { return layout_version_; }
     bool has_changed() const {
         return has_changed_;
     } ///< whether anything changed since the previous instant
@@ -98,7 +99,8 @@ private:
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
-    std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, static_hash_ = 0, layouts_ = 0;
+    std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, static_hash_ = 0,
+                  layout_version_ = 0;
     std::vector<VisibilityObject> things_;
     std::vector<std::size_t> mirrors_, movers_;
     std::vector<Wall> walls_;

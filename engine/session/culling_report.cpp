@@ -41,9 +41,9 @@ WorkReport find_required_work(const Request& request, const require::UnitCosts& 
     WorkReport required{
         .now = scene::scene_at(request.scene, request.time), .model = {}, .suggestion = {}};
     const scene::Camera camera = scene::camera_at(request.camera, request.time);
-    const require::WorkModelInput question{required.now, camera, request.size};
-    required.model = require::make_required_model(question);
-    required.suggestion = require::suggest_plan(question, costs);
+    const require::WorkModelInput input{required.now, camera, request.size};
+    required.model = require::make_required_model(input);
+    required.suggestion = require::suggest_plan(input, costs);
     return required;
 }
 

@@ -13,7 +13,7 @@ namespace catoptric::session {
 
 /// Chosen shader variants by name: {"groups", "in order"}. Variants are builds of shaders that
 /// change no byte of a picture.
-using VariantNames = std::vector<std::pair<std::string, std::string>>;
+using NamedVariants = std::vector<std::pair<std::string, std::string>>;
 
 struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
@@ -25,7 +25,7 @@ struct EngineOptions {
     /// profile cannot be used, DeviceInfo::warning says why.
     std::filesystem::path profiles = {};
     /// Variants to use instead of a profile.
-    VariantNames variants = {};
+    NamedVariants variants = {};
     /// Folder that keeps compiled pipelines and shaders (about 128 MiB); empty: none is kept.
     std::filesystem::path cache = {};
 };
@@ -50,8 +50,8 @@ struct DeviceInfo {
     std::string missing; ///< features that the engine needs and the device lacks; empty: usable
     std::string id;      ///< vendor and device in hexadecimal: "10de-2330"
     std::string profile; ///< file name of the profile in effect; empty: none
-    VariantNames variants = {}; ///< all variants in effect
-    std::string warning;        ///< why an existing profile is not in effect; else empty
+    NamedVariants variants = {}; ///< all variants in effect
+    std::string warning;         ///< why an existing profile is not in effect; else empty
 };
 /// Returns the machine's devices. `profiles`: see EngineOptions.
 CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {});

@@ -35,7 +35,7 @@ std::size_t find_variant_index(std::string_view name, Failure failure, const std
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
-std::uint8_t find_or_add(const gpu::ShaderVariant& variant, const Json& choice, Failure failure,
+std::uint8_t find_choice(const gpu::ShaderVariant& variant, const Json& choice, Failure failure,
                          const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
@@ -130,13 +130,13 @@ gpu::VariantChoices parse_profile(const std::string& text, const std::string& fi
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
         const std::size_t i = find_variant_index(name, Failure::bad_data, place);
-        choices[i] = find_or_add(gpu::shader_variants()[i], choice, Failure::bad_data, place);
+        choices[i] = find_choice(gpu::shader_variants()[i], choice, Failure::bad_data, place);
     }
     return choices;
 }
 
-VariantNames variant_names(const gpu::VariantChoices& choices) {
-    VariantNames variants;
+NamedVariants named_variants(const gpu::VariantChoices& choices) {
+    NamedVariants variants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
         const gpu::ShaderVariant& variant = gpu::shader_variants()[i];
         variants.emplace_back(variant.name, variant.choices[choices[i]]);
@@ -144,11 +144,11 @@ VariantNames variant_names(const gpu::VariantChoices& choices) {
     return variants;
 }
 
-gpu::VariantChoices parse_variants(const VariantNames& variants, const DeviceInfo& device) {
+gpu::VariantChoices parse_variants(const NamedVariants& variants, const DeviceInfo& device) {
     gpu::VariantChoices choices = default_variants(device);
     for (const auto& [name, choice] : variants) {
         const std::size_t i = find_variant_index(name, Failure::usage, "variants");
-        choices[i] = find_or_add(gpu::shader_variants()[i], choice, Failure::usage, "variants");
+        choices[i] = find_choice(gpu::shader_variants()[i], choice, Failure::usage, "variants");
     }
     return choices;
 }
@@ -163,7 +163,7 @@ gpu::VariantChoices choose_variants(const EngineOptions& options, DeviceInfo& de
     } else if (!options.profiles.empty()) {
         choices = find_profile_choices(options.profiles, device);
     }
-    device.variants = variant_names(choices);
+    device.variants = named_variants(choices);
     return choices;
 }
 

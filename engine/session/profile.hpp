@@ -24,10 +24,10 @@ gpu::VariantChoices parse_profile(const std::string& text, const std::string& fi
                                   const DeviceInfo& device);
 
 /// Returns each variant with its choice, by name.
-VariantNames variant_names(const gpu::VariantChoices& choices);
+NamedVariants named_variants(const gpu::VariantChoices& choices);
 /// Returns the choices of named variants. Variants that are not named have their defaults. Throws
 /// `usage` for unknown names.
-gpu::VariantChoices parse_variants(const VariantNames& variants, const DeviceInfo& device);
+gpu::VariantChoices parse_variants(const NamedVariants& variants, const DeviceInfo& device);
 /// Returns the choices without a profile. Work groups are scattered on a processor and in order on
 /// any other device. Each other variant has its first choice.
 gpu::VariantChoices default_variants(const DeviceInfo& device);

@@ -58,7 +58,7 @@ void check_spec(const FrameSpec& spec) {
 /// it.
 void hash_ambient(require::WorkModel& model, double ambient) {
     for (require::MirrorRequirements& mirror : model.mirrors)
-        for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
+        for (auto* const content_hashes : {&mirror.content_hashes, &mirror.still_hashes})
             for (std::uint64_t& content_hash : *content_hashes)
                 content_hash = ContentHash().add(content_hash).add(ambient).sum();
 }
@@ -76,9 +76,9 @@ FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
 FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
 FrameSequence::~FrameSequence() = default;
 
-void Session::Impl::wait_for_copy(std::size_t of) {
-    if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
-        runner.wait_for(graph::FrameTicket{read_by[of]});
+void Session::Impl::wait_for_copy(std::size_t copy_index) {
+    if (last && read_by[copy_index] + read_by.size() > last->frame && read_by[copy_index] > 0)
+        runner.wait_for(graph::FrameTicket{read_by[copy_index]});
 }
 
 double Session::Impl::update_scene(const render::ShownInstant& wanted) {
@@ -145,15 +145,14 @@ Session::Impl::find_model(const std::vector<reflect::TechniquePlan>& plans, Rend
     if (!have_equal_plans(modelled_plans, plans)) models.clear(), modelled_plans = plans;
     std::shared_ptr<const require::WorkModel>& model = models[{work, is_ablated}];
     if (model) return model;
-    require::WorkModelInput question{shown_scene(), shown->camera, shown->size};
-    reflect::add_capture_needs(question, plans);
-    question.whole_cubes = question.whole_cubes ||
-                           is_ablated; // look-ups with removed causes read faces that a search
-                                       // would never read
+    require::WorkModelInput input{shown_scene(), shown->camera, shown->size};
+    reflect::add_capture_needs(input, plans);
+    input.whole_cubes = input.whole_cubes || is_ablated; // look-ups with removed causes read faces
+                                                         // that a search would never read
     if (work == RenderedWork::required && !requirements) requirements.emplace(scene);
     require::WorkModel made = work == RenderedWork::everything
-                                  ? require::make_everything_model(question)
-                                  : requirements->model(question);
+                                  ? require::make_everything_model(input)
+                                  : requirements->model(input);
     hash_ambient(made, shown->ambient);
     model = std::make_shared<const require::WorkModel>(std::move(made));
     return model;

@@ -31,8 +31,8 @@ measure::LightEdgeErrors split_at_light_edges(const report::Row& row,
                                               const ComparedReference& truth,
                                               const std::vector<std::uint32_t>& hits,
                                               const std::vector<vec4>& lookup,
-                                              const TrueHitFinder& oracle, double exposure) {
-    measure::Mask there = oracle.find_light_edges(lookup, capture_edges(row));
+                                              const TrueHitFinder& finder, double exposure) {
+    measure::Mask there = finder.find_light_edges(lookup, capture_edges(row));
     measure::Mask elsewhere = measure::mask_mirrors(hits);
     for (std::size_t i = 0; i < there.size(); ++i) {
         there[i] = there[i] & elsewhere[i];

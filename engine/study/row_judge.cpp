@@ -48,10 +48,10 @@ TechniqueResult RowErrorJudge::render_lookups(const std::string& text, int numbe
 }
 
 const TrueHitFinder& RowErrorJudge::hit_finder(int number) {
-    if (!oracle_ || (base_.animate && number != oracle_frame_))
-        oracle_.emplace(still_request(number));
-    oracle_frame_ = number;
-    return *oracle_;
+    if (!finder_ || (base_.animate && number != finder_frame_))
+        finder_.emplace(still_request(number));
+    finder_frame_ = number;
+    return *finder_;
 }
 
 std::vector<std::string> RowErrorJudge::fill(report::Row& row, const std::string& text,
@@ -65,11 +65,11 @@ std::vector<std::string> RowErrorJudge::fill(report::Row& row, const std::string
                                                                       : TechniqueResult();
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
-        const TrueHitFinder& oracle = hit_finder(number);
+        const TrueHitFinder& finder = hit_finder(number);
         row.lookup = std::make_shared<measure::LookupSummary>(measure::summarise_lookups(
-            oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out"))));
+            finder.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out"))));
         row.light_edges = std::make_shared<measure::LightEdgeErrors>(
-            split_at_light_edges(row, truth, hits, looked.lookup, oracle, base_.exposure));
+            split_at_light_edges(row, truth, hits, looked.lookup, finder, base_.exposure));
     }
     std::vector<std::string> warnings;
     if (looked.saturated.value_or(0) > 0)

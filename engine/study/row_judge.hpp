@@ -35,8 +35,8 @@ private:
     ReferenceCache& truths_;
     const Request& base_;
     const Watcher& watcher_;
-    std::optional<TrueHitFinder> oracle_;
-    int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
+    std::optional<TrueHitFinder> finder_;
+    int finder_frame_ = 0; ///< frame whose instant `finder_` describes
 };
 
 } // namespace catoptric::study

@@ -87,10 +87,10 @@ std::string format_metric_value(const measure::MetricValue& value) {
 
 std::string format_facts(const DiffFacts& facts) {
     std::string text;
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
-                            format_metric_value(measure::metric_value(quantity, facts.difference)),
-                            quantity.unit.empty() ? "" : " ", quantity.unit);
+    for (const measure::Metric& metric : measure::difference_metrics())
+        text += fmt::format("{:<12}  {}{}{}\n", metric.name,
+                            format_metric_value(measure::metric_value(metric, facts.difference)),
+                            metric.unit.empty() ? "" : " ", metric.unit);
     return text + format_mean("A", facts.a_mean, facts.a_clamped) +
            format_mean("B", facts.b_mean, facts.b_clamped);
 }

@@ -94,9 +94,9 @@ std::string diff_json(const DiffFacts& facts) {
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
     document["flip_source"] = facts.flip_source;
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        document[std::string(quantity.name)] = report::metric_json(
-            measure::metric_value(quantity, facts.difference));
+    for (const measure::Metric& metric : measure::difference_metrics())
+        document[std::string(metric.name)] = report::metric_json(
+            measure::metric_value(metric, facts.difference));
     document["mean"] = {{"a", vector_json(facts.a_mean.rgb)}, {"b", vector_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", vector_json(facts.a_clamped.rgb)},
                                 {"b", vector_json(facts.b_clamped.rgb)}};
@@ -233,12 +233,12 @@ std::string named_json(const std::string& kind, const std::vector<NamedListEntry
 
 std::string metrics_json() {
     Json rows = Json::array();
-    for (const measure::Metric& quantity : measure::metrics())
-        rows.push_back({{"name", quantity.name},
-                        {"summary", quantity.help},
-                        {"unit", quantity.unit},
-                        {"mask", quantity.mask},
-                        {"better", direction_json(quantity.better)}});
+    for (const measure::Metric& metric : measure::metrics())
+        rows.push_back({{"name", metric.name},
+                        {"summary", metric.help},
+                        {"unit", metric.unit},
+                        {"mask", metric.mask},
+                        {"better", direction_json(metric.better)}});
     return serialise({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 

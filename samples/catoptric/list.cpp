@@ -113,24 +113,23 @@ std::vector<NamedListEntry> built_in_scenes() {
 }
 
 /// Returns unit, pixels and better direction of a metric, as far as they exist.
-std::string describe_metric(const measure::Metric& quantity) {
+std::string describe_metric(const measure::Metric& metric) {
     std::vector<std::string> facts;
-    if (!quantity.unit.empty()) facts.emplace_back(quantity.unit);
-    if (quantity.mask == "each")
+    if (!metric.unit.empty()) facts.emplace_back(metric.unit);
+    if (metric.mask == "each")
         facts.emplace_back("over each mask and mirror");
-    else if (!quantity.mask.empty())
-        facts.push_back("over " + std::string(quantity.mask));
-    if (quantity.better != measure::BetterDirection::neither)
-        facts.emplace_back(quantity.better == measure::BetterDirection::less ? "less is better"
-                                                                             : "more is better");
+    else if (!metric.mask.empty())
+        facts.push_back("over " + std::string(metric.mask));
+    if (metric.better != measure::BetterDirection::neither)
+        facts.emplace_back(metric.better == measure::BetterDirection::less ? "less is better"
+                                                                           : "more is better");
     return facts.empty() ? "" : " (" + join_with_commas(facts) + ")";
 }
 
 std::string format_metric_list() {
     std::string text;
-    for (const measure::Metric& quantity : measure::metrics())
-        text += fmt::format("{:<32} {}{}\n", quantity.name, quantity.help,
-                            describe_metric(quantity));
+    for (const measure::Metric& metric : measure::metrics())
+        text += fmt::format("{:<32} {}{}\n", metric.name, metric.help, describe_metric(metric));
     return text;
 }
 

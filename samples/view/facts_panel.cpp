@@ -48,7 +48,7 @@ void draw_frame_times(const SceneViewer& viewer) {
                         times.frame_count() == 1 ? "frame" : "frames");
 }
 
-void draw_scene_facts(const scene::Scene& scene, PanelRequests& wants) {
+void draw_scene_facts(const scene::Scene& scene, PanelRequests& requests) {
     ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
                 scene::triangle_count(scene), scene.materials.size());
     if (ImGui::TreeNode("objects", "objects (%zu)", scene.objects.size())) {
@@ -65,7 +65,7 @@ void draw_scene_facts(const scene::Scene& scene, PanelRequests& wants) {
     if (ImGui::TreeNode("cameras", "cameras (%zu)", scene.cameras.size())) {
         for (std::size_t i = 0; i < scene.cameras.size(); ++i)
             if (ImGui::SmallButton(fmt::format("{} {}", i, scene.cameras[i].name).c_str()))
-                wants.camera = i;
+                requests.camera = i;
         ImGui::TreePop();
     }
     if (ImGui::TreeNode("gaps", "gaps (%zu)", scene.unsupported.size())) {

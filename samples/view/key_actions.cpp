@@ -104,20 +104,20 @@ void ViewLoop::perform(const KeyBinding& key) {
     }
 }
 
-void ViewLoop::perform_requests(const PanelRequests& wants) try {
-    if (wants.cuts) viewer_->discard_history();
-    if (wants.camera) select_camera(*wants.camera);
-    if (wants.copies) {
+void ViewLoop::perform_requests(const PanelRequests& requests) try {
+    if (requests.cuts) viewer_->discard_history();
+    if (requests.camera) select_camera(*requests.camera);
+    if (requests.copies) {
         window_.copy_to_clipboard(command());
         show_message("copied: " + command());
     }
-    if (wants.writes) {
+    if (requests.writes) {
         const std::string name = find_free_name("view", {".png", ".exr"});
         viewer_->write_picture(name + ".png");
         viewer_->write_picture(name + ".exr");
         show_message("written: " + name + ".png, " + name + ".exr");
     }
-    if (wants.saves_plan) {
+    if (requests.saves_plan) {
         const EditedPlan plan = resolve_plan(state_.plan, entries_);
         check(plan.typed.empty(), Failure::usage, "a plan is saved once it was drawn");
         const std::string file = find_free_name("view-plan", {".json"}).string() + ".json";

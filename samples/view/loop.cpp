@@ -139,12 +139,12 @@ void ViewLoop::recover(const Error& error) {
 
 void ViewLoop::show_frame(const UserInput& inputs) {
     audit_last_frame(inputs);
-    PanelRequests wants;
+    PanelRequests requests;
     controls_.begin(glm::max(last_, uvec2(1)), inputs);
     draw_panels(state_, {request_.scene, *viewer_, entries_, period_, audit_ ? &*audit_ : nullptr},
-                last_, wants);
+                last_, requests);
     session::WindowOverlay overlay = controls_.end();
-    perform_requests(wants);
+    perform_requests(requests);
     render(inputs, std::move(overlay));
     ++frame_;
     if (viewer_->screen().lost()) {

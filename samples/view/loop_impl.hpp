@@ -21,7 +21,7 @@ private:
     void open(SceneChangeOrigin scene);
     bool run_frame();
     void perform(const KeyBinding& key);
-    void perform_requests(const PanelRequests& wants);
+    void perform_requests(const PanelRequests& requests);
     void load(const std::string& file);
     void start_audit();
     void show_frame(const UserInput& inputs);

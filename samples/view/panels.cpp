@@ -92,14 +92,14 @@ void draw_culled_work(ViewState& state, const SceneViewer& viewer) {
     if (viewer.culled_work().empty()) ImGui::TextDisabled("nothing is left out");
 }
 
-void draw_action_buttons(PanelRequests& wants) {
-    wants.copies |= ImGui::Button("copy command");
+void draw_action_buttons(PanelRequests& requests) {
+    requests.copies |= ImGui::Button("copy command");
     ImGui::SameLine();
-    wants.writes |= ImGui::Button("screenshot");
+    requests.writes |= ImGui::Button("screenshot");
     ImGui::SameLine();
-    wants.saves_plan |= ImGui::Button("save plan");
+    requests.saves_plan |= ImGui::Button("save plan");
     ImGui::SameLine();
-    wants.cuts |= ImGui::Button("cut");
+    requests.cuts |= ImGui::Button("cut");
 }
 
 void draw_key_help(uvec2 window) {
@@ -122,7 +122,7 @@ void draw_key_help(uvec2 window) {
 
 } // namespace
 
-void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants) {
+void draw_panels(ViewState& state, const PanelData& data, uvec2 window, PanelRequests& requests) {
     if (state.shows_keys) draw_key_help(window);
     if (!state.shows_panels) return;
     ImGui::SetNextWindowPos({static_cast<float>(window.x) - kPanelWidth, 0});
@@ -130,21 +130,21 @@ void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelReq
     ImGui::Begin("Catoptric", nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoTitleBar);
-    const TimeStatistics& times = seen.viewer.times();
-    ImGui::Text("%s  %.1f ms a frame, %.1f FPS", seen.scene.name.c_str(), times.frame().median,
+    const TimeStatistics& times = data.viewer.times();
+    ImGui::Text("%s  %.1f ms a frame, %.1f FPS", data.scene.name.c_str(), times.frame().median,
                 times.fps());
-    draw_action_buttons(wants);
+    draw_action_buttons(requests);
     if (!state.said.empty()) ImGui::TextWrapped("%s", state.said.c_str());
     const auto section = [](const char* name, bool is_open = true) {
         return ImGui::CollapsingHeader(name, is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     };
     if (section("View")) draw_mode_controls(state);
-    if (section("Errors")) draw_errors(state, seen.viewer, seen.audit);
-    if (section("Plan")) draw_plan_controls(state, seen.scene, seen.entries);
-    if (section("Motion")) draw_playback_controls(state, seen.period);
-    if (section("Times")) draw_frame_times(seen.viewer);
-    if (section("Left out", false)) draw_culled_work(state, seen.viewer);
-    if (section("Scene", false)) draw_scene_facts(seen.scene, wants);
+    if (section("Errors")) draw_errors(state, data.viewer, data.audit);
+    if (section("Plan")) draw_plan_controls(state, data.scene, data.entries);
+    if (section("Motion")) draw_playback_controls(state, data.period);
+    if (section("Times")) draw_frame_times(data.viewer);
+    if (section("Left out", false)) draw_culled_work(state, data.viewer);
+    if (section("Scene", false)) draw_scene_facts(data.scene, requests);
     ImGui::End();
 }
 

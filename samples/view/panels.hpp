@@ -22,7 +22,7 @@ struct PanelRequests {
 
 /// Draws the controls at the right of the window and edits the state. Call between
 /// ImGuiControls::begin and end.
-void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants);
+void draw_panels(ViewState& state, const PanelData& data, uvec2 window, PanelRequests& requests);
 
 // Parts of draw_panels, one file each.
 /// `entries` are those of the plan as the user typed it. `scene` is the scene without changes of
@@ -30,6 +30,6 @@ void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelReq
 void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                         const std::vector<PlanEntry>& entries);
 void draw_frame_times(const SceneViewer& viewer);
-void draw_scene_facts(const scene::Scene& scene, PanelRequests& wants);
+void draw_scene_facts(const scene::Scene& scene, PanelRequests& requests);
 
 } // namespace catoptric::view

@@ -11,18 +11,18 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_choice_knob(TechniqueSettings& drawing, const session::KnobInfo& knob) {
-    const std::string value = knob_value(drawing, knob);
+void draw_choice_knob(TechniqueSettings& settings, const session::KnobInfo& knob) {
+    const std::string value = knob_value(settings, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
-        if (ImGui::Selectable(choice.c_str(), choice == value)) set(drawing, knob, choice);
+        if (ImGui::Selectable(choice.c_str(), choice == value)) set(settings, knob, choice);
     ImGui::EndCombo();
 }
 
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
-void draw_number_knob(TechniqueSettings& drawing, const session::KnobInfo& knob) {
+void draw_number_knob(TechniqueSettings& settings, const session::KnobInfo& knob) {
     constexpr int kMaxSliderRange = 64;
-    const std::string text = knob_value(drawing, knob);
+    const std::string text = knob_value(settings, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
     const int low = static_cast<int>(knob.low), high = static_cast<int>(knob.high);
     int value = is_special ? low : std::atoi(text.c_str());
@@ -32,51 +32,51 @@ void draw_number_knob(TechniqueSettings& drawing, const session::KnobInfo& knob)
     else if (high - low <= kMaxSliderRange ? ImGui::SliderInt(knob.name.c_str(), &value, low, high)
                                            : ImGui::InputInt(knob.name.c_str(), &value, 0, 0,
                                                              ImGuiInputTextFlags_EnterReturnsTrue))
-        set(drawing, knob, std::to_string(std::clamp(value, low, high)));
+        set(settings, knob, std::to_string(std::clamp(value, low, high)));
     ImGui::PopItemWidth();
     if (high - low > kMaxSliderRange && !is_special) {
         ImGui::SameLine(210);
         if (ImGui::SmallButton("/2"))
-            set(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));
+            set(settings, knob, std::to_string(std::clamp(value / 2, low, high)));
         ImGui::SameLine();
         if (ImGui::SmallButton("x2"))
-            set(drawing, knob, std::to_string(std::clamp(value * 2, low, high)));
+            set(settings, knob, std::to_string(std::clamp(value * 2, low, high)));
     }
     if (knob.special.empty()) return;
     ImGui::SameLine(275);
     bool now = is_special;
     if (ImGui::Checkbox(knob.special.c_str(), &now))
-        set(drawing, knob,
+        set(settings, knob,
             now                          ? knob.special
             : knob.value == knob.special ? std::to_string(low)
                                          : knob.value);
 }
 
-void draw_knob_controls(TechniqueSettings& drawing) {
-    const session::TechniqueInfo* technique = technique_info(drawing.technique);
+void draw_knob_controls(TechniqueSettings& settings) {
+    const session::TechniqueInfo* technique = technique_info(settings.technique);
     if (!technique) return;
     for (const session::KnobInfo& knob : technique->knobs) {
         ImGui::PushID(knob.name.c_str());
         if (knob.choices.empty())
-            draw_number_knob(drawing, knob);
+            draw_number_knob(settings, knob);
         else
-            draw_choice_knob(drawing, knob);
+            draw_choice_knob(settings, knob);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", knob.help.c_str());
         ImGui::PopID();
     }
 }
 
-void draw_technique_controls(TechniqueSettings& drawing) {
-    if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
+void draw_technique_controls(TechniqueSettings& settings) {
+    if (ImGui::BeginCombo("technique", settings.technique.c_str())) {
         for (const session::TechniqueInfo& technique : technique_infos()) {
-            if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
-                technique.name != drawing.technique)
-                drawing = {technique.name, {}};
+            if (ImGui::Selectable(technique.name.c_str(), technique.name == settings.technique) &&
+                technique.name != settings.technique)
+                settings = {technique.name, {}};
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", technique.summary.c_str());
         }
         ImGui::EndCombo();
     }
-    draw_knob_controls(drawing);
+    draw_knob_controls(settings);
 }
 
 void draw_mirror_technique(EditedPlan& plan, std::uint32_t& chosen, const scene::Scene& scene,
@@ -104,12 +104,12 @@ void draw_mirror_technique(EditedPlan& plan, std::uint32_t& chosen, const scene:
     }
     if (chosen == 0) return draw_technique_controls(plan.rest);
     const auto own = plan.own.find(chosen);
-    TechniqueSettings drawing = own == plan.own.end() ? plan.rest : own->second;
-    draw_technique_controls(drawing);
+    TechniqueSettings settings = own == plan.own.end() ? plan.rest : own->second;
+    draw_technique_controls(settings);
     if (own != plan.own.end() && ImGui::SmallButton("as all others"))
         plan.own.erase(own);
-    else if (own != plan.own.end() || !(drawing == plan.rest))
-        plan.own[chosen] = drawing;
+    else if (own != plan.own.end() || !(settings == plan.rest))
+        plan.own[chosen] = settings;
 }
 
 /// Draws a slider of the chosen mirror's roughness. It is disabled if a texture varies the

@@ -11,18 +11,18 @@ namespace {
 
 TechniqueSettings make_technique_settings(const std::string& technique,
                                           const std::vector<Setting>& settings) {
-    TechniqueSettings drawing{technique, {}};
+    TechniqueSettings made{technique, {}};
     for (const Setting& setting : settings)
-        if (setting.changed) drawing.knobs[setting.name] = setting.text;
-    return drawing;
+        if (setting.changed) made.knobs[setting.name] = setting.text;
+    return made;
 }
 
-nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& drawing) {
-    nlohmann::json settings = nlohmann::json::object();
-    for (const auto& [knob, value] : drawing.knobs) settings[knob] = value;
+nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& settings) {
+    nlohmann::json knobs = nlohmann::json::object();
+    for (const auto& [knob, value] : settings.knobs) knobs[knob] = value;
     return {{"mirror", std::move(mirror)},
-            {"technique", drawing.technique},
-            {"settings", std::move(settings)}};
+            {"technique", settings.technique},
+            {"settings", std::move(knobs)}};
 }
 
 } // namespace
@@ -38,10 +38,10 @@ const session::TechniqueInfo* technique_info(const std::string& technique) {
     return found == technique_infos().end() ? nullptr : &*found;
 }
 
-std::string technique_text(const TechniqueSettings& drawing) {
-    std::string text = drawing.technique;
+std::string technique_text(const TechniqueSettings& settings) {
+    std::string text = settings.technique;
     char before = ':';
-    for (const auto& [knob, value] : drawing.knobs) {
+    for (const auto& [knob, value] : settings.knobs) {
         text += before + knob + "=" + value;
         before = ',';
     }
@@ -51,9 +51,9 @@ std::string technique_text(const TechniqueSettings& drawing) {
 std::string technique_text(const EditedPlan& plan) {
     if (!plan.typed.empty()) return plan.typed;
     std::string text;
-    for (const auto& [mirror, drawing] : plan.own)
-        if (!(drawing == plan.rest))
-            text += std::to_string(mirror) + "=" + technique_text(drawing) + " ";
+    for (const auto& [mirror, settings] : plan.own)
+        if (!(settings == plan.rest))
+            text += std::to_string(mirror) + "=" + technique_text(settings) + " ";
     return text.empty() ? technique_text(plan.rest) : text + "*=" + technique_text(plan.rest);
 }
 
@@ -79,39 +79,40 @@ EditedPlan resolve_plan(const EditedPlan& plan, const std::vector<PlanEntry>& en
     EditedPlan made;
     made.rest = make_technique_settings(entries.front().technique, entries.front().settings);
     for (const PlanEntry& entry : entries) {
-        const TechniqueSettings drawing = make_technique_settings(entry.technique, entry.settings);
-        if (!(drawing == made.rest)) made.own[entry.mirror] = drawing;
+        const TechniqueSettings settings = make_technique_settings(entry.technique, entry.settings);
+        if (!(settings == made.rest)) made.own[entry.mirror] = settings;
     }
     return made;
 }
 
-void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::string& value) {
+void set(TechniqueSettings& settings, const session::KnobInfo& knob, const std::string& value) {
     if (value == knob.value)
-        drawing.knobs.erase(knob.name);
+        settings.knobs.erase(knob.name);
     else
-        drawing.knobs[knob.name] = value;
+        settings.knobs[knob.name] = value;
 }
 
-std::string knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob) {
-    const auto found = drawing.knobs.find(knob.name);
-    return found == drawing.knobs.end() ? knob.value : found->second;
+std::string knob_value(const TechniqueSettings& settings, const session::KnobInfo& knob) {
+    const auto found = settings.knobs.find(knob.name);
+    return found == settings.knobs.end() ? knob.value : found->second;
 }
 
 EditedPlan set_knob(EditedPlan plan, const std::string& knob, const std::string& value) {
-    const auto change = [&](TechniqueSettings& drawing) {
-        const session::TechniqueInfo* technique = technique_info(drawing.technique);
+    const auto change = [&](TechniqueSettings& settings) {
+        const session::TechniqueInfo* technique = technique_info(settings.technique);
         if (!technique) return;
         const auto known = std::ranges::find(technique->knobs, knob, &session::KnobInfo::name);
-        if (known != technique->knobs.end()) set(drawing, *known, value);
+        if (known != technique->knobs.end()) set(settings, *known, value);
     };
     change(plan.rest);
-    for (auto& [mirror, drawing] : plan.own) change(drawing);
+    for (auto& [mirror, settings] : plan.own) change(settings);
     return plan;
 }
 
 std::string plan_to_json(const EditedPlan& plan) {
     nlohmann::json rules = nlohmann::json::array();
-    for (const auto& [mirror, drawing] : plan.own) rules.push_back(make_rule_json(mirror, drawing));
+    for (const auto& [mirror, settings] : plan.own)
+        rules.push_back(make_rule_json(mirror, settings));
     rules.push_back(make_rule_json("*", plan.rest));
     return nlohmann::json{{"plan", rules}}.dump(2) + "\n";
 }

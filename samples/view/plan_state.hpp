@@ -28,7 +28,7 @@ struct EditedPlan {
 };
 
 /// Returns the technique with its knobs, such as "secant:face=64".
-std::string technique_text(const TechniqueSettings& drawing);
+std::string technique_text(const TechniqueSettings& settings);
 /// Returns the plan as session::FrameSpec::techniques takes it.
 std::string technique_text(const EditedPlan& plan);
 /// Returns the words of the options by which `catoptric render` draws the plan.
@@ -38,8 +38,8 @@ EditedPlan parse_plan(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
 EditedPlan resolve_plan(const EditedPlan& plan, const std::vector<PlanEntry>& entries);
 /// Removes the knob's entry if the value is the default.
-void set(TechniqueSettings& drawing, const session::KnobInfo& knob, const std::string& value);
-std::string knob_value(const TechniqueSettings& drawing, const session::KnobInfo& knob);
+void set(TechniqueSettings& settings, const session::KnobInfo& knob, const std::string& value);
+std::string knob_value(const TechniqueSettings& settings, const session::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
 EditedPlan set_knob(EditedPlan plan, const std::string& knob, const std::string& value);
 /// Returns the plan as JSON that --plan reads.

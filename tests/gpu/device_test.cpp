@@ -98,7 +98,7 @@ TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     // All images of 1 GiB together need more memory than the device has.
-    const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
+    const std::uint64_t count = device.largest_heap_bytes() / (std::uint64_t{1} << 30) + 1;
     for (std::uint64_t i = 0; i < count; ++i) {
         const graph::ImageHandle image = graph.add_image(
             {"huge" + std::to_string(i), TexelFormat::rgba32f, 8192, 8192});
@@ -108,7 +108,7 @@ TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
         graph.output(image);
     }
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::exhausted,
-                       {std::to_string(count << 30), std::to_string(device.memory_budget())});
+                       {std::to_string(count << 30), std::to_string(device.largest_heap_bytes())});
 }
 
 } // namespace

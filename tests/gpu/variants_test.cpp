@@ -49,7 +49,7 @@ TEST(Variants, UnusedNodeBuffersAreNotBound) {
 
 /// Returns the linear picture of a technique under some variants.
 std::vector<vec3> render_with_variants(const char* technique,
-                                       const session::VariantNames& variants) {
+                                       const session::NamedVariants& variants) {
     session::Engine engine(
         {.device = test::read_wanted_device_name(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
@@ -82,7 +82,7 @@ TEST(Variants, EachVariantRendersTheSameBytes) {
 
 /// Tests all variants together in `hybrid`, which traces only a list of pixels.
 TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
-    session::VariantNames all;
+    session::NamedVariants all;
     for (const gpu::ShaderVariant& variant : gpu::shader_variants())
         all.emplace_back(variant.name, variant.choices[1]);
     expect_same_bytes(render_with_variants("hybrid:face=16", {}),

@@ -68,10 +68,10 @@ struct SearchErrors {
 
 namespace detail {
 
-/// The reference picture from one camera, and an oracle that knows where its reflected rays end.
+/// The reference picture from one camera, and a finder of what its reflected rays meet.
 struct ReferencePicture {
     session::TechniqueResult part;
-    study::TrueHitFinder oracle;
+    study::TrueHitFinder finder;
 };
 
 inline session::Request make_view_request(const scene::Scene& scene, const SearchTestView& look,
@@ -93,7 +93,7 @@ inline SearchErrors measure_search_errors(const scene::Scene& scene, const Searc
         rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirrors(truth.part.hits)),
         rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_first_order(truth.part.hits)),
         rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
-        measure::summarise_lookups(truth.oracle.judge_lookups(part.lookup)),
+        measure::summarise_lookups(truth.finder.judge_lookups(part.lookup)),
         part.traced_fraction.value_or(0)};
     std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
               << ", first order " << error.first_order << ", mirror in mirror "

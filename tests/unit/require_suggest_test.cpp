@@ -65,9 +65,9 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
 TEST(RequireSuggest, CostsOfTheDeviceDecideBetweenRaysAndCaptures) {
     for (const char* name : {"flat", "room"}) {
         const scene::Scene now = scene::scene_at(scene::load(name), 0);
-        const WorkModelInput question{now, now.cameras[0], {96, 96}};
-        const PlanSuggestion cheap = suggest_plan(question),
-                             dear = suggest_plan(question, make_costs_with_dear_rays());
+        const WorkModelInput input{now, now.cameras[0], {96, 96}};
+        const PlanSuggestion cheap = suggest_plan(input),
+                             dear = suggest_plan(input, make_costs_with_dear_rays());
         EXPECT_THAT(cheap.plan, testing::StartsWith("raytrace")) << name;
         EXPECT_THAT(dear.plan, testing::Not(HasSubstr("raytrace"))) << name;
         std::vector<std::string> names;
@@ -160,8 +160,8 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
     test::add_quad(scene, "hidden", mirror, {-1.6, .5, -.5}, {-1.4, .5, -.5}, {-1.4, .7, -.5},
                    {-1.6, .7, -.5});
     scene.cameras[0].eye = {-1.5, .6, -2.9}, scene.cameras[0].target = {-.5, -.2, 0};
-    const WorkModelInput question{scene, scene.cameras[0], {64, 64}};
-    const PathCounts paths = trace_paths(question);
+    const WorkModelInput input{scene, scene.cameras[0], {64, 64}};
+    const PathCounts paths = trace_paths(input);
     EXPECT_EQ(paths.count, 64u * 64);
     EXPECT_GT(paths.first[2], 100u);
     EXPECT_EQ(paths.first[3], 0u);
@@ -188,14 +188,14 @@ TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
             for (int face = 0; face < 6; ++face)
                 add_mesh(scene, test::make_box_wall(face, {.8, 1, -2.1}, {1, 1.2, -1.9}),
                          test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}));
-        const WorkModelInput question{scene, scene.cameras[0], {64, 64}};
-        PathCounts paths = trace_paths(question);
+        const WorkModelInput input{scene, scene.cameras[0], {64, 64}};
+        PathCounts paths = trace_paths(input);
         const std::size_t through = paths.through[{0, 1}], hidden = paths.hidden_after[{0, 1}];
         EXPECT_EQ(paths.first[1], 0u) << "the ball is seen in the flat mirror alone";
         EXPECT_GT(through, 60u);
         EXPECT_LE(hidden, is_walled_in ? through : through / 4);
         EXPECT_GE(hidden, is_walled_in ? through : 0);
-        const PlanSuggestion suggestion = suggest_plan(question);
+        const PlanSuggestion suggestion = suggest_plan(input);
         EXPECT_EQ(best_without_tracing(suggestion).techniques.front(),
                   is_walled_in ? "hybrid" : "planar");
     }
@@ -235,13 +235,13 @@ TEST(RequireSuggest, UnseenMirrorCostsOneSmallCapture) {
         const std::size_t grey = test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}),
                           material = is_mirror ? scene.objects.back().material : grey;
         test::add_ball(scene, "outside", material, {0, 0, 9}, .5, 2);
-        const WorkModelInput question{scene, scene.cameras[0], {96, 96}};
-        const PlanSuggestion suggestion = suggest_plan(question);
+        const WorkModelInput input{scene, scene.cameras[0], {96, 96}};
+        const PlanSuggestion suggestion = suggest_plan(input);
         const PlanCandidate& best = best_without_tracing(suggestion);
         ASSERT_EQ(best.plan,
                   is_mirror ? "1=march 2,3=planar 4=reuse:face=64" : "1=march 2,3=planar");
         costs.at(is_mirror ? 1 : 0) = best.ms;
-        const PictureCounts picture = count_picture(question, trace_paths(question));
+        const PictureCounts picture = count_picture(input, trace_paths(input));
         FrameWork with(picture);
         with.add_capture(64, false, false);
         capture = predict_ms(with.work(), default_unit_costs()) -
@@ -259,9 +259,9 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const scene::Scene scene = scene::scene_at(scene::make_cornell(), 0);
         const scene::Camera camera = session::make_seeded_camera(scene, 0, seed);
-        const WorkModelInput question{scene, camera, {96, 96}};
-        const PathCounts paths = trace_paths(question);
-        const PlanSuggestion suggestion = suggest_plan(question);
+        const WorkModelInput input{scene, camera, {96, 96}};
+        const PathCounts paths = trace_paths(input);
+        const PlanSuggestion suggestion = suggest_plan(input);
         for (std::size_t i = 0; i < 4; ++i) {
             const std::string& technique = best_without_tracing(suggestion).techniques[i];
             if (technique.starts_with("reuse")) continue;

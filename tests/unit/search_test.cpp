@@ -75,9 +75,9 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
 /// Returns whether a picture of the built-in scene by the technique requires complete captures.
 bool does_technique_read_all_captures(const std::string& technique) {
     const scene::Scene room = scene::make_cornell();
-    require::WorkModelInput question{.now = room, .camera = room.cameras.front()};
-    reflect::add_capture_needs(question, {reflect::parse_plan(technique)});
-    return question.asks_all;
+    require::WorkModelInput input{.now = room, .camera = room.cameras.front()};
+    reflect::add_capture_needs(input, {reflect::parse_plan(technique)});
+    return input.asks_all;
 }
 
 TEST(Search, AddedSearchMayAskTheCapturesOfAllMirrors) {

@@ -212,9 +212,9 @@ TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
     };
     EXPECT_EQ(find("gpu_ms").unit, "ms");
     EXPECT_EQ(find("psnr").better, measure::BetterDirection::more);
-    const auto refused = [](const measure::Metric& quantity, const auto& of) {
+    const auto refused = [](const measure::Metric& metric, const auto& of) {
         try {
-            measure::metric_value(quantity, of);
+            measure::metric_value(metric, of);
         } catch (const Error& error) {
             return std::string(error.what());
         }

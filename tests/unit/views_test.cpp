@@ -176,8 +176,8 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
     made.views.resize(low.size());
     const measure::RowOrder order = measure::order_rows(made).front();
     const measure::RowMask& mirrors = measure::row_masks().front();
-    EXPECT_LT(measure::metric_over_views(made.rows[0], mirrors, *order.figure).median,
-              measure::metric_over_views(made.rows[1], mirrors, *order.figure).median);
+    EXPECT_LT(measure::metric_over_views(made.rows[0], mirrors, *order.metric).median,
+              measure::metric_over_views(made.rows[1], mirrors, *order.metric).median);
     EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
     EXPECT_TRUE(order.ties.empty());
     EXPECT_TRUE(order.reversed.empty());

@@ -54,11 +54,11 @@ public:
     /// Returns the text of the scene's facts, with all lists open.
     std::string read_scene_facts(const std::filesystem::path& folder) {
         const std::string file = (folder / "facts.txt").string();
-        PanelRequests wants;
+        PanelRequests requests;
         ImGui::NewFrame();
         ImGui::Begin("facts");
         ImGui::LogToFile(2, file.c_str());
-        draw_scene_facts(shown_scene_, wants);
+        draw_scene_facts(shown_scene_, requests);
         ImGui::LogFinish();
         ImGui::End();
         ImGui::Render();
