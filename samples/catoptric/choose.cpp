@@ -387,6 +387,7 @@ void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
         "exposure and reference",
         options->certified);
     add_limit_options(verb, *options);
+    verb.heading(kMeasuringOptions);
     add_count_options(verb, *options);
     add_sceneless_options(verb, options->common);
     verb.action([options] { return run_choose(*options); });
