@@ -136,7 +136,7 @@ def test_browser(out):
             far = browser.execute_script("return performance.getEntriesByType('resource').map(x => x.name)"
                                          ".filter(x => !x.startsWith('file:') && !x.startsWith('data:'))")
             expect(not far, f"{path.relative_to(out)}: loads {far}")
-        browser.get((out / "notes/readers.html").as_uri())
+        browser.get((out / "notes/mutants.html").as_uri())
         field = browser.find_element("css selector", ".search input")
         field.send_keys("clopper-pearson")
         time.sleep(0.3)
