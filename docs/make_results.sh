@@ -2,9 +2,9 @@
 # make_results.sh PROGRAM TESTS [PART...]: measures the results in docs/ again. Without PART, measures all
 # of these parts:
 #   rows       docs/results.md, the pictures of docs/images
-#   causes     the table of docs/causes.md
+#   causes     docs/data/causes-built-in.md
 #   precision  the tables of docs/robustness.md
-#   stress     the tables of docs/extremes.md
+#   stress     the tables of docs/data/extremes-*.md
 #   views      docs/views.md
 #   drawn      docs/drawn.md
 #   lag        the tables of docs/lag.md
@@ -90,7 +90,7 @@ make_causes() {
         proxy secant:continue=0 secant march pyramid layered hybrid parallax:distance=unorm8,range={200,1000} \
         parallax:face=512
     text=$(awk '/^## / {on = /^## Error by cause/} on && /^\|/' out/causes/report.md)
-    put causes docs/causes.md "$text"
+    put causes docs/data/causes-built-in.md "$text"
 }
 
 # Measures cost and error of rows that differ in numerical precision. `catoptric_bench rules` measures the robustness
@@ -107,14 +107,14 @@ make_precision() {
 make_stress() {
     "$program" stress -o out/stress >/dev/null
     text=$(grep '^|' out/stress/stress.md)
-    put stress docs/extremes.md "$text"
+    put stress docs/data/extremes-pictures.md "$text"
     text=$(
         echo '| file | KiB | exit code | s | peak MiB | says |'
         echo '|---|--:|--:|--:|--:|---|'
         "$tests/cli_test" --gtest_filter='Bomb*' | sed -n 's/^\[ MEASURED \] //p')
-    put bombs docs/extremes.md "$text"
+    put bombs docs/data/extremes-files.md "$text"
     text=$("$tests/gpu_test" --gtest_filter='Kernel*' | sed -n 's/^\[ MEASURED \]/-/p')
-    put kernel docs/extremes.md "$text"
+    put kernel docs/data/extremes-pictures.md "$text"
 }
 
 # The rows of the search techniques, for comparisons from three fixed cameras and three drawn views.

@@ -1,6 +1,6 @@
 // Tests of small scene files that would take gigabytes of memory or hours, or that hold false
 // numbers. Each file must be refused, or render within 1 GiB. The tests print the table "bombs" of
-// docs/extremes.md.
+// docs/data/extremes-files.md.
 #include "cli/triangle.hpp"
 #include "core/image_codec.hpp"
 
