@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/knob.hpp"
-#include "core/table.hpp"
 #include "core/text.hpp"
 #include "import/file_options.hpp"
 #include "scene/built_in.hpp"
@@ -53,15 +52,6 @@ void check_no_animation(const std::string& scene, const FileOptions& options) {
 }
 
 } // namespace
-
-RegisteredBuiltInScene::RegisteredBuiltInScene(BuiltInScene scene) {
-    table_rows<BuiltInScene>().push_back(std::move(scene));
-}
-
-const std::vector<BuiltInScene>& built_in_scenes() {
-    static const std::vector<BuiltInScene> kSortedBuiltInScenes = sorted_rows<BuiltInScene>();
-    return kSortedBuiltInScenes;
-}
 
 void check_exists(const std::string& name_or_path) {
     for (const BuiltInScene& scene : built_in_scenes())

@@ -16,7 +16,7 @@ compile() { # compile SOURCE: compiles a file; ccache skips unchanged files
 }
 export -f compile
 modules=(engine/images/images.cpp engine/draco/draco.cpp)
-sources=(engine/core/*.cpp engine/scene/*.cpp "tests/fuzz/$target.cpp")
+sources=(engine/core/*.cpp engine/scene/*.cpp engine/import/*.cpp "tests/fuzz/$target.cpp")
 {
     flock 9 # targets share the engine's object files, so only one target builds at a time
     printf '%s\0' "${modules[@]}" "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile "$1"' compile
