@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "measure/judge.hpp"
 #include "measure/statistics.hpp"
+#include "measure/trade_map.hpp"
 #include "measure/work.hpp"
 
 #include <algorithm>
@@ -60,8 +61,6 @@ double count_of(const WorkCounts& counts, WorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
 }
 
-bool is_ray_work(WorkKind kind) { return kind <= WorkKind::triangle_lanes; }
-
 /// Returns the predicted time with each unit cost at an end of its range: rays at the low end and
 /// all other work at the high end, or the other way round.
 double predict_at_bounds(const DeviceCosts& costs, const WorkCounts& counts, bool rays_are_cheap) {
@@ -72,25 +71,6 @@ double predict_at_bounds(const DeviceCosts& costs, const WorkCounts& counts, boo
         ms += count_of(counts, unit.kind) * ns * 1e-6;
     }
     return ms;
-}
-
-/// Returns the indices of the rows that no other row beats, the fastest row first. Rows without a
-/// predicted time are left out.
-std::vector<std::size_t> front_of_times(const std::vector<Row>& rows,
-                                        const std::vector<double>& ms) {
-    const auto beats = [&](std::size_t a, std::size_t b) {
-        const double flip_a = rows[a].error.flip, flip_b = rows[b].error.flip;
-        return ms[a] <= ms[b] && flip_a <= flip_b && (ms[a] < ms[b] || flip_a < flip_b);
-    };
-    std::vector<std::size_t> front;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        bool is_beaten = std::isnan(ms[i]);
-        for (std::size_t other = 0; other < rows.size() && !is_beaten; ++other)
-            is_beaten = !std::isnan(ms[other]) && beats(other, i);
-        if (!is_beaten) front.push_back(i);
-    }
-    std::ranges::stable_sort(front, {}, [&](std::size_t i) { return ms[i]; });
-    return front;
 }
 
 } // namespace
@@ -127,6 +107,23 @@ Interval prediction_error(const DeviceCosts& costs) {
             ratios.push_back(costs.fit->samples[i].ms / costs.fit->left_out_ms[i]);
     if (ratios.empty()) return {};
     return {percentile(ratios, kTail), percentile(ratios, 1 - kTail)};
+}
+
+std::vector<std::size_t> front_of_times(const std::vector<Row>& rows,
+                                        const std::vector<double>& ms) {
+    const auto beats = [&](std::size_t a, std::size_t b) {
+        const double flip_a = rows[a].error.flip, flip_b = rows[b].error.flip;
+        return ms[a] <= ms[b] && flip_a <= flip_b && (ms[a] < ms[b] || flip_a < flip_b);
+    };
+    std::vector<std::size_t> front;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        bool is_beaten = std::isnan(ms[i]);
+        for (std::size_t other = 0; other < rows.size() && !is_beaten; ++other)
+            is_beaten = !std::isnan(ms[other]) && beats(other, i);
+        if (!is_beaten) front.push_back(i);
+    }
+    std::ranges::stable_sort(front, {}, [&](std::size_t i) { return ms[i]; });
+    return front;
 }
 
 PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& rows,

@@ -73,6 +73,10 @@ struct PredictedFront {
     /// range, and the other way round. Both equal `rows` if no range is known.
     std::vector<std::size_t> rows_cheap_rays, rows_dear_rays;
 };
+/// Returns the indices of the rows that no other beats in time and FLIP, the fastest first. A row
+/// whose time is NaN is left out.
+std::vector<std::size_t> front_of_times(const std::vector<Row>& rows,
+                                        const std::vector<double>& ms);
 /// Returns the front of the rows that are candidates for ranking and whose work was counted, or
 /// whose time on the device is in `measured`, which has an entry for each row or none at all.
 PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& rows,

@@ -312,12 +312,15 @@ std::string html_page(const std::string& title, const std::string& content) {
     const std::string charts = has_chart ? std::string("<script>") + kChartLibrary +
                                                "</script>\n<script>" + kChartScript + "</script>"
                                          : std::string();
+    const bool has_map = content.find(kMapOpening) != std::string::npos;
+    const std::string map = has_map ? std::string("<script>") + kMapScript + "</script>"
+                                    : std::string();
     return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
            "<title>Reflections compared: " +
            escape_html(title) + "</title><style>" + kStyleSheet +
            (has_chart ? kChartStyleSheet : "") + "</style></head>\n<body>" + content +
-           "\n<script>" + kPageScript + "</script>" + charts + "</body></html>\n";
+           "\n<script>" + kPageScript + "</script>" + charts + map + "</body></html>\n";
 }
 
 std::string html_section(const Comparison& comparison, const EncodedPictures& encoded) {

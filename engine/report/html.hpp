@@ -35,6 +35,9 @@ extern const char* const kChartLibrary;
 extern const char* const kChartScript;
 /// Begin of the element of each chart (report/chart.hpp).
 inline constexpr std::string_view kChartOpening = "<div class=\"chart\">";
+/// The script of maps of the trade, and the begin of the element of each (study/map.cpp).
+extern const char* const kMapScript;
+inline constexpr std::string_view kMapOpening = "<div class=\"map\">";
 
 /// Returns the anchor in the page at which the pictures of a row stand. The ids of its pictures are
 /// the anchor with "-picture", "-error" and "-causes".

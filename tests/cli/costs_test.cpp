@@ -56,6 +56,27 @@ TEST_F(Costs, CountedWorkIsInAllFilesAndRepeats) {
     EXPECT_FALSE(run_comparison_with_costs({})["rows"][0].contains("work"));
 }
 
+TEST_F(Costs, MapHasTheWorkOfAFrameAtRest) {
+    const json document = run_comparison_with_costs({"--map"});
+    const json &naive = document["rows"][0], &traced = document["rows"][1];
+    const auto at_rest = [](const json& row, const char* kind) {
+        return row["work_at_rest"][0].value(kind, 0.0);
+    };
+    EXPECT_EQ(naive["work_at_rest"].size(), 1u);
+    // At rest, captures and shadow maps are kept: fewer passes and draws. Rays are traced again.
+    EXPECT_LT(at_rest(naive, "passes"), find_work_count(naive, "passes"));
+    EXPECT_LT(at_rest(naive, "draws"), find_work_count(naive, "draws"));
+    EXPECT_GT(at_rest(naive, "fragments"), 0);
+    EXPECT_EQ(at_rest(traced, "camera_rays"), find_work_count(traced, "camera_rays"));
+    EXPECT_THAT(read_output_file("out/report.md"),
+                AllOf(HasSubstr("Fastest row with FLIP of at most 0.05 by device"),
+                      HasSubstr("| GeForce RTX 2080 Ti (literature)")));
+    const std::string page = read_output_file("out/report.html");
+    EXPECT_THAT(page, AllOf(HasSubstr("<div class=\"map\">"), HasSubstr("class TradeMap")));
+    EXPECT_FALSE(run_comparison_with_costs({"--work"})["rows"][0].contains("work_at_rest"));
+    EXPECT_THAT(read_output_file("out/report.html"), testing::Not(HasSubstr("class TradeMap")));
+}
+
 TEST_F(Costs, TimeOnAnotherDeviceFollowsFromTheCounts) {
     write_input_file("card.json", kDeviceCostsJson);
     const json document = run_comparison_with_costs({"--costs", "card.json"});

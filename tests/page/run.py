@@ -12,6 +12,7 @@ import time
 
 import charts
 import lag
+import trade_map
 from browser import expect, open_page, told_values, wait
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -267,6 +268,7 @@ def main():
     browser.quit()
     test_causes(program, folder / "causes")
     lag.test_lag(program, folder / "lag")
+    trade_map.test_map(program, folder / "map")
     print("page: passed")
 
 
