@@ -1,11 +1,13 @@
 // Writes the sentence that names the best row within a budget of time or error.
 #include "measure/budget.hpp"
+#include "measure/interval.hpp"
 
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::report {
@@ -22,6 +24,8 @@ std::string format_row(const Row& row) {
     return fmt::format("{} ({} ms{}, FLIP {})", row.label, format_ms(time.median), interval,
                        format_flip(row.error));
 }
+
+bool lacks_interval(const Row* row) { return !row->time_ms().ci95.is_known(); }
 
 std::string format_rows(const std::vector<const Row*>& rows) {
     std::vector<std::string> texts;
@@ -60,6 +64,10 @@ std::string describe_budget(const Comparison& comparison) {
         rows.insert(rows.end(), answer.open.begin(), answer.open.end());
         text = fmt::format("Within {}: cannot tell which of {} rows has the least {}: {}", where,
                            rows.size(), least, format_rows(rows));
+        if (std::ranges::any_of(rows, lacks_interval))
+            text += fmt::format(". Times have no interval after {} frames: wanted --frames {} or "
+                                "more",
+                                comparison.frames, measure::kMinIntervalSamples);
     } else if (answer.nearest == nullptr) {
         return fmt::format("Within {}: no row could be judged.", where);
     } else if (!answer.undecided.empty()) {

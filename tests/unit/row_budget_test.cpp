@@ -99,6 +99,13 @@ TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
     EXPECT_EQ(report::describe_budget(made),
               "Within FLIP 0.15 on card: cannot tell which of 2 rows has the least time: middle "
               "(5.00 ms [4.50 - 5.50], FLIP 0.1000); other (5.00 ms [5.50 - 4.50], FLIP 0.1000).");
+    // With too few frames for an interval, the sentence says what to do.
+    made.frames = 2;
+    for (const std::size_t i : {2, 4})
+        made.rows[i].gpu_ms.ci95 = {}, made.rows[i].gpu_ms.rounds = {};
+    EXPECT_THAT(report::describe_budget(made),
+                testing::EndsWith("Times have no interval after 2 frames: wanted --frames 6 or "
+                                  "more."));
 }
 
 TEST(RowBudget, FailedRowsAreNeverChosen) {
