@@ -166,14 +166,6 @@ format_row_cells(const Row& row, const std::vector<MetricTableColumn>& columns, 
     return cells;
 }
 
-/// Returns the technique as the user would write it. Knobs with default values are left out.
-std::string format_technique(const PlanEntry& entry) {
-    std::vector<std::string> changed;
-    for (const Setting& setting : entry.settings)
-        if (setting.changed) changed.push_back(setting.name + "=" + setting.text);
-    return entry.technique + (changed.empty() ? "" : ":" + join_texts(changed, ","));
-}
-
 struct FeatureText {
     std::string_view id, text;
 };
@@ -229,6 +221,13 @@ constexpr FeatureText kFeatureTexts[] = {
 };
 
 } // namespace
+
+std::string format_technique(const PlanEntry& entry) {
+    std::vector<std::string> changed;
+    for (const Setting& setting : entry.settings)
+        if (setting.changed) changed.push_back(setting.name + "=" + setting.text);
+    return entry.technique + (changed.empty() ? "" : ":" + join_texts(changed, ","));
+}
 
 std::string format_metric_number(double value, const measure::MetricColumn& column, int decimals) {
     using measure::ValueFormat;

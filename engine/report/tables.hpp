@@ -59,6 +59,8 @@ std::string format_time_places(const measure::RankRange& places);
 /// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
 /// empty.
 ReportTable plan_table(const Comparison& comparison);
+/// Returns the technique as the user would write it. Knobs with default values are left out.
+std::string format_technique(const PlanEntry& entry);
 /// Returns FLIP of each mirror.
 ReportTable mirror_table(const Comparison& comparison);
 /// Returns the errors of looked-up directions, for rows that search. Without such rows the table is

@@ -42,6 +42,9 @@ struct JudgedPlan {
     measure::Interval ms_range;
     std::vector<double> errors; ///< mirror_error of each drawn view
     double largest_error = 0;   ///< largest of `errors`; without any, the error in the own view
+    /// Of `auto`: the plan that it drew in the comparison's own view, such as "raytrace" or
+    /// "1=planar 2,3=secant". Empty for other plans.
+    std::string drawn = {};
     /// Why it was not chosen, or "chosen", or that it comes nearest: a clause.
     std::string why = {};
 };

@@ -41,11 +41,13 @@ Json plan_rules_json(const std::string& text) {
 }
 
 Json judged_plan_json(const JudgedPlan& plan) {
-    return {{"technique", plan.text},
-            {"ms", report::number_json(plan.ms)},
-            {"ms_range", report::interval_json(plan.ms_range)},
-            {"largest_error", report::number_json(plan.largest_error)},
-            {"errors", report::numbers_json(plan.errors)}};
+    Json json{{"technique", plan.text},
+              {"ms", report::number_json(plan.ms)},
+              {"ms_range", report::interval_json(plan.ms_range)},
+              {"largest_error", report::number_json(plan.largest_error)},
+              {"errors", report::numbers_json(plan.errors)}};
+    if (!plan.drawn.empty()) json["drawn"] = plan.drawn;
+    return json;
 }
 
 Json candidate_json(const JudgedPlan& plan) {

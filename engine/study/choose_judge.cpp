@@ -7,6 +7,8 @@
 #include "measure/judge.hpp"
 #include "measure/statistics.hpp"
 #include "report/costs.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
 #include "study/reference_cache.hpp"
 
 #include <fmt/format.h>
@@ -99,6 +101,23 @@ double error_value(ErrorQuantity quantity, const measure::Difference& error) {
                                            : measure::rmse_bound(error);
 }
 
+std::string describe_drawn_plan(const std::vector<PlanEntry>& entries) {
+    std::vector<std::pair<std::string, std::string>> parts; // technique, numbers of its mirrors
+    for (const PlanEntry& entry : entries) {
+        const std::string technique = report::format_technique(entry);
+        const auto known = std::ranges::find(parts, technique,
+                                             [](auto& part) { return part.first; });
+        if (known == parts.end())
+            parts.emplace_back(technique, std::to_string(entry.mirror));
+        else
+            known->second += "," + std::to_string(entry.mirror);
+    }
+    if (parts.size() == 1) return parts.front().first;
+    std::vector<std::string> texts;
+    for (const auto& [technique, mirrors] : parts) texts.push_back(mirrors + "=" + technique);
+    return report::join_texts(texts, " ");
+}
+
 std::vector<JudgedPlan> judged_plans(const ResolvedRequest& request,
                                      const measure::Comparison& comparison,
                                      const std::vector<std::string>& texts) {
@@ -116,6 +135,7 @@ std::vector<JudgedPlan> judged_plans(const ResolvedRequest& request,
             plan.ms = predicted[i].ms;
             plan.ms_range = find_predicted_range(*request.device_costs, predicted[i]);
         }
+        if (plan.text == "auto") plan.drawn = describe_drawn_plan(row.plan);
         for (const measure::Errors& errors : row.views)
             plan.errors.push_back(mirror_error(request.quantity, errors.error));
         plan.largest_error = plan.errors.empty() ? error_value(request.quantity, row.error)

@@ -41,6 +41,8 @@ int count_proof_views(const ChooseRequest& request);
 /// Returns the seed of the training views after the first kFirstTrainingViews.
 std::uint64_t further_training_seed(const ChooseRequest& request);
 
+/// Returns the plan of these mirrors as a text for --plan, or the technique that draws them all.
+std::string describe_drawn_plan(const std::vector<PlanEntry>& entries);
 /// Returns the plans of a comparison's rows, with their times and their errors in drawn views.
 std::vector<JudgedPlan> judged_plans(const ResolvedRequest& request,
                                      const measure::Comparison& comparison,

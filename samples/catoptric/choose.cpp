@@ -162,7 +162,13 @@ std::string describe_choice(const study::ChooseRequest& request, const study::Pl
     for (const study::PlanProof& proof : choice.proofs)
         text += study::describe_verdict(request, proof) + ": " +
                 study::describe_proof(request, proof) + "\n";
-    if (choice.chosen) return text + "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n";
+    if (choice.chosen) {
+        const study::JudgedPlan& plan = choice.proofs[*choice.chosen].plan;
+        const std::string drawn = plan.drawn.empty()
+                                      ? ""
+                                      : ", which drew " + plan.drawn + " in the request's own view";
+        return text + "chosen: " + plan.text + drawn + "\n";
+    }
     return text + "no plan: " + choice.failure + "\nnearest: " +
            study::describe_nearest_proof(request, choice.proofs.at(choice.nearest.value())) + "\n";
 }

@@ -174,6 +174,25 @@ TEST_F(Choose, ChosenAutoIsDrawnFromItsFile) {
     }
 }
 
+/// The answer `auto` says what it drew, and that plan is one that --technique takes.
+TEST_F(Choose, ChosenAutoSaysWhatItDrew) {
+    const test::ProcessResult ended = run_choose(
+        {"-o", "plan.json", "--max-flip", "0.5", "--techniques", "auto"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    const json plan = read_plan();
+    const std::string drawn = plan["proofs"][0]["drawn"];
+    EXPECT_THAT(ended.out,
+                HasSubstr("chosen: auto, which drew " + drawn + " in the request's own view"));
+    const auto draw = [&](const std::string& technique) {
+        EXPECT_EQ(
+            run_cli({"render", "flat", "--size", "32x32", "--technique", technique, "-o", "x.exr"})
+                .exit_code,
+            0);
+        return read_file_at_path(folder / "x.exr");
+    };
+    EXPECT_EQ(draw(drawn), draw("auto")) << drawn;
+}
+
 TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
     const auto certify = [&](const Words& more) {
         Words words{"--certify", "plan.json"};
