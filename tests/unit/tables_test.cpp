@@ -176,7 +176,7 @@ TEST(Tables, RegisteredStudyIsFoundAndAskedForItsReference) {
     std::vector<std::string_view> names;
     for (const study::Study& study : study::studies()) names.push_back(study.name);
     EXPECT_THAT(names, testing::ElementsAre("path-distance", "views", "causes", "lag", "row-times",
-                                            "work", "costs", "truth-causes", "test-only"));
+                                            "work", "costs", "map", "truth-causes", "test-only"));
     EXPECT_NO_THROW(study::check_study({"test-only", 2}, study::kReference));
     EXPECT_THROW(study::check_study({"test-only", 2}, "raytrace"), Error);
     try {

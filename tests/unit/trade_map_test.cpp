@@ -29,7 +29,7 @@ WorkCounts map_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_t
 
 Row map_row(double flip) {
     Row row;
-    row.error.flip = flip;
+    row.error.flip = row.error.rmse = flip;
     row.error.pixels = 1;
     return row;
 }
