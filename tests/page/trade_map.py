@@ -17,7 +17,7 @@ RAYS = {"camera_rays", "mirror_rays", "shadow_rays", "nodes", "triangles", "node
 RASTER = {"shadow_lookups", "colour_lookups", "distance_lookups", "colour_lanes", "distance_lanes", "search_lanes",
           "vertices", "primitives", "fragments", "draws"}
 FIXED = {"vertices", "primitives", "frames", "passes", "draws", "dispatches"}
-ROWS = ["reuse:face=32", "secant:face=32", "planar:face=32", "raytrace:depth=2", "hybrid:face=32"]
+ROWS = ["reuse:face=32", "secant:face=32", "planar", "raytrace:depth=2", "hybrid:face=32"]
 
 
 def predict(row, costs, point):
