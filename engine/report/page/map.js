@@ -9,7 +9,7 @@ const kPalette = ["#4269d0", "#efb118", "#3ca951", "#ff725c", "#a463f2", "#97bbf
 const kNone = "#777";
 
 const format_ms = x => !Number.isFinite(x) ? "–" : x >= 100 ? x.toFixed(0) : String(Number(x.toPrecision(3)));
-const format_factor = x => x === Infinity ? "any factor" : String(Number(x.toPrecision(2))) + "×";
+const format_factor = x => x === Infinity ? "over 1000×" : String(Number(x.toPrecision(2))) + "×";
 
 function make(tag, properties = {}, ...children) {
     const element = document.createElement(tag);
