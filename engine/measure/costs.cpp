@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/judge.hpp"
+#include "measure/least_squares.hpp"
 #include "measure/statistics.hpp"
 #include "measure/trade_map.hpp"
 #include "measure/work.hpp"
@@ -9,68 +10,38 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace catoptric::measure {
 
 namespace {
 
-using KindValues = std::vector<double>; // one number for each fitted kind
-
-/// Normal equations of the relative errors: minimise w' G w - 2 h' w over w >= 0.
-struct NormalEquations {
-    std::vector<KindValues> matrix;
-    KindValues right;
-
-    explicit NormalEquations(std::size_t kinds) : matrix(kinds, KindValues(kinds)), right(kinds) {}
-    /// Adds a sample `sign` times. `row` has the sample's counts divided by its time.
-    void add_sample(const KindValues& row, double sign) {
-        for (std::size_t i = 0; i < right.size(); ++i) {
-            right[i] += sign * row[i];
-            for (std::size_t j = 0; j < right.size(); ++j) matrix[i][j] += sign * row[i] * row[j];
-        }
-    }
-};
-
-/// Solves for the unit costs by coordinate descent. Each step sets one cost to its best value that
-/// is not negative.
-KindValues solve_nonnegative(const NormalEquations& equations) {
-    constexpr int kMaxSolverSweeps = 200'000;
-    constexpr double kFitConvergenceLimit = 1e-12;
-    const std::size_t count = equations.right.size();
-    KindValues found(count);
-    for (int sweep = 0; sweep < kMaxSolverSweeps; ++sweep) {
-        double change = 0, size = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double diagonal = equations.matrix[i][i];
-            if (!(diagonal > 0)) continue; // no sample has this kind of work
-            double rest = equations.right[i];
-            for (std::size_t j = 0; j < count; ++j)
-                if (j != i) rest -= equations.matrix[i][j] * found[j];
-            const double next = std::max(0.0, rest / diagonal);
-            // The change of a cost is weighted by its effect on the predicted times.
-            change = std::max(change, std::abs(next - found[i]) * std::sqrt(diagonal));
-            size = std::max(size, next * std::sqrt(diagonal));
-            found[i] = next;
-        }
-        if (change <= kFitConvergenceLimit * size) break;
-    }
-    return found;
-}
-
 double count_of(const WorkCounts& counts, WorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
 }
 
-/// Returns the predicted time with each unit cost at an end of its range: rays at the low end and
-/// all other work at the high end, or the other way round.
-double predict_at_bounds(const DeviceCosts& costs, const WorkCounts& counts, bool rays_are_cheap) {
-    double ms = 0;
-    for (const UnitCost& unit : costs.units) {
-        const bool low = is_ray_work(unit.kind) == rays_are_cheap;
-        const double ns = !unit.range.is_known() ? unit.ns : low ? unit.range.low : unit.range.high;
-        ms += count_of(counts, unit.kind) * ns * 1e-6;
+/// Returns the counts of each sample, divided by its time: the factors of equations of relative
+/// error. Throws `usage` for a time that is not positive.
+std::vector<std::vector<double>> relative_rows(const std::vector<TimedWork>& samples,
+                                               std::span<const WorkKind> kinds) {
+    std::vector<std::vector<double>> rows;
+    for (const TimedWork& sample : samples) {
+        check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
+              "': wanted a time above 0 ms, found ", sample.ms);
+        std::vector<double>& row = rows.emplace_back();
+        for (const WorkKind kind : kinds) row.push_back(count_of(sample.counts, kind) / sample.ms);
     }
-    return ms;
+    return rows;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+/// Returns the time of a sample, as a multiple of the measured one, by a fit to all others.
+double predict_left_out(LeastSquares equations, std::span<const double> row) {
+    equations.add(row, 1, -1);
+    return dot(equations.solve(), row);
 }
 
 } // namespace
@@ -97,6 +68,20 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
         time.high += millions * (unit.range.is_known() ? unit.range.high : unit.ns);
     }
     return time;
+}
+
+TimesByRays predict_by_rays(const DeviceCosts& costs,
+                            const std::function<double(WorkKind)>& units_of) {
+    TimesByRays times;
+    for (const UnitCost& unit : costs.units) {
+        const double millions = units_of(unit.kind) * 1e-6; // ns to ms
+        const Interval range = unit.range.is_known() ? unit.range : Interval{unit.ns, unit.ns};
+        const bool is_ray = is_ray_work(unit.kind);
+        times.ms += millions * unit.ns;
+        times.cheap += millions * (is_ray ? range.low : range.high);
+        times.dear += millions * (is_ray ? range.high : range.low);
+    }
+    return times;
 }
 
 Interval prediction_error(const DeviceCosts& costs) {
@@ -146,8 +131,10 @@ PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& r
                      : PredictedTime{kUnknownFrameTime, kUnknownFrameTime, kUnknownFrameTime});
         const bool takes_part = is_known && is_rankable(row);
         ms.push_back(takes_part ? front.times.back().ms : kUnknownFrameTime);
-        cheap.push_back(takes_part ? predict_at_bounds(costs, counts, true) : kUnknownFrameTime);
-        dear.push_back(takes_part ? predict_at_bounds(costs, counts, false) : kUnknownFrameTime);
+        const TimesByRays times = predict_by_rays(
+            costs, [&](WorkKind kind) { return count_of(counts, kind); });
+        cheap.push_back(takes_part ? times.cheap : kUnknownFrameTime);
+        dear.push_back(takes_part ? times.dear : kUnknownFrameTime);
     }
     front.rows = front_of_times(rows, ms);
     front.rows_cheap_rays = front_of_times(rows, cheap);
@@ -160,29 +147,16 @@ DeviceCosts fit_costs(std::string device, std::vector<TimedWork> samples,
     check(samples.size() >= kinds.size() && !kinds.empty(), Failure::usage, "fitting the costs of ",
           kinds.size(), " kinds of work: wanted at least as many measured rows, found ",
           samples.size());
-    std::vector<KindValues> rows;
-    NormalEquations all(kinds.size());
-    for (const TimedWork& sample : samples) {
-        check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
-              "': wanted a time above 0 ms, found ", sample.ms);
-        KindValues& row = rows.emplace_back();
-        for (const WorkKind kind : kinds) row.push_back(count_of(sample.counts, kind) / sample.ms);
-        all.add_sample(row, 1);
-    }
+    const std::vector<std::vector<double>> rows = relative_rows(samples, kinds);
+    LeastSquares all(kinds.size());
+    for (const std::vector<double>& row : rows) all.add(row);
     DeviceCosts costs{.device = std::move(device), .origin = CostOrigin::fitted};
-    const KindValues found = solve_nonnegative(all);
+    const std::vector<double> found = all.solve();
     for (std::size_t i = 0; i < kinds.size(); ++i)
         if (found[i] > 0) costs.units.push_back({kinds[i], found[i] * 1e6, {}, "fit"});
-    FitQuality& fit = costs.fit.emplace();
-    for (const KindValues& row : rows) {
-        NormalEquations others = all;
-        others.add_sample(row, -1);
-        const KindValues without = solve_nonnegative(others);
-        double relative = 0;
-        for (std::size_t k = 0; k < row.size(); ++k) relative += without[k] * row[k];
-        fit.left_out_ms.push_back(relative * samples[fit.left_out_ms.size()].ms);
-    }
-    fit.samples = std::move(samples);
+    costs.fit = {std::move(samples), {}};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        costs.fit->left_out_ms.push_back(predict_left_out(all, rows[i]) * costs.fit->samples[i].ms);
     return costs;
 }
 

@@ -3,6 +3,7 @@
 #include "core/work.hpp"
 #include "measure/comparison.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,6 +60,13 @@ struct PredictedTime {
     double ms = 0, low = 0, high = 0;
 };
 PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts);
+/// Times of the same work if rays are cheap and all other work is dear, by the ends of the ranges
+/// of the costs, and the other way round, milliseconds.
+struct TimesByRays {
+    double ms = 0, cheap = 0, dear = 0;
+};
+TimesByRays predict_by_rays(const DeviceCosts& costs,
+                            const std::function<double(WorkKind)>& units_of);
 /// Returns the interval of measured by predicted time in which 90 % of the rows of the fit lie.
 /// Unknown without a fit.
 Interval prediction_error(const DeviceCosts& costs);
@@ -83,11 +91,9 @@ PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& r
                              const std::vector<std::optional<PredictedTime>>& measured = {});
 
 /// Fits the cost of each kind in `kinds` so that the sum of the squared relative errors is least
-/// and no cost is negative (non-negative least squares by coordinate descent: Franc, Hlavac,
-/// Navara, Sequential Coordinate-Wise Algorithm for the Non-negative Least Squares Problem, 2005).
-/// Kinds with a cost of 0 are left out of the result. Fits once more without each sample, for
-/// FitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time
-/// that is not positive. Costs O(samples kinds^2) and little more.
+/// and no cost is negative. Kinds with a cost of 0 are left out of the result. Fits once more
+/// without each sample, for FitQuality::left_out_ms. Throws `usage` for fewer samples than kinds,
+/// and for a time that is not positive. Costs O(samples kinds^2) and little more.
 DeviceCosts fit_costs(std::string device, std::vector<TimedWork> samples,
                       std::span<const WorkKind> kinds);
 

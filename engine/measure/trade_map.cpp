@@ -44,18 +44,10 @@ bool grows_with_pixels(WorkKind kind) {
 }
 
 PredictedTime map_time(const DeviceCosts& costs, const MapWork& work, const MapPoint& point) {
-    double ms = 0, cheap_rays = 0, dear_rays = 0;
-    for (const UnitCost& unit : costs.units) {
-        const double millions = mean_count(work, unit.kind, point) * 1e-6 * // ns to ms
-                                (is_raster_work(unit.kind) ? point.raster : 1);
-        const double low = unit.range.is_known() ? unit.range.low : unit.ns;
-        const double high = unit.range.is_known() ? unit.range.high : unit.ns;
-        const bool is_ray = is_ray_work(unit.kind);
-        ms += millions * unit.ns;
-        cheap_rays += millions * (is_ray ? low : high);
-        dear_rays += millions * (is_ray ? high : low);
-    }
-    return {ms, std::min({ms, cheap_rays, dear_rays}), std::max({ms, cheap_rays, dear_rays})};
+    const auto [ms, cheap, dear] = predict_by_rays(costs, [&](WorkKind kind) {
+        return mean_count(work, kind, point) * (is_raster_work(kind) ? point.raster : 1);
+    });
+    return {ms, std::min({ms, cheap, dear}), std::max({ms, cheap, dear})};
 }
 
 std::vector<std::size_t> map_front(const DeviceCosts& costs, const std::vector<Row>& rows,
