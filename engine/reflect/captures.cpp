@@ -33,6 +33,7 @@ SharedKnobs read_knobs(const KnobSettings& settings) {
     knobs.shadow.edge = find_number(settings, kShadowMap).value_or(1);
     knobs.shadow.is_soft = is_second_choice(settings, kSoftShadow);
     knobs.capture.face = find_number(settings, kFace);
+    knobs.capture.every = find_number(settings, kEvery).value_or(1);
     knobs.capture.chooses_face = settings.has(kFace) && !knobs.capture.face;
     knobs.capture.stores_floats = is_second_choice(settings, kColour);
     if (settings.has(kDistance))
@@ -75,6 +76,7 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
               inputs.scene.device().info().name, "' cannot; take colour=half");
         options.colour = TexelFormat::rgba32f;
     }
+    options.every = knobs.capture.every;
     if (!knobs.capture.distance) return options;
     options.distance = knobs.capture.distance;
     if (options.distance == TexelFormat::r8_unorm)

@@ -23,6 +23,14 @@ inline constexpr Knob kFace{
     .high = 16384,
     .value = 256,
     .special = "auto"};
+inline constexpr Knob kEvery{
+    .name = "every",
+    .help =
+        "captures are drawn again at most in each N-th frame, in turns; a reflection is then up "
+        "to N - 1 frames old",
+    .low = 1,
+    .high = 64,
+    .value = 1};
 inline constexpr Knob kOthersFace{
     .name = "capture",
     .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
@@ -198,6 +206,7 @@ inline constexpr Knob kProbes{
 
 /// Knobs that every search has, in lists after the search's own knobs.
 inline constexpr std::array kSearchKnobs{kFace,
+                                         kEvery,
                                          kColour,
                                          kDistance,
                                          kRange,

@@ -14,9 +14,23 @@ constexpr Knob kWithout{.name = "without",
                         .help = "rule of robustness to leave out, to measure its cost",
                         .high = 2,
                         .choices = kWithoutChoices};
-constexpr Knob kKnobs[] = {kFace,   kColour,    kDistance,   kRange,    kRough,  kLaw,
-                           kTaps,   kRays,      kRefract,    kIndirect, kProbes, kAmbientOcclusion,
-                           kShadow, kShadowMap, kSoftShadow, kWithout};
+constexpr Knob kKnobs[] = {kFace,
+                           kEvery,
+                           kColour,
+                           kDistance,
+                           kRange,
+                           kRough,
+                           kLaw,
+                           kTaps,
+                           kRays,
+                           kRefract,
+                           kIndirect,
+                           kProbes,
+                           kAmbientOcclusion,
+                           kShadow,
+                           kShadowMap,
+                           kSoftShadow,
+                           kWithout};
 
 render::CaptureOptions make_parallax_options(const render::FrameInputs& inputs,
                                              const KnobSettings& settings) {

@@ -7,9 +7,9 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kShader = "reflect/naive.frag";
-constexpr Knob kKnobs[] = {
-    kFace,   kColour,           kRough,  kTaps,      kRays,      kRefract, kIndirect,
-    kProbes, kAmbientOcclusion, kShadow, kShadowMap, kSoftShadow};
+constexpr Knob kKnobs[] = {kFace,   kEvery,     kColour,    kRough,  kTaps,
+                           kRays,   kRefract,   kIndirect,  kProbes, kAmbientOcclusion,
+                           kShadow, kShadowMap, kSoftShadow};
 
 constexpr std::string_view kDefaultRows[] = {"reuse"};
 

@@ -24,6 +24,7 @@ struct CaptureKnobs {
     /// Edge of a face in texels; none: `auto`, or the technique has no such knob.
     std::optional<std::uint32_t> face;
     bool chooses_face = false;           ///< face=auto
+    std::uint32_t every = 1;             ///< frames from one drawing to the next
     bool stores_floats = false;          ///< colour=float
     std::optional<TexelFormat> distance; ///< none: the technique has no such knob
     double range = 0;                    ///< largest distance for `distance=unorm8`, in world units

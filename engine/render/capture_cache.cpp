@@ -19,6 +19,7 @@ constexpr std::array<const char*, 3> kSetNames{"a", "b", "aside"};
 /// stay.
 std::vector<CaptureOptions> remove_unneeded(const std::vector<CaptureOptions>& options,
                                             const require::WorkModel& model) {
+    if (model.is_everything) return options;
     std::vector<CaptureOptions> required = options;
     for (std::size_t mirror = 0; mirror < options.size(); ++mirror)
         if (!model.mirrors[mirror].is_captured) required[mirror].face = 0;
@@ -136,16 +137,20 @@ CaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& inputs
     return feeding;
 }
 
+bool take_turns(const std::vector<CaptureOptions>& options) {
+    return std::ranges::any_of(options, [](const CaptureOptions& one) { return one.every > 1; });
+}
+
 bool must_read_comparisons(const CaptureCache& captures, std::uint32_t most) {
-    return captures.differing && (most > 0 || captures.is_late);
+    return captures.differing && (most > 0 || captures.is_late || take_turns(captures.options));
 }
 
 namespace {
 
-/// Decides what the frame does with each capture. Returns whether some capture was there in the
-/// frame before.
+/// Decides what the frame does with each capture. `takes_turns`: captures wait for their turn
+/// (CaptureOptions::every). Returns whether some capture was there in the frame before.
 bool decide_redraws(const CaptureDecider& decider, const std::vector<CaptureOptions>& layout,
-                    std::uint32_t most, CaptureUpdate& feeding) {
+                    std::uint32_t most, bool takes_turns, CaptureUpdate& feeding) {
     CaptureCache& kept = *feeding.kept;
     const auto mirrors = static_cast<std::uint32_t>(layout.size());
     bool any_there = false;
@@ -155,8 +160,11 @@ bool decide_redraws(const CaptureDecider& decider, const std::vector<CaptureOpti
         any_there = any_there || feeding.was_there.back();
         if (layout[mirror].face == 0) continue;
         decider.decide(mirror, feeding.work, kept);
-        if (most > 0 && kept.changes[mirror] != CaptureChange::none &&
-            decider.can_wait(mirror, feeding.work))
+        if (kept.changes[mirror] == CaptureChange::none || !decider.can_wait(mirror, feeding.work))
+            continue;
+        if (takes_turns && !decider.has_turn(mirror))
+            decider.postpone(mirror, feeding.work, kept);
+        else if (most > 0)
             asking.push_back({mirror, decider.frames_waited(mirror)});
     }
     for (const std::uint32_t mirror : choose_postponed(std::move(asking), most))
@@ -198,9 +206,9 @@ CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& i
     kept.options = layout;
     kept.faces.resize(mirrors), kept.changes.resize(mirrors), kept.saw.resize(mirrors);
     kept.waited.resize(mirrors);
-    const bool any_there = decide_redraws(
-        CaptureDecider(inputs.scene, model, layout, known, comparisons != nullptr), layout, most,
-        feeding);
+    const bool any_there = decide_redraws(CaptureDecider(inputs.scene, model, inputs.facts.number,
+                                                         layout, known, comparisons != nullptr),
+                                          layout, most, comparisons != nullptr, feeding);
     if (known && have_equal_layouts(layout, known->options) && keeps_all(feeding.work)) {
         kept.set = known->set;
         feeding.captures = declare(layout, kept);

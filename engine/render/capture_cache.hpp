@@ -150,11 +150,15 @@ struct PreviousCaptures {
     std::uint32_t most = 0;
 };
 
+/// Returns whether some capture is not drawn again in each frame (CaptureOptions::every).
+bool take_turns(const std::vector<CaptureOptions>& options);
+
 /// Returns whether the next frame must first read the comparisons of this frame. The order of
-/// captures under a budget depends on their results.
+/// captures under a budget or in turns depends on their results.
 bool must_read_comparisons(const CaptureCache& captures, std::uint32_t most);
 
-/// Decides which captures must be drawn, given those of the frame before. Declares the arrays, and
+/// Decides which captures must be drawn, given those of the frame before. A model that culls
+/// nothing asks for all captures whose turn it is. Declares the arrays, and
 /// the pass that copies unchanged faces into the set that the frame fills. Throws `internal` if
 /// must_read_comparisons holds and `read_comparisons` was not called. Costs
 /// O(mirrors seen by mirrors).

@@ -16,9 +16,10 @@ constexpr std::uint64_t kClearedDrawing = 1; // `drawing` of a face that holds n
 } // namespace
 
 CaptureDecider::CaptureDecider(const GpuScene& scene, const require::WorkModel& model,
-                               const std::vector<CaptureOptions>& layout,
+                               std::uint64_t number, const std::vector<CaptureOptions>& layout,
                                const CaptureCache* before, bool compares)
-    : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
+    : scene_(scene), model_(model), number_(number), layout_(layout), before_(before),
+      compares_(compares) {
     if (before) changed_ = find_changed(*before);
     ContentHash lit;
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
@@ -55,6 +56,10 @@ void CaptureDecider::decide(std::uint32_t mirror, CaptureWork& work, CaptureCach
     kept.changes[mirror] = change;
 }
 
+bool CaptureDecider::has_turn(std::uint32_t mirror) const {
+    return (number_ + mirror) % std::max(layout_[mirror].every, 1u) == 0;
+}
+
 bool CaptureDecider::can_wait(std::uint32_t mirror, const CaptureWork& work) const {
     if (!had_same_layout(mirror)) return false;
     for (std::uint32_t face = 0; face < 6; ++face)
@@ -79,6 +84,7 @@ std::vector<std::uint32_t> CaptureDecider::visible_mirrors(std::uint32_t mirror,
                                                            std::uint32_t face) const {
     const shared::View& view = scene_.list_views()[scene_.capture_view(mirror) + face];
     std::vector<std::uint32_t> seen;
+    if (model_.is_everything) return seen;
     for (const std::uint32_t other : model_.mirrors[mirror].sees)
         if (layout_[other].face > 0 &&
             may_show(view, scene_.draw_ranges()[scene_.mirror_object(other)]))
@@ -88,6 +94,13 @@ std::vector<std::uint32_t> CaptureDecider::visible_mirrors(std::uint32_t mirror,
 
 FaceUpdate CaptureDecider::decide(std::uint32_t mirror, std::uint32_t face,
                                   const std::vector<std::uint32_t>& seen, CachedFace& now) const {
+    if (model_.is_everything) { // drawn whatever it shows, so each drawing has a number of its own
+        ContentHash drawing;
+        drawing.add(number_), drawing.add(mirror), drawing.add(face);
+        now = {.content_hash = std::max<std::uint64_t>(drawing.sum(), 1),
+               .drawing = std::max<std::uint64_t>(drawing.sum(), kClearedDrawing + 1)};
+        return FaceUpdate::draw;
+    }
     const require::MirrorRequirements& needs = model_.mirrors[mirror];
     ContentHash shown =
         ContentHash(shadow_views_).add(scene_.list_views()[scene_.capture_view(mirror) + face]);

@@ -12,10 +12,10 @@ namespace catoptric::render {
 /// mirror's capture.
 class CaptureDecider {
 public:
-    /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
-    /// there are none. All references must outlive this object. `compares`: captures that may have
-    /// changed are compared.
-    CaptureDecider(const GpuScene& scene, const require::WorkModel& model,
+    /// `number`: of the frame in its sequence. `layout`: options of this frame's captures.
+    /// `before`: captures of the frame before; null: there are none. All references must outlive
+    /// this object. `compares`: captures that may have changed are compared.
+    CaptureDecider(const GpuScene& scene, const require::WorkModel& model, std::uint64_t number,
                    const std::vector<CaptureOptions>& layout, const CaptureCache* before,
                    bool compares);
 
@@ -27,6 +27,9 @@ public:
 
     /// Fills the mirror's entries in `work` and `kept`.
     void decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
+    /// Returns whether the frame is one of those in which the mirror's capture may be drawn again
+    /// (CaptureOptions::every).
+    bool has_turn(std::uint32_t mirror) const;
     /// Returns whether drawing a mirror's capture again can wait for a later frame. For this, every
     /// face to be drawn must still have valid old contents.
     bool can_wait(std::uint32_t mirror, const CaptureWork& work) const;
@@ -49,6 +52,7 @@ private:
 
     const GpuScene& scene_;
     const require::WorkModel& model_;
+    std::uint64_t number_;
     const std::vector<CaptureOptions>& layout_;
     const CaptureCache* before_;
     bool compares_;

@@ -43,11 +43,14 @@ struct CaptureOptions {
     /// it does not know to rays takes 0.
     float blended_alpha = .5f;
     bool leaves_out_spheres = false; ///< mirrors that are exact spheres are not drawn
-    float stored_unit = 1;           ///< scene units that a stored 1 means (unorm8: the range)
+    /// The capture is drawn again at most in each N-th frame. Mirrors take turns.
+    std::uint32_t every = 1;
+    float stored_unit = 1; ///< scene units that a stored 1 means (unorm8: the range)
     ShadingLights lighting;
 };
 
-/// Returns whether both options give captures of the same layout and content, apart from lighting.
+/// Returns whether both options give captures of the same layout and content, apart from lighting
+/// and from the frame in which they are drawn.
 bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// The place of a mirror's capture in the arrays.

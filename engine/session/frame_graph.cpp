@@ -82,16 +82,21 @@ void add_ray_counters(const std::vector<std::byte>& bytes, TechniqueResult& part
 /// Returns the outcome of captures that are kept under a limit.
 std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs& outputs,
                                                  const reflect::CaptureHistory& keeping) {
-    if (!outputs.kept || keeping.most == 0) return std::nullopt;
+    if (!outputs.kept || (keeping.most == 0 && !render::take_turns(outputs.kept->options)))
+        return std::nullopt;
     const render::CaptureCache& kept = *outputs.kept;
+    const require::WorkModel& model = keeping.model;
     CaptureBudget capture_budget;
     for (std::size_t i = 0; i < kept.options.size(); ++i) {
-        capture_budget.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
+        capture_budget.mirrors += kept.options[i].face > 0 &&
+                                  (model.is_everything || model.mirrors[i].is_captured);
+        capture_budget.every = std::max(capture_budget.every, kept.options[i].every);
         capture_budget.drawn += kept.changes[i] != render::CaptureChange::none;
         capture_budget.waiting += kept.waited[i] > 0;
         capture_budget.longest = std::max(capture_budget.longest, kept.waited[i]);
     }
-    capture_budget.most = std::min(keeping.most, capture_budget.mirrors);
+    capture_budget.most = keeping.most > 0 ? std::min(keeping.most, capture_budget.mirrors)
+                                           : capture_budget.mirrors;
     return capture_budget;
 }
 

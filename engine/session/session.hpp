@@ -78,16 +78,19 @@ struct FrameTimes {
 };
 
 /// Outcome of a frame that may not draw all captures again (FrameSpec::most_captures,
-/// FrameSpec::budget_ms).
+/// FrameSpec::budget_ms, or the knob `every`).
 struct CaptureBudget {
     std::uint32_t mirrors = 0; ///< number of captured mirrors
     std::uint32_t most = 0;    ///< mirrors that a frame draws again at most, 1 to `mirrors`
     std::uint32_t drawn = 0;   ///< mirrors drawn, including those that came into view
     std::uint32_t waiting = 0; ///< mirrors whose captures had to wait for a later frame
     std::uint32_t longest = 0; ///< number of frames for which the oldest capture has waited
+    std::uint32_t every = 1;   ///< largest value of the knob `every`
 
     /// Returns the frames within which each waiting capture is drawn if `most` does not change.
-    std::uint32_t frames_per_cycle() const { return most > 0 ? (mirrors + most - 1) / most : 1; }
+    std::uint32_t frames_per_cycle() const {
+        return every * (most > 0 ? (mirrors + most - 1) / most : 1);
+    }
 };
 
 /// Results of one technique or plan in a frame.

@@ -114,6 +114,63 @@ TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
     }
 }
 
+// With the knob `every`, captures take turns: that of mirror i, from 0, is drawn in the frames k
+// for which k + i is a multiple of N, and the first frame draws all.
+TEST(CaptureTurns, EachCaptureIsDrawnInItsTurn) {
+    for (const session::RenderedWork model :
+         {session::RenderedWork::everything, session::RenderedWork::required})
+        for (const int every : {2, 3, 8}) {
+            session::Session session(test::get_test_engine(), make_balls_in_cells());
+            session::FrameSpec spec = make_spec_with_capture_budget(
+                session.scene(), 0, "parallax:face=32,shadow=none,every=" + std::to_string(every));
+            spec.model = model;
+            std::vector<int> shown(kBallCellCount, 1);
+            for (int k = 1; k <= 2 * every + 3; ++k) {
+                scene::Material hot = session.scene().materials[0];
+                hot.emission = vec3(static_cast<float>(k));
+                session.change(scene::set_material(0, hot));
+                const session::Frame frame = session.frame(spec);
+                const measure::Picture picture = frame.hdr();
+                std::set<int> turn;
+                for (int i = 0; i < kBallCellCount; ++i) {
+                    int& last = shown[static_cast<std::size_t>(i)];
+                    if (k == 1 || (k + i) % every == 0) last = k, turn.insert(i + 1);
+                    // The camera looks along +z, so the first ball is on the right.
+                    EXPECT_NEAR(picture.at(32 + (2 - i) * 10, 32).x, last, .01)
+                        << "mirror " << i + 1 << ", frame " << k << " of every=" << every;
+                }
+                EXPECT_EQ(list_drawn_mirrors(frame.times()), turn);
+                ASSERT_TRUE(frame.capture_budget());
+                EXPECT_EQ(frame.capture_budget()->drawn, turn.size());
+                EXPECT_EQ(frame.capture_budget()->frames_per_cycle(), every);
+            }
+        }
+}
+
+// Captures that wait for their turn still show each other in the end.
+TEST(CaptureTurns, StillSceneConvergesToFullCaptures) {
+    const scene::Scene scene = make_coarse_room();
+    const auto settle = [&](const char* technique, session::RenderedWork model) {
+        session::Request request = test::make_test_request(scene, {technique}, kSlicesPictureSize);
+        request.model = model;
+        request.until_settled = true;
+        request.warmup = 0, request.frames = 40;
+        const session::RunResult ended = session::run(test::get_test_engine(), request);
+        EXPECT_TRUE(ended.settled) << technique;
+        return ended.parts.front().hdr;
+    };
+    const measure::Picture all = settle("parallax:face=32,shadow_map=64",
+                                        session::RenderedWork::everything);
+    const char* in_turns = "parallax:face=32,shadow_map=64,every=3";
+    EXPECT_TRUE(
+        test::have_equal_pixel_bytes(settle(in_turns, session::RenderedWork::required), all));
+    session::Request request = test::make_test_request(scene, {in_turns}, kSlicesPictureSize);
+    request.warmup = 0, request.frames = 40;
+    EXPECT_TRUE(test::have_equal_pixel_bytes(
+        session::run(test::get_test_engine(), request).parts.front().hdr, all))
+        << "the model everything, whose captures never rest";
+}
+
 // Under a budget, each bounce needs a round of frames instead of one frame.
 TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
     for (const std::uint32_t most : {1u, 2u}) {
