@@ -18,6 +18,7 @@ namespace catoptric::measure {
 
 using catoptric::AutoFace;
 using catoptric::CulledWork;
+struct DeviceCosts;
 struct Causes; // internal: report.json has their data
 struct LagResults;
 struct LightEdgeErrors;
@@ -54,6 +55,7 @@ struct DeviceFacts {
     int threads = 0;     ///< number of threads of a cpu device
     std::string profile; ///< file name of the device's profile; empty if no profile applies
     std::vector<std::pair<std::string, std::string>> variants; ///< of shaders: name and choice
+    std::string calibration = {}, balance = {}; ///< file name and text; empty if uncalibrated
     int held_threads = 0; ///< threads that were each held on one processor during measurements
     int lanes = 0;        ///< number of 32-bit shader lanes that run together; 0 if not counted
 };
@@ -202,6 +204,7 @@ struct Comparison {
     double max_ms = NAN, max_flip = NAN, max_rmse = NAN; ///< budgets (budget.hpp); NaN: none
     std::shared_ptr<LagResults> lag;  ///< see CompareRequest::studies; may be null
     std::vector<std::string> studies; ///< names of the studies that were asked for
+    std::shared_ptr<std::vector<DeviceCosts>> own_costs; ///< devices of the map, first; may be null
     std::vector<std::string> warnings;
     /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.
     std::string images;

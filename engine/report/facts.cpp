@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::report {
@@ -19,7 +20,8 @@ std::string describe_device(const DeviceFacts& device) {
     if (device.held_threads > 0)
         threads += fmt::format(", {} of them held on a processor each", device.held_threads);
     const std::string profile = device.profile.empty() ? "" : ", profile " + device.profile;
-    return fmt::format("{} ({}{}{})", device.name, device.type, threads, profile);
+    const std::string calibrated = device.calibration.empty() ? "" : ", calibrated";
+    return fmt::format("{} ({}{}{}{})", device.name, device.type, threads, profile, calibrated);
 }
 
 std::string describe_settings(const Comparison& comparison) {
@@ -81,7 +83,7 @@ std::string describe_setup(const SetupFacts& setup) {
 }
 
 std::vector<ReportHeaderLine> list_facts(const Comparison& comparison) {
-    return {
+    std::vector<ReportHeaderLine> lines{
         {"Scene",
          fmt::format("{}, {} triangles, {} mirrors, hash {}", comparison.scene.name,
                      comparison.scene.triangles, comparison.scene.mirrors, comparison.scene.hash)},
@@ -103,6 +105,11 @@ std::vector<ReportHeaderLine> list_facts(const Comparison& comparison) {
         {"Date", comparison.date},
         {"Command", join_texts(comparison.command, " ")},
     };
+    if (const std::string& balance = comparison.device.balance; !balance.empty()) {
+        const auto driver = std::ranges::find(lines, "Driver", &ReportHeaderLine::name);
+        lines.insert(driver, {"Balance", balance});
+    }
+    return lines;
 }
 
 std::vector<std::string> list_cautions(const Comparison& comparison) {

@@ -52,6 +52,8 @@ Json device_json(const DeviceFacts& device) {
               {"threads", device.threads}};
     if (device.lanes > 0) json["lanes"] = device.lanes;
     json["profile"] = device.profile.empty() ? Json() : Json(device.profile);
+    if (!device.calibration.empty()) json["calibration"] = device.calibration;
+    if (!device.balance.empty()) json["balance"] = device.balance;
     json["variants"] = Json::object();
     for (const auto& [name, choice] : device.variants) json["variants"][name] = choice;
     return json;

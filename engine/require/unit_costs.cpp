@@ -29,11 +29,10 @@ const UnitCosts& default_unit_costs() { return find_file(kDefaultFile); }
 DeviceUnitCosts find_unit_costs(std::string_view name, std::string_view driver, bool is_processor) {
     const std::string whole = std::string(name) + ", " + std::string(driver);
     const auto describe = [&](const UnitCosts& costs, const char* relation) {
-        std::string note = std::string(costs.file) + ", " + std::string(costs.origin) + relation;
+        std::string note = costs.file + ", " + costs.origin + relation;
         if (name.find(costs.device) == std::string_view::npos && whole != costs.device)
-            note += " " + std::string(costs.device) + ", because docs/costs has no file of " +
-                    std::string(name);
-        return DeviceUnitCosts{&costs, std::move(note)};
+            note += " " + costs.device + ", because docs/costs has no file of " + std::string(name);
+        return DeviceUnitCosts{costs, std::move(note)};
     };
     const UnitCosts* own = nullptr;
     for (const UnitCosts& costs : list_unit_costs())

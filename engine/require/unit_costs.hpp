@@ -7,7 +7,8 @@
 #include <string>
 #include <string_view>
 
-/// The unit costs of docs/costs, which the program contains. `auto` compares plans by them.
+/// Unit costs by which `auto` compares plans: those of docs/costs, which the program contains, or
+/// of a calibrated device.
 namespace catoptric::require {
 
 /// A number for each kind of work: estimated counts, or costs.
@@ -19,10 +20,10 @@ struct WorkValues {
 };
 
 struct UnitCosts {
-    std::string_view file;   ///< name of the file in docs/costs, without its extension
-    std::string_view device; ///< as the file names it
-    std::string_view origin; ///< "fitted", "literature" or "given"
-    WorkValues ns;           ///< nanoseconds of one unit; 0: unknown, takes no time
+    std::string file;   ///< name of the file, of docs/costs without its extension
+    std::string device; ///< as the file names it
+    std::string origin; ///< "fitted", "literature" or "given"
+    WorkValues ns;      ///< nanoseconds of one unit; 0: unknown, takes no time
 };
 
 /// Returns the costs of all files, ordered by name.
@@ -32,13 +33,13 @@ const UnitCosts& default_unit_costs();
 
 /// Unit costs by which plans for a device are compared.
 struct DeviceUnitCosts {
-    const UnitCosts* costs = &default_unit_costs();
+    UnitCosts costs = default_unit_costs();
     std::string note; ///< which costs these are: "llvmpipe-22.3, fitted on this device"
 };
 
-/// Returns the costs of a device. A device without a file gets those of the most similar one: a
-/// processor those of llvmpipe with the nearest version of Mesa, a card those from the literature
-/// for the newest card. `name` and `driver` are those of session::DeviceInfo.
+/// Returns the costs of a device in docs/costs. A device without a file gets those of the most
+/// similar one: a processor those of llvmpipe with the nearest version of Mesa, a card those from
+/// the literature for the newest card. `name` and `driver` are those of session::DeviceInfo.
 DeviceUnitCosts find_unit_costs(std::string_view name, std::string_view driver, bool is_processor);
 
 double predict_ms(const WorkValues& counts, const UnitCosts& costs);

@@ -25,6 +25,7 @@ namespace catoptric::gpu {
 struct ExternalDevice;
 } // namespace catoptric::gpu
 namespace catoptric::require {
+struct DeviceUnitCosts;
 struct WorkModel;
 } // namespace catoptric::require
 
@@ -120,6 +121,8 @@ struct Access {
     /// Returns the folder in which the engine keeps files between runs; empty if it keeps none.
     static std::filesystem::path cache_folder(const Engine& engine);
     static EngineImpl& impl(const Engine& engine) { return *engine.impl_; }
+    /// Returns the unit costs by which `auto` compares plans on the engine's device.
+    static const require::DeviceUnitCosts& unit_costs(const Engine& engine);
 
     /// Returns whether a technique's picture depends on the previous frame.
     static bool remembers(const Frame& frame, std::size_t part = 0);

@@ -4,6 +4,10 @@
 
 namespace catoptric::session {
 
+std::uint32_t CaptureBudget::frames_per_cycle() const {
+    return every * (most > 0 ? (mirrors + most - 1) / most : 1);
+}
+
 std::string describe_budget(const CaptureBudget& capture_budget) {
     const std::uint32_t round = capture_budget.frames_per_cycle(), oldest = round - 1;
     return fmt::format("captures: at most {} of {} mirror{} a frame; a reflection is at most {} "

@@ -70,7 +70,7 @@ constexpr const char* kUndrawnRemedy =
 
 std::string culling_to_text(const Request& request, const require::DeviceUnitCosts& costs,
                             const std::optional<CaptureBudget>& capture_budget) {
-    const auto [now, model, suggestion] = find_required_work(request, *costs.costs);
+    const auto [now, model, suggestion] = find_required_work(request, costs.costs);
     const std::vector<std::string> names = mirror_names(now);
     std::string text = require::describe_model(model, now);
     if (const auto gap = find_undrawn(request))
@@ -89,7 +89,7 @@ std::string culling_to_text(const Request& request, const require::DeviceUnitCos
 
 std::string culling_to_json(const Request& request, const require::DeviceUnitCosts& costs,
                             const std::optional<CaptureBudget>& capture_budget) {
-    const WorkReport required = session::find_required_work(request, *costs.costs);
+    const WorkReport required = session::find_required_work(request, costs.costs);
     const std::vector<std::string> names = mirror_names(required.now);
     OrderedJson document{
         {"schema", "catoptric/why/1"},        {"mirrors", OrderedJson::array()},

@@ -1,6 +1,7 @@
 #include "session/engine.hpp"
 
 #include "session/access.hpp"
+#include "session/calibration.hpp"
 #include "session/engine_impl.hpp"
 #include "session/folders.hpp"
 #include "session/profile.hpp"
@@ -66,6 +67,7 @@ Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
       pipelines(device, hooks.shader_variants, options.cache, shader_cache_folder(options, hooks)),
       info(to_device_info(device.info())) {
     device.set_variant_choices(choose_variants(options, info));
+    unit_costs = choose_unit_costs(options.calibrations, info);
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -95,6 +97,10 @@ std::filesystem::path Access::cache_folder(const Engine& engine) {
     return engine.impl_->pipelines.pipeline_cache().folder();
 }
 
+const require::DeviceUnitCosts& Access::unit_costs(const Engine& engine) {
+    return engine.impl_->unit_costs;
+}
+
 bool has_abandoned_device() { return gpu::has_abandoned_device(); }
 
 std::filesystem::path find_cache_folder() { return find_user_folder("XDG_CACHE_HOME", ".cache"); }
@@ -108,11 +114,18 @@ std::filesystem::path find_profile_folder() {
     return folder.empty() ? folder : folder / "devices";
 }
 
-std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
+std::filesystem::path find_calibration_folder() {
+    const std::filesystem::path folder = find_config_folder();
+    return folder.empty() ? folder : folder / "costs";
+}
+
+std::vector<DeviceInfo> devices(const std::filesystem::path& profiles,
+                                const std::filesystem::path& calibrations) {
     std::vector<DeviceInfo> list;
     for (const gpu::DeviceProperties& info : gpu::list_devices()) {
         list.push_back(to_device_info(info));
         choose_variants({.profiles = profiles}, list.back());
+        choose_unit_costs(calibrations, list.back());
     }
     return list;
 }

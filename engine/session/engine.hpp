@@ -21,11 +21,10 @@ struct EngineOptions {
     /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
     /// engine throws `bad_data` or `missing_input` unless it is a file for this device and driver.
     std::filesystem::path profile = {};
-    /// Folder of profiles by device and driver, read if `profile` is empty; empty: none. If the
-    /// profile cannot be used, DeviceInfo::warning says why.
-    std::filesystem::path profiles = {};
-    /// Variants to use instead of a profile.
-    NamedVariants variants = {};
+    /// Folders of profiles, read if `profile` is empty, and of calibrations, by which `auto`
+    /// compares plans (docs/costs.md); empty: none. DeviceInfo::warning says why one is not used.
+    std::filesystem::path profiles = {}, calibrations = {};
+    NamedVariants variants = {}; ///< variants to use instead of a profile
     /// Folder that keeps compiled pipelines and shaders (about 128 MiB); empty: none is kept.
     std::filesystem::path cache = {};
 };
@@ -50,18 +49,19 @@ struct DeviceInfo {
     std::string missing; ///< features that the engine needs and the device lacks; empty: usable
     std::string id;      ///< vendor and device in hexadecimal: "10de-2330"
     std::string profile; ///< file name of the profile in effect; empty: none
-    NamedVariants variants = {}; ///< all variants in effect
-    std::string warning;         ///< why an existing profile is not in effect; else empty
+    NamedVariants variants = {};  ///< all variants in effect
+    std::string warning;          ///< why a profile or calibration is not in effect; else empty
+    std::string calibration = {}; ///< file name of the calibration in effect; empty: none
 };
-/// Returns the machine's devices. `profiles`: see EngineOptions.
-CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {});
+/// Returns the machine's devices. `profiles`, `calibrations`: see EngineOptions.
+CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {},
+                                              const std::filesystem::path& calibrations = {});
 
 CATOPTRIC_API std::string version(); ///< "0.1.0"
 CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a checkout
 
 /// Returns whether an Engine of this process had to give up its device (Engine::usable). Threads of
-/// the driver may then still run, and a normal exit under them can crash. Such a program must end
-/// with std::_Exit.
+/// its driver may still run, and a normal exit can crash: the program must end with std::_Exit.
 CATOPTRIC_API bool has_abandoned_device();
 
 /// A device with the pipelines compiled for it. Only one thread may use an engine at a time. The

@@ -2,6 +2,7 @@
 
 #include "gpu/device.hpp"
 #include "gpu/pipeline.hpp"
+#include "require/unit_costs.hpp"
 #include "session/access.hpp"
 #include "session/engine.hpp"
 
@@ -13,6 +14,7 @@ struct Engine::Impl {
     gpu::Device device;
     gpu::PipelineStore pipelines;
     DeviceInfo info;
+    require::DeviceUnitCosts unit_costs; ///< by which `auto` compares plans
 };
 
 } // namespace catoptric::session

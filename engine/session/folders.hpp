@@ -14,5 +14,8 @@ std::filesystem::path find_config_folder();
 /// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
 /// is an absolute path.
 std::filesystem::path find_profile_folder();
+/// Returns XDG_CONFIG_HOME/catoptric/costs, or HOME/.config/catoptric/costs; empty if neither is an
+/// absolute path.
+std::filesystem::path find_calibration_folder();
 
 } // namespace catoptric::session

@@ -7,18 +7,14 @@
 
 namespace catoptric::session {
 
-require::DeviceUnitCosts find_device_costs(const DeviceInfo& device) {
-    return require::find_unit_costs(device.name, device.driver, device.type == "cpu");
-}
-
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
-                                         const FrameSpec& spec, const DeviceInfo& device) {
+                                         const FrameSpec& spec, const require::UnitCosts& costs) {
     if (!plan.is_auto) return plan;
     const scene::SceneAtTime at_time(scene, spec.time);
     const scene::Scene& now = *at_time;
     const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
     const require::PlanSuggestion suggestion = require::suggest_plan(
-        {.now = now, .camera = camera, .size = spec.size}, *find_device_costs(device).costs);
+        {.now = now, .camera = camera, .size = spec.size}, costs);
     reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);
     plan.reasons = suggestion.reasons;

@@ -2,19 +2,15 @@
 
 #include "reflect/plan.hpp"
 #include "require/unit_costs.hpp"
-#include "session/engine.hpp"
 #include "session/session.hpp"
 
 /// Resolves the technique `auto`.
 namespace catoptric::session {
 
-/// Returns the unit costs by which `auto` compares plans for a device.
-require::DeviceUnitCosts find_device_costs(const DeviceInfo& device);
-
 /// Replaces a plan with `is_auto` by the plan that require::suggest_plan chooses for this
-/// picture and device, with a reason for each mirror. Returns any other plan unchanged. `scene`: at
-/// rest. Costs what require::suggest_plan does.
+/// picture and unit costs, with a reason for each mirror. Returns any other plan unchanged.
+/// `scene`: at rest. Costs what require::suggest_plan does.
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
-                                         const FrameSpec& spec, const DeviceInfo& device);
+                                         const FrameSpec& spec, const require::UnitCosts& costs);
 
 } // namespace catoptric::session

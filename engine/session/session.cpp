@@ -120,7 +120,7 @@ std::vector<reflect::TechniquePlan> Session::Impl::find_plans(const FrameSpec& s
     if (!history.plans.empty() && history.texts == spec.techniques) return history.plans;
     std::vector<reflect::TechniquePlan> plans = parse_plans(spec.techniques);
     for (reflect::TechniquePlan& plan : plans)
-        plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.info);
+        plan = resolve_auto_plan(std::move(plan), scene, spec, engine_impl.unit_costs.costs);
     return plans;
 }
 

@@ -77,8 +77,7 @@ struct FrameTimes {
     double frame_ms() const { return host.sum() + gpu_ms; }
 };
 
-/// Outcome of a frame that may not draw all captures again (FrameSpec::most_captures,
-/// FrameSpec::budget_ms, or the knob `every`).
+/// Outcome of a frame that limits its captures (most_captures, budget_ms, or the knob `every`).
 struct CaptureBudget {
     std::uint32_t mirrors = 0; ///< number of captured mirrors
     std::uint32_t most = 0;    ///< mirrors that a frame draws again at most, 1 to `mirrors`
@@ -88,9 +87,7 @@ struct CaptureBudget {
     std::uint32_t every = 1;   ///< largest value of the knob `every`
 
     /// Returns the frames within which each waiting capture is drawn if `most` does not change.
-    std::uint32_t frames_per_cycle() const {
-        return every * (most > 0 ? (mirrors + most - 1) / most : 1);
-    }
+    CATOPTRIC_API std::uint32_t frames_per_cycle() const;
 };
 
 /// Results of one technique or plan in a frame.

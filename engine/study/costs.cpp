@@ -196,12 +196,7 @@ const RegisteredStudy kCostsStudy{
          [](const std::vector<std::string>& files) {
              for (const std::string& file : files) report::read_costs_file(file);
          },
-     .prepare =
-         [](const CompareRequest&, int, report::Comparison& comparison) {
-             // The report also shows the counts of work, because predicted times follow from them.
-             if (std::ranges::find(comparison.studies, "work") == comparison.studies.end())
-                 comparison.studies.emplace_back("work");
-         },
+     .prepare = show_work,
      .run = predict_row_times,
      .metrics = {{.name = kCostsMetricName,
                   .unit = "ms",

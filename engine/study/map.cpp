@@ -8,6 +8,7 @@
 #include "report/costs.hpp"
 #include "report/html.hpp"
 #include "report/text.hpp"
+#include "session/calibration.hpp"
 #include "session/watcher.hpp"
 #include "session/work.hpp"
 #include "study/study.hpp"
@@ -34,7 +35,23 @@ constexpr int kFramesToRest = 28;
 /// Frames between two drawings of the captures for which the table states the fastest row.
 constexpr double kStatedPeriods[] = {1, 8, std::numeric_limits<double>::infinity()};
 
+/// Returns the costs of this device's calibration and of the files that the user names.
+std::vector<measure::DeviceCosts> find_own_costs(const StudyInput& input) {
+    std::vector<measure::DeviceCosts> devices;
+    if (auto calibration = session::read_calibration(input.engine)) {
+        calibration->device += ", calibrated";
+        devices.push_back(std::move(*calibration));
+    }
+    for (const StudyChoice& choice : input.request.studies)
+        if (choice.name == "costs")
+            for (const std::string& file : choice.texts)
+                devices.push_back(report::read_costs_file(file));
+    return devices;
+}
+
 void count_rest(const StudyInput& input) {
+    input.comparison.own_costs = std::make_shared<std::vector<measure::DeviceCosts>>(
+        find_own_costs(input));
     count_work(input);
     std::vector<report::Row>& rows = input.comparison.rows;
     for (std::size_t i = 0; i < input.request.base.techniques.size(); ++i) {
@@ -75,14 +92,17 @@ std::vector<std::optional<measure::MapWork>> list_work(const report::Comparison&
     return work;
 }
 
-const std::vector<measure::DeviceCosts>& list_devices() {
-    static const std::vector<measure::DeviceCosts> kDevices = [] {
-        std::vector<measure::DeviceCosts> devices;
-        for (const report::KnownCosts& known : report::list_known_costs())
-            devices.push_back(report::read_device_costs(std::string(known.text), known.name));
-        return devices;
-    }();
-    return kDevices;
+/// Returns the devices of the map: those of this comparison, then all others of docs/costs.
+std::vector<measure::DeviceCosts> list_devices(const report::Comparison& comparison) {
+    std::vector<measure::DeviceCosts> devices;
+    if (comparison.own_costs) devices = *comparison.own_costs;
+    for (const report::KnownCosts& known : report::list_known_costs()) {
+        measure::DeviceCosts costs = report::read_device_costs(std::string(known.text), known.name);
+        if (std::ranges::find(devices, costs.device, &measure::DeviceCosts::device) ==
+            devices.end())
+            devices.push_back(std::move(costs));
+    }
+    return devices;
 }
 
 double max_flip_of(const report::Comparison& comparison) {
@@ -112,7 +132,7 @@ std::vector<ReportTable> make_map_tables(const report::Comparison& comparison) {
         {}};
     const std::vector<std::optional<measure::MapWork>> work = list_work(comparison);
     if (std::ranges::none_of(work, [](const auto& one) { return one.has_value(); })) return {table};
-    for (const measure::DeviceCosts& costs : list_devices()) {
+    for (const measure::DeviceCosts& costs : list_devices(comparison)) {
         table.rows.push_back(
             {costs.device + " (" + std::string(measure::cost_origin_name(costs.origin)) + ")"});
         for (const double period : kStatedPeriods)
@@ -165,7 +185,8 @@ std::string html_map(const report::Comparison& comparison) {
                             {"drawn", counts_json(work->drawn)},
                             {"rest", counts_json(work->rest)}});
     if (rows.empty()) return "";
-    for (const measure::DeviceCosts& costs : list_devices()) devices.push_back(device_json(costs));
+    for (const measure::DeviceCosts& costs : list_devices(comparison))
+        devices.push_back(device_json(costs));
     const Json data{{"width", comparison.width},     {"height", comparison.height},
                     {"kinds", kinds_json()},         {"rows", std::move(rows)},
                     {"devices", std::move(devices)}, {"max_flip", max_flip_of(comparison)}};
@@ -179,11 +200,7 @@ const RegisteredStudy kMapStudy{
      .help = "also map the fastest row over devices, sizes of the picture and frames between "
              "captures, computed from counted work",
      .order = 60,
-     .prepare =
-         [](const CompareRequest&, int, report::Comparison& comparison) {
-             if (std::ranges::find(comparison.studies, "work") == comparison.studies.end())
-                 comparison.studies.emplace_back("work");
-         },
+     .prepare = show_work,
      .run = count_rest,
      .metrics = {{.name = kWorkAtRestName,
                   .help = "counted work of one frame at rest, which keeps its captures",

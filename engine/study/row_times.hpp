@@ -10,8 +10,6 @@
 // (`--row-times`).
 namespace catoptric::study {
 
-using namespace session;
-
 /// Returns, for each row, the time on this device that a file of stated times gives; empty for rows
 /// without such a time.
 std::vector<std::optional<measure::PredictedTime>>

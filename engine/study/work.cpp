@@ -7,6 +7,8 @@
 #include "session/watcher.hpp"
 #include "session/work.hpp"
 
+#include <algorithm>
+
 namespace catoptric::study {
 
 namespace {
@@ -64,6 +66,11 @@ void count_work(const StudyInput& input) {
         measure::set_work(rows[i], count_frame_work(input.session, request, input.request.watcher));
         input.tell();
     }
+}
+
+void show_work(const CompareRequest&, int, report::Comparison& comparison) {
+    if (std::ranges::find(comparison.studies, "work") == comparison.studies.end())
+        comparison.studies.emplace_back("work");
 }
 
 } // namespace catoptric::study

@@ -40,24 +40,23 @@ double median_time(const std::vector<std::vector<FrameTimes>>& rounds, int threa
     return measure::summarise(samples).median;
 }
 
-/// Measures the rows of one size and model, and appends them to `samples`. `device`: as
-/// Engine::device returns it.
-void measure_cost_rows(Session& session, const Request& request, const DeviceInfo& device,
+} // namespace
+
+void measure_cost_rows(Session& session, const std::vector<Request>& rows, const DeviceInfo& device,
                        const BenchOptions& options, std::vector<measure::TimedWork>& samples) {
-    const std::vector<Request> rows = split_request(request);
     const int rounds = study::round_count(options.iterations, options.rounds);
-    const int repeated_frames = must_repeat_first_round(device.type)
+    const int repeated_frames = study::must_repeat_first_round(device.type)
                                     ? study::frames_of_round(options.iterations, rounds, 0)
                                     : 0;
-    std::vector<std::unique_ptr<RowMeasurement>> runs;
+    std::vector<std::unique_ptr<study::RowMeasurement>> runs;
     for (int round = 0; round < rounds; ++round)
         for (std::size_t place = 0; place < rows.size(); ++place) {
             // Every second round measures the rows in reverse order, so that no row always follows
             // the same row.
             const std::size_t i = round % 2 == 0 ? place : rows.size() - 1 - place;
             if (round == 0)
-                runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher,
-                                                                repeated_frames));
+                runs.push_back(std::make_unique<study::RowMeasurement>(
+                    session, rows[i], options.watcher, repeated_frames));
             report_row(options.watcher, sample_name(rows[i]),
                        static_cast<std::size_t>(round) * rows.size() + place,
                        static_cast<std::size_t>(rounds) * rows.size());
@@ -65,7 +64,7 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
             runs[i]->suspend_frames();
         }
     if (repeated_frames > 0)
-        for (const std::unique_ptr<RowMeasurement>& run : runs) {
+        for (const std::unique_ptr<study::RowMeasurement>& run : runs) {
             run->repeat_first_round();
             run->replace_first_round();
             run->suspend_frames();
@@ -75,8 +74,6 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
                            sum_work(count_frame_work(session, rows[i], options.watcher)),
                            median_time(runs[i]->rounds(), device.threads)});
 }
-
-} // namespace
 
 std::vector<measure::TimedWork> measure_cost_samples(Engine& engine, const Request& request,
                                                      const BenchOptions& options) {
@@ -88,7 +85,7 @@ std::vector<measure::TimedWork> measure_cost_samples(Engine& engine, const Reque
             part.model = model;
             part.size = glm::max(request.size / divisor, uvec2(1));
             part.frames = options.iterations;
-            measure_cost_rows(session, part, engine.device(), options, samples);
+            measure_cost_rows(session, split_request(part), engine.device(), options, samples);
         }
     return samples;
 }

@@ -12,7 +12,6 @@
 namespace catoptric::benchmark {
 
 using namespace session;
-using namespace study;
 
 /// Measures each technique of the request in rounds, at the request's size and at half of it, with
 /// the model `everything` and with `required`. Returns the median time of a frame, and the counted
@@ -21,6 +20,11 @@ using namespace study;
 /// are "SCENE/WxH/MODEL/TECHNIQUE". `iterations` and `rounds` are those of each row.
 std::vector<measure::TimedWork> measure_cost_samples(Engine& engine, const Request& request,
                                                      const BenchOptions& options);
+
+/// Measures rows of the session's scene as measure_cost_samples does, and appends them to
+/// `samples`. Each row has one technique.
+void measure_cost_rows(Session& session, const std::vector<Request>& rows, const DeviceInfo& device,
+                       const BenchOptions& options, std::vector<measure::TimedWork>& samples);
 
 /// Counts the work of one frame of each technique of the request. The times of the samples are 0.
 std::vector<measure::TimedWork> count_work_samples(Engine& engine, const Request& request,

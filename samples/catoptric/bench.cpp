@@ -1,6 +1,7 @@
 // catoptric bench: measures the cost of frames and of their preparation, and compares runs or
 // builds.
 #include "bench_against.hpp"
+#include "bench_calibrate.hpp"
 #include "bench_costs.hpp"
 #include "bench_table.hpp"
 #include "bench_tune.hpp"
@@ -33,6 +34,7 @@ constexpr const char* kBenchExamples = R"(Examples:
   catoptric bench --against ../before/build/release/catoptric
   catoptric bench --tune
   catoptric bench --costs -o device.json
+  catoptric bench --calibrate
 
 SCENE comes before --techniques. frame/...: a whole frame on all threads; host/...: the calling thread's part of it;
 load/: making or reading the scene; session/: putting it on the device; hierarchy/: building its tree.
@@ -67,7 +69,7 @@ struct BenchArguments {
     std::vector<std::string> before_and_after; ///< files to compare
     std::string against;                       ///< program of another build
     bool tunes = false;
-    bool fits_costs = false;
+    bool fits_costs = false, calibrates = false;
     std::string times; ///< with `fits_costs`: file of times of another device
     std::vector<std::string> command;
 };
@@ -233,14 +235,30 @@ int run_shader_tuning(const BenchArguments& options) {
                        options.output);
 }
 
+int run_calibration(const BenchArguments& options) {
+    const CommonOptions& common = options.common;
+    check(
+        options.scenes.empty() && options.techniques.empty() && !common.frames && !common.warmup &&
+            !common.is_size_given && !common.model,
+        Failure::usage,
+        "--calibrate: wanted no SCENE, --techniques, --frames, --warmup, --size or --model, since "
+        "it measures rows of its own; --costs fits costs to other rows");
+    return calibrate_device(common, options.output);
+}
+
 int run_bench(const BenchArguments& options) {
     const bool compares = !options.before_and_after.empty(), in_turn = !options.against.empty();
-    for (const auto& [both, names] : {std::pair{compares && in_turn, "--compare and --against"},
-                                      {options.tunes && compares, "--tune and --compare"},
-                                      {options.tunes && in_turn, "--tune and --against"},
-                                      {options.fits_costs && compares, "--costs and --compare"},
-                                      {options.fits_costs && in_turn, "--costs and --against"},
-                                      {options.fits_costs && options.tunes, "--costs and --tune"}})
+    for (const auto& [both, names] :
+         {std::pair{compares && in_turn, "--compare and --against"},
+          {options.tunes && compares, "--tune and --compare"},
+          {options.tunes && in_turn, "--tune and --against"},
+          {options.fits_costs && compares, "--costs and --compare"},
+          {options.fits_costs && in_turn, "--costs and --against"},
+          {options.fits_costs && options.tunes, "--costs and --tune"},
+          {options.calibrates && options.tunes, "--calibrate and --tune"},
+          {options.calibrates && compares, "--calibrate and --compare"},
+          {options.calibrates && in_turn, "--calibrate and --against"},
+          {options.calibrates && options.fits_costs, "--calibrate and --costs"}})
         check(!both, Failure::usage, names, ": wanted one of them, found both");
     check(options.times.empty() || options.fits_costs, Failure::usage,
           "--times: wanted together with --costs, found it alone");
@@ -252,6 +270,7 @@ int run_bench(const BenchArguments& options) {
                              .output = options.output,
                              .rounds = options.rounds});
     if (options.tunes) return run_shader_tuning(options);
+    if (options.calibrates) return run_calibration(options);
     return compares  ? compare_runs(options)
            : in_turn ? run_against_program(options)
                      : run_measurement(options);
@@ -301,6 +320,10 @@ void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
               "fit the costs of this device: nanoseconds for each ray, look-up, fragment and so "
               "on, for 'compare --costs'; all built-in scenes if no SCENE is named",
               options->fits_costs);
+    verb.flag("--calibrate",
+              "fit the costs of this device to a few small rows, in about a minute; 'auto' then "
+              "compares plans by them (a file in the user's configuration, or -o FILE)",
+              options->calibrates);
     verb.option("--times", "FILE",
                 "with --costs: fit the costs of another device to its times in FILE",
                 options->times);

@@ -71,7 +71,9 @@ measure::DeviceCosts fit_other_device(const CostsArguments& arguments, session::
     return costs;
 }
 
-std::string make_costs_text(const measure::DeviceCosts& costs) {
+} // namespace
+
+std::string costs_table(const measure::DeviceCosts& costs) {
     std::string text = costs.device + "\n";
     for (const measure::UnitCost& unit : costs.units) {
         const WorkKindInfo& kind = kWorkKinds[static_cast<std::size_t>(unit.kind)];
@@ -84,8 +86,6 @@ std::string make_costs_text(const measure::DeviceCosts& costs) {
                         100 * fit.share_within(1.5));
     return text;
 }
-
-} // namespace
 
 int run_cost_fit(const CostsArguments& arguments) {
     check(!arguments.common.both_models && !arguments.common.model, Failure::usage,
@@ -115,7 +115,7 @@ int run_cost_fit(const CostsArguments& arguments) {
                                                               std::move(requests.front()), watcher);
     progress.clear();
     const std::string json = report::to_json(costs);
-    print_result(asked.common.output_options.json ? json : make_costs_text(costs));
+    print_result(asked.common.output_options.json ? json : costs_table(costs));
     if (asked.output.empty()) return 0;
     write_file(asked.output, json);
     print_note(asked.common.output_options, "written: " + asked.output);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/costs.hpp"
 #include "options.hpp"
 
 #include <string>
@@ -20,5 +21,8 @@ struct CostsArguments {
 /// prints the costs and writes them to a file. Returns the exit code. Throws as
 /// benchmark::measure_cost_samples and measure::fit_costs do.
 int run_cost_fit(const CostsArguments& arguments);
+
+/// Returns a table of fitted costs, with the share of rows that are predicted well.
+std::string costs_table(const measure::DeviceCosts& costs);
 
 } // namespace catoptric::cli

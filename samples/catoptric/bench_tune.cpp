@@ -9,7 +9,6 @@
 #include "core/text.hpp"
 #include "output_checks.hpp"
 #include "progress.hpp"
-#include "report.hpp"
 #include "session/folders.hpp"
 #include "session/profile.hpp"
 #include "study/compare_checks.hpp"
@@ -20,29 +19,6 @@
 namespace catoptric::cli {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Returns the path of the device profile. Checks before the measurement that the file can be
-/// written.
-fs::path choose_profile_path(const std::string& output, const session::DeviceInfo& device,
-                             const std::vector<fs::path>& inputs) {
-    fs::path place = output;
-    if (output.empty()) {
-        const fs::path folder = session::find_profile_folder();
-        check(!folder.empty(), Failure::cannot_create,
-              "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
-              "absolute path; -o FILE writes it elsewhere");
-        report::create_folder(folder); // fail before the measurement
-        place = folder / session::profile_file_name(device);
-    } else {
-        check_output_file(place);
-    }
-    check_distinct({kStdoutPath, place}, inputs);
-    return place;
-}
-
-} // namespace
 
 std::string tuning_table(const session::DeviceInfo& device,
                          const std::vector<measure::VariantTrial>& tried) {
@@ -69,7 +45,9 @@ int tune_device(const CommonOptions& common, int rounds, const std::string& outp
     session::Engine engine(opened);
     print_device(engine, common.output_options);
     const session::DeviceInfo& device = engine.device();
-    const fs::path place = choose_profile_path(output, device, request.scene.files);
+    const fs::path place = choose_device_file(output, session::find_profile_folder(), "profile",
+                                              device);
+    check_distinct({kStdoutPath, place}, request.scene.files);
 
     ProgressPrinter progress(common.output_options);
     const benchmark::TuningResult tuned = benchmark::tune_shaders(

@@ -4,8 +4,8 @@
 #include "output_checks.hpp"
 #include "parse.hpp"
 #include "session/access.hpp"
+#include "session/calibration.hpp"
 #include "session/culling_report.hpp"
-#include "session/resolve_auto.hpp"
 #include "session/session.hpp"
 #include "technique_option.hpp"
 #include "verbs.hpp"
@@ -52,15 +52,26 @@ session::PlanFormat graph_format(const GraphOptions& options) {
 
 /// Returns the unit costs of the device that draws, or the default ones if the machine has none.
 require::DeviceUnitCosts find_unit_costs(const DeviceOptions& options) {
-    if (!options.name.empty())
-        return session::find_device_costs(session::Engine(engine_options(options)).device());
+    const session::EngineOptions opened = engine_options(options);
+    const auto warn = [](const session::DeviceInfo& device) {
+        if (!device.warning.empty()) print_warning(device.warning);
+    };
+    if (!options.name.empty()) {
+        const session::Engine engine(opened);
+        warn(engine.device());
+        return session::Access::unit_costs(engine);
+    }
     try {
-        if (const std::vector<session::DeviceInfo> list = session::devices(); !list.empty())
-            return session::find_device_costs(list.front());
+        if (std::vector<session::DeviceInfo> list = session::devices(); !list.empty()) {
+            const require::DeviceUnitCosts costs = session::choose_unit_costs(opened.calibrations,
+                                                                              list.front());
+            warn(list.front());
+            return costs;
+        }
     } catch (const NoDevice&) {
     }
     require::DeviceUnitCosts costs;
-    costs.note = std::string(costs.costs->file) + ", because this machine has no device";
+    costs.note = costs.costs.file + ", because this machine has no device";
     return costs;
 }
 
@@ -91,7 +102,7 @@ int run_graph(const GraphOptions& options) {
     print_device(engine, options.common.output_options);
     if (options.why) {
         request.model = session::RenderedWork::required;
-        print_culling_report(request, format, session::find_device_costs(engine.device()),
+        print_culling_report(request, format, session::Access::unit_costs(engine),
                              session::measure_capture_budget(engine, request));
         return 0;
     }

@@ -9,6 +9,7 @@
 #include "parse.hpp"
 #include "scene/built_in.hpp"
 #include "scene_text.hpp"
+#include "session/calibration.hpp"
 #include "session/engine.hpp"
 #include "session/exposure.hpp"
 #include "session/lanes.hpp"
@@ -37,6 +38,7 @@ ProgramInfo gather_info(const DeviceOptions& device) {
         const session::Engine engine(options);
         facts.device = engine.device();
         facts.lanes = session::count_lanes(engine);
+        facts.balance = session::describe_balance(engine);
         if (const std::string text = session::vector_width_warning(engine); !text.empty())
             print_warning(text);
         if (!facts.device->warning.empty()) print_warning(facts.device->warning);
@@ -68,6 +70,11 @@ std::string format_info(const ProgramInfo& facts) {
         text += fmt::format("{:<14} {} of 32 bits run together\n", "lanes", facts.lanes);
         text += fmt::format("{:<14} {}\n", "profile",
                             device.profile.empty() ? "none" : device.profile);
+        text += fmt::format("{:<14} {}\n", "calibration",
+                            device.calibration.empty()
+                                ? "none: 'bench --calibrate' measures this device"
+                                : device.calibration);
+        if (!facts.balance.empty()) text += fmt::format("{:<14} {}\n", "balance", facts.balance);
         for (const auto& [name, choice] : device.variants)
             text += fmt::format("{:<14} {}\n", "  " + name, choice);
     } else {

@@ -248,6 +248,7 @@ std::string info_json(const ProgramInfo& facts) {
                   {"commit", session::commit()}};
     document["device"] = facts.device ? device_json(*facts.device) : Json();
     if (facts.device) document["device"]["lanes"] = facts.lanes;
+    if (!facts.balance.empty()) document["device"]["balance"] = facts.balance;
     if (!facts.device) document["no_device"] = facts.why_no_device;
     Json features = Json::object();
     for (const auto& [group, names] : facts.features) features[group] = names;

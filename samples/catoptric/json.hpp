@@ -61,7 +61,8 @@ std::string metrics_json();
 
 struct ProgramInfo {
     std::optional<session::DeviceInfo> device;
-    int lanes = 0; ///< lanes that run together in the device's shaders
+    int lanes = 0;       ///< lanes that run together in the device's shaders
+    std::string balance; ///< session::describe_balance
     std::string why_no_device;
     /// Name of each group of features, and its features.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;

@@ -78,9 +78,10 @@ std::string format_device_list(const std::vector<session::DeviceInfo>& devices) 
     std::string text;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const session::DeviceInfo& device = devices[i];
-        text += fmt::format("{}  {}  {}, Vulkan {}, {}{}{}\n", i, device.name, device.type,
+        text += fmt::format("{}  {}  {}, Vulkan {}, {}{}{}{}\n", i, device.name, device.type,
                             device.api, device.driver,
                             device.profile.empty() ? "" : ", profile " + device.profile,
+                            device.calibration.empty() ? "" : ", calibrated",
                             device.missing.empty() ? "" : "; not usable, lacks " + device.missing);
     }
     return text;
@@ -139,7 +140,7 @@ std::string list_output(const std::string& kind, const std::string& name, bool j
     if (kind == "techniques") return technique_text(name, json);
     if (kind == "devices") {
         const std::vector<session::DeviceInfo> devices = session::devices(
-            session::find_profile_folder());
+            session::find_profile_folder(), session::find_calibration_folder());
         for (const session::DeviceInfo& device : devices)
             if (!device.warning.empty()) print_warning(device.warning);
         return json ? devices_json(devices) : format_device_list(devices);

@@ -276,6 +276,8 @@ session::EngineOptions engine_options(const DeviceOptions& device) {
             .validate = device.validate,
             .profile = by_default ? "" : device.profile,
             .profiles = by_default ? std::filesystem::path() : session::find_profile_folder(),
+            .calibrations = by_default ? std::filesystem::path()
+                                       : session::find_calibration_folder(),
             .cache = session::find_cache_folder()};
 }
 

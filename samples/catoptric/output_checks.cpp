@@ -2,6 +2,9 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "output.hpp"
+#include "report.hpp"
+#include "session/profile.hpp"
 
 #include <map>
 #include <utility>
@@ -59,6 +62,19 @@ void check_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::
         }
         files.add({output, false});
     }
+}
+
+fs::path choose_device_file(const std::string& output, const fs::path& folder,
+                            const std::string& what, const session::DeviceInfo& device) {
+    if (!output.empty()) {
+        check_output_file(output);
+        return output;
+    }
+    check(!folder.empty(), Failure::cannot_create, "no folder for the device's ", what,
+          ": wanted XDG_CONFIG_HOME or HOME to be an absolute path; -o FILE writes it elsewhere");
+    report::create_folder(folder);
+    check_output_file(folder / session::profile_file_name(device));
+    return folder / session::profile_file_name(device);
 }
 
 } // namespace catoptric::cli

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "session/engine.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,5 +18,14 @@ inline const std::filesystem::path kStdoutPath = "/dev/stdout";
 void check_distinct(const std::vector<std::filesystem::path>& outputs,
                     const std::vector<std::filesystem::path>& inputs,
                     const std::string& read = ", which the scene is read from");
+
+/// Returns the path of a file that a verb writes for a device: `output`, or if that is empty the
+/// device's file in `folder`, which is made. Checks that the file can be written, so that nothing
+/// is measured in vain. `what`: for the message, "profile". Throws `cannot_create` for an empty
+/// folder.
+std::filesystem::path choose_device_file(const std::string& output,
+                                         const std::filesystem::path& folder,
+                                         const std::string& what,
+                                         const session::DeviceInfo& device);
 
 } // namespace catoptric::cli

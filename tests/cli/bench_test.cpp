@@ -125,7 +125,7 @@ TEST_F(CommandLineTest, BenchRefusesInvalidOptionsAndFiles) {
                          {"--compare and --against: wanted one of them, found both"});
 }
 
-class BenchTuneCliTest : public CommandLineTest {
+class BenchDeviceCliTest : public CommandLineTest {
 protected:
     /// Runs the program with the user's configuration folder inside the folder of the test.
     test::ProcessResult run_cli_with_home_folder(const Words& words) const {
@@ -142,7 +142,7 @@ protected:
     }
 };
 
-TEST_F(BenchTuneCliTest, TuningWritesAProfileThatLaterRunsUse) {
+TEST_F(BenchDeviceCliTest, TuningWritesAProfileThatLaterRunsUse) {
     const test::ProcessResult tuned = run_cli_with_home_folder({"bench", "flat", "--tune", "--size",
                                                                 "16x16", "--frames", "6",
                                                                 "--warmup", "0", "--quiet"});
@@ -170,7 +170,7 @@ TEST_F(BenchTuneCliTest, TuningWritesAProfileThatLaterRunsUse) {
     EXPECT_EQ(none["variants"]["groups"], "scattered");
 }
 
-TEST_F(BenchTuneCliTest, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
+TEST_F(BenchDeviceCliTest, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
     const json device = read_device_json({"info", "--json"});
     json profile{{"schema", "catoptric/device-profile/1"},
                  {"variants", {{"hierarchy", "storage"}}}};
@@ -197,7 +197,52 @@ TEST_F(BenchTuneCliTest, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
          "', found 'of last year'"});
 }
 
-TEST_F(BenchTuneCliTest, InvalidOptionsAreRefused) {
+TEST_F(BenchDeviceCliTest, AutoComparesPlansByTheUsersCalibration) {
+    const json device = read_device_json({"info", "--json"});
+    const std::string name = device["name"].get<std::string>() + ", " +
+                             device["driver"].get<std::string>();
+    const auto explain = [&] {
+        const test::ProcessResult ended = run_cli_with_home_folder({"graph", "flat", "--why"});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return ended;
+    };
+    EXPECT_THAT(explain().out, testing::Not(HasSubstr("calibration of this device")));
+    // The file's name is that of the profile, which an earlier test reads back.
+    std::string file = device["id"].get<std::string>() + "-" + device["driver"].get<std::string>();
+    for (char& c : file)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+    const std::string path = "mine/catoptric/costs/" + file + ".json";
+    const auto write_calibration = [&](const std::string& of, const char* work) {
+        write_input_file(path, json{{"schema", "catoptric/costs/1"},
+                                    {"device", of},
+                                    {"origin", "fitted"},
+                                    {"costs", {{{"work", work}, {"ns", 1000}}}}}
+                                   .dump());
+    };
+    std::filesystem::create_directories(folder / "mine/catoptric/costs");
+    write_calibration(name, "fragments");
+    EXPECT_EQ(read_device_json({"info", "--json"})["calibration"], file + ".json");
+    EXPECT_FALSE(
+        read_device_json({"info", "--json", "--device-profile", "none"}).contains("calibration"));
+    // If only fragments take time, a traced picture takes none; if only nodes do, it takes most.
+    const std::string dear_fragments = explain().out;
+    EXPECT_THAT(dear_fragments, HasSubstr("calibration of this device"));
+    EXPECT_THAT(dear_fragments, HasSubstr("suggested --plan \"raytrace"));
+    write_calibration(name, "node_lanes");
+    EXPECT_THAT(explain().out, testing::Not(HasSubstr("suggested --plan \"raytrace")));
+    write_calibration("another card", "fragments");
+    const test::ProcessResult foreign = explain();
+    EXPECT_THAT(foreign.out, testing::Not(HasSubstr("calibration of this device")));
+    EXPECT_THAT(foreign.err, HasSubstr("is another device's or driver's calibration"));
+}
+
+TEST_F(BenchDeviceCliTest, InvalidOptionsAreRefused) {
+    expect_usage_refused({"bench", "flat", "--calibrate"}, 2,
+                         {"--calibrate: wanted no SCENE, --techniques, --frames"});
+    expect_usage_refused({"bench", "--calibrate", "--frames", "3"}, 2, {"--calibrate: wanted no"});
+    expect_usage_refused({"bench", "--calibrate", "--costs"}, 2,
+                         {"--calibrate and --costs: wanted one of them, found both"});
+    expect_usage_refused({"bench", "--calibrate", "-o", "none/c.json"}, 73, {"none/c.json"});
     expect_usage_refused({"bench", "--tune", "--compare", "a", "b"}, 2,
                          {"--tune and --compare: wanted one of them, found both"});
     expect_usage_refused({"bench", "--tune", "--against", "a"}, 2,

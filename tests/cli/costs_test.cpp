@@ -73,6 +73,15 @@ TEST_F(Costs, MapHasTheWorkOfAFrameAtRest) {
                       HasSubstr("| GeForce RTX 2080 Ti (literature)")));
     const std::string page = read_output_file("out/report.html");
     EXPECT_THAT(page, AllOf(HasSubstr("<div class=\"map\">"), HasSubstr("class TradeMap")));
+    // The user's own costs come first, and a name of docs/costs is not listed twice.
+    write_input_file("card.json", kDeviceCostsJson);
+    run_comparison_with_costs({"--map", "--costs", "card.json", "--costs", "gtx-680"});
+    const std::string own = read_output_file("out/report.md");
+    const std::size_t mine = own.find("\n| card (given) "),
+                      known = own.find("\n| GeForce GTX 680 (");
+    EXPECT_LT(mine, known);
+    EXPECT_EQ(own.find("\n| GeForce GTX 680 (", known + 1), std::string::npos);
+    EXPECT_THAT(read_output_file("out/report.html"), HasSubstr("\"name\":\"card\""));
     EXPECT_FALSE(run_comparison_with_costs({"--work"})["rows"][0].contains("work_at_rest"));
     EXPECT_THAT(read_output_file("out/report.html"), testing::Not(HasSubstr("class TradeMap")));
 }

@@ -37,6 +37,7 @@ ELSEWHERE = [
     (r"catoptric stress\b", "tests/CMakeLists.txt", "catoptric_cli stress"),
     (r"catoptric compare -o out --lag\b", "tests/cli/result_test.cpp", '"--lag"'), # takes 2300 frames
     (r"catoptric bench --tune\b", "tests/cli/bench_test.cpp", "--tune"),
+    (r"catoptric bench --calibrate\b", "tests/cli/calibrate_test.cpp", "--calibrate"),
     (r"catoptric bench --costs\b", "tests/cli/costs_test.cpp", "--costs"),
     (r"tar -xf catoptric-kit\.tar\.gz", "tests/machine/run.sh", "tar -x"),
     (r"python3 -m venv env$|env/bin/pip install catoptric", "tests/python/run.sh", "pip\" install"),

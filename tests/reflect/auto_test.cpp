@@ -20,7 +20,7 @@ std::string suggest_plan(const scene::Scene& rest) {
     const scene::Scene now = scene::scene_at(rest, 0);
     return require::suggest_plan(
                {.now = now, .camera = now.cameras.front(), .size = kAutoPictureSize},
-               *session::find_device_costs(test::get_test_engine().device()).costs)
+               session::Access::unit_costs(test::get_test_engine()).costs)
         .plan;
 }
 

@@ -133,7 +133,7 @@ TEST(RequireUnitCosts, EachFileOfCostsIsKnown) {
 
 TEST(RequireUnitCosts, DeviceWithoutAFileGetsTheMostSimilarCosts) {
     const auto file = [](const char* name, const char* driver, bool is_processor) {
-        return find_unit_costs(name, driver, is_processor).costs->file;
+        return find_unit_costs(name, driver, is_processor).costs.file;
     };
     EXPECT_EQ(file("NVIDIA H200", "NVIDIA 580.159.04", false), "h200");
     EXPECT_EQ(file("NVIDIA GeForce GTX 1080 Ti", "NVIDIA 550", false), "gtx-1080-ti");
