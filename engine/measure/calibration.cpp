@@ -34,23 +34,16 @@ Group group_of(WorkKind kind) {
     }
 }
 
-double dot(const Values& a, const Values& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
 /// Returns for each sample the time that each typical cost predicts, as a share of the measured
 /// time. Unknowns of all fits are factors on typical costs.
 std::vector<Values> typical_shares(const std::vector<TimedWork>& samples,
                                    const DeviceCosts& typical) {
-    std::vector<Values> rows;
-    for (const TimedWork& sample : samples) {
-        check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
-              "': wanted a time above 0 ms, found ", sample.ms);
-        Values& row = rows.emplace_back();
-        for (const UnitCost& unit : typical.units)
-            row.push_back(static_cast<double>(sample.counts[unit.kind].value_or(0)) * unit.ns *
-                          1e-6 / sample.ms);
-    }
+    std::vector<WorkKind> kinds;
+    for (const UnitCost& unit : typical.units) kinds.push_back(unit.kind);
+    std::vector<Values> rows = relative_counts(samples, kinds);
+    for (Values& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i)
+            row[i] *= typical.units[i].ns * 1e-6; // ns to ms
     return rows;
 }
 
@@ -82,7 +75,9 @@ Values group_scales(const std::vector<Values>& rows, const DeviceCosts& typical)
     return scales;
 }
 
-LeastSquares make_equations(const std::vector<Values>& rows, const Values& scales, double spread) {
+LeastSquares make_equations(const std::vector<Values>& rows, const DeviceCosts& typical,
+                            double spread) {
+    const Values scales = group_scales(rows, typical);
     LeastSquares equations(scales.size());
     for (const Values& row : rows) equations.add(row);
     add_ridge(equations, scales, spread);
@@ -90,13 +85,14 @@ LeastSquares make_equations(const std::vector<Values>& rows, const Values& scale
 }
 
 /// Returns the predicted time of each row by a fit to all others, as a multiple of the measured.
-Values predict_left_out(const std::vector<Values>& rows, const Values& scales, double spread) {
-    LeastSquares equations = make_equations(rows, scales, spread);
+Values predict_left_out(const std::vector<Values>& rows, const DeviceCosts& typical,
+                        double spread) {
     Values predicted;
-    for (const Values& row : rows) {
-        equations.add(row, 1, -1);
-        predicted.push_back(dot(equations.solve(), row));
-        equations.add(row);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        std::vector<Values> others = rows;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        const Values found = make_equations(others, typical, spread).solve();
+        predicted.push_back(std::inner_product(rows[i].begin(), rows[i].end(), found.begin(), 0.0));
     }
     return predicted;
 }
@@ -115,14 +111,13 @@ DeviceCosts calibrate_costs(std::string device, std::vector<TimedWork> samples,
     check(samples.size() >= kMinSamples, Failure::usage, "calibrating a device: wanted at least ",
           kMinSamples, " measured rows, found ", samples.size());
     const std::vector<Values> rows = typical_shares(samples, typical);
-    const Values scales = group_scales(rows, typical);
     double best_spread = 0;
     Values best;
     for (const double spread : {.1, .4, 1.6, 6.4, 25.0, 100.0})
-        if (Values ratios = predict_left_out(rows, scales, spread);
+        if (Values ratios = predict_left_out(rows, typical, spread);
             best.empty() || square_error(ratios) < square_error(best))
             best = std::move(ratios), best_spread = spread;
-    const Values factors = make_equations(rows, scales, best_spread).solve();
+    const Values factors = make_equations(rows, typical, best_spread).solve();
     DeviceCosts costs{.device = std::move(device), .origin = CostOrigin::fitted};
     for (std::size_t i = 0; i < factors.size(); ++i)
         if (factors[i] > 0)

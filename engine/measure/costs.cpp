@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace catoptric::measure {
 
@@ -18,30 +17,6 @@ namespace {
 
 double count_of(const WorkCounts& counts, WorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
-}
-
-/// Returns the counts of each sample, divided by its time: the factors of equations of relative
-/// error. Throws `usage` for a time that is not positive.
-std::vector<std::vector<double>> relative_rows(const std::vector<TimedWork>& samples,
-                                               std::span<const WorkKind> kinds) {
-    std::vector<std::vector<double>> rows;
-    for (const TimedWork& sample : samples) {
-        check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
-              "': wanted a time above 0 ms, found ", sample.ms);
-        std::vector<double>& row = rows.emplace_back();
-        for (const WorkKind kind : kinds) row.push_back(count_of(sample.counts, kind) / sample.ms);
-    }
-    return rows;
-}
-
-double dot(std::span<const double> a, std::span<const double> b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-/// Returns the time of a sample, as a multiple of the measured one, by a fit to all others.
-double predict_left_out(LeastSquares equations, std::span<const double> row) {
-    equations.add(row, 1, -1);
-    return dot(equations.solve(), row);
 }
 
 } // namespace
@@ -142,12 +117,24 @@ PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& r
     return front;
 }
 
+std::vector<std::vector<double>> relative_counts(const std::vector<TimedWork>& samples,
+                                                 std::span<const WorkKind> kinds) {
+    std::vector<std::vector<double>> rows;
+    for (const TimedWork& sample : samples) {
+        check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
+              "': wanted a time above 0 ms, found ", sample.ms);
+        std::vector<double>& row = rows.emplace_back();
+        for (const WorkKind kind : kinds) row.push_back(count_of(sample.counts, kind) / sample.ms);
+    }
+    return rows;
+}
+
 DeviceCosts fit_costs(std::string device, std::vector<TimedWork> samples,
                       std::span<const WorkKind> kinds) {
     check(samples.size() >= kinds.size() && !kinds.empty(), Failure::usage, "fitting the costs of ",
           kinds.size(), " kinds of work: wanted at least as many measured rows, found ",
           samples.size());
-    const std::vector<std::vector<double>> rows = relative_rows(samples, kinds);
+    const std::vector<std::vector<double>> rows = relative_counts(samples, kinds);
     LeastSquares all(kinds.size());
     for (const std::vector<double>& row : rows) all.add(row);
     DeviceCosts costs{.device = std::move(device), .origin = CostOrigin::fitted};
@@ -156,7 +143,7 @@ DeviceCosts fit_costs(std::string device, std::vector<TimedWork> samples,
         if (found[i] > 0) costs.units.push_back({kinds[i], found[i] * 1e6, {}, "fit"});
     costs.fit = {std::move(samples), {}};
     for (std::size_t i = 0; i < rows.size(); ++i)
-        costs.fit->left_out_ms.push_back(predict_left_out(all, rows[i]) * costs.fit->samples[i].ms);
+        costs.fit->left_out_ms.push_back(all.predict_without(rows[i]) * costs.fit->samples[i].ms);
     return costs;
 }
 

@@ -90,6 +90,11 @@ std::vector<std::size_t> front_of_times(const std::vector<Row>& rows,
 PredictedFront predict_front(const DeviceCosts& costs, const std::vector<Row>& rows,
                              const std::vector<std::optional<PredictedTime>>& measured = {});
 
+/// Returns the counts of each sample, divided by its time: the factors of an equation of relative
+/// error. Throws `usage` for a time that is not positive.
+std::vector<std::vector<double>> relative_counts(const std::vector<TimedWork>& samples,
+                                                 std::span<const WorkKind> kinds);
+
 /// Fits the cost of each kind in `kinds` so that the sum of the squared relative errors is least
 /// and no cost is negative. Kinds with a cost of 0 are left out of the result. Fits once more
 /// without each sample, for FitQuality::left_out_ms. Throws `usage` for fewer samples than kinds,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace catoptric::measure {
 
@@ -37,6 +38,13 @@ std::vector<double> LeastSquares::solve() const {
         if (change <= kConvergenceLimit * size) break;
     }
     return found;
+}
+
+double LeastSquares::predict_without(std::span<const double> row) const {
+    LeastSquares others = *this;
+    others.add(row, 1, -1);
+    const std::vector<double> found = others.solve();
+    return std::inner_product(row.begin(), row.end(), found.begin(), 0.0);
 }
 
 } // namespace catoptric::measure

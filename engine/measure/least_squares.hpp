@@ -19,6 +19,9 @@ public:
     /// is 0.
     std::vector<double> solve() const;
 
+    /// Returns row * x for the solution without an equation of this row and the target 1.
+    double predict_without(std::span<const double> row) const;
+
 private:
     std::vector<std::vector<double>> matrix_; // x' matrix x - 2 right' x is minimised
     std::vector<double> right_;

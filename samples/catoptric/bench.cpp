@@ -237,12 +237,14 @@ int run_shader_tuning(const BenchArguments& options) {
 
 int run_calibration(const BenchArguments& options) {
     const CommonOptions& common = options.common;
-    check(
-        options.scenes.empty() && options.techniques.empty() && !common.frames && !common.warmup &&
-            !common.is_size_given && !common.model,
-        Failure::usage,
-        "--calibrate: wanted no SCENE, --techniques, --frames, --warmup, --size or --model, since "
-        "it measures rows of its own; --costs fits costs to other rows");
+    check(options.scenes.empty() && options.techniques.empty() &&
+              options.rounds == study::kRounds && !common.frames && !common.warmup &&
+              !common.is_size_given && !common.model && !common.both_models && !common.time &&
+              !common.animate,
+          Failure::usage,
+          "--calibrate: wanted no SCENE, --techniques, --rounds, --frames, --warmup, --size, "
+          "--model, --time or --animate, since it measures rows of its own; --costs fits costs to "
+          "other rows");
     return calibrate_device(common, options.output);
 }
 

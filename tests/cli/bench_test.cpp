@@ -238,7 +238,7 @@ TEST_F(BenchDeviceCliTest, AutoComparesPlansByTheUsersCalibration) {
 
 TEST_F(BenchDeviceCliTest, InvalidOptionsAreRefused) {
     expect_usage_refused({"bench", "flat", "--calibrate"}, 2,
-                         {"--calibrate: wanted no SCENE, --techniques, --frames"});
+                         {"--calibrate: wanted no SCENE, --techniques, --rounds"});
     expect_usage_refused({"bench", "--calibrate", "--frames", "3"}, 2, {"--calibrate: wanted no"});
     expect_usage_refused({"bench", "--calibrate", "--costs"}, 2,
                          {"--calibrate and --costs: wanted one of them, found both"});
