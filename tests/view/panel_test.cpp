@@ -22,6 +22,8 @@ using testing::Each;
 using testing::Not;
 using testing::StartsWith;
 
+constexpr float kWidth = 360, kHeight = 700; // of the panel, pixels
+
 /// A Dear ImGui context that draws one panel without a window.
 class PanelWithoutWindow {
 public:
@@ -30,7 +32,7 @@ public:
         ImGui::SetCurrentContext(context_);
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.DisplaySize = {360, 700};
+        io.DisplaySize = {kWidth, kHeight};
         io.DeltaTime = 1; // seconds, so that no click is a double click
     }
     ~PanelWithoutWindow() { ImGui::DestroyContext(context_); }
@@ -43,7 +45,7 @@ public:
             ImGui::GetIO().MouseDown[0] = down;
             ImGui::NewFrame();
             ImGui::SetNextWindowPos({0, 0});
-            ImGui::SetNextWindowSize({360, 700});
+            ImGui::SetNextWindowSize({kWidth, kHeight});
             ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
             draw_plan_controls(state, shown_scene_, {});
             ImGui::End();
@@ -85,7 +87,7 @@ protected:
                                 const std::function<EditedPlan(const ViewState&)>& plan) {
         std::set<std::string> texts;
         for (const float x : {30.f, 220.f, 250.f, 284.f})
-            for (float y = 6; y < 500; y += 8) {
+            for (float y = 6; y < kHeight; y += 8) {
                 ViewState state = from;
                 PanelWithoutWindow panel(scene, fonts);
                 panel.click_panel(state, x, y);
