@@ -39,13 +39,15 @@ mkdir results
 tar -C results --strip-components=1 -xzf "${archives[0]}"
 summary=results/summary.txt
 expect '^info +0 ' $summary
-expect '^compare +0 ' $summary
+expect '^rows/cornell-mirrors-512 +0 ' $summary
+expect '^calibrate +0 ' $summary
+expect '^auto/gallery-1 +0 ' $summary
 expect '^stress +1 ' $summary
 expect '^ratios +over 1 s +1\.[0-9]' $summary
 expect '^gpu/[a-z_]+ +3 ' $summary
 expect '^drivers/[a-z_]+ +139 ' $summary
 expect '^reflect/[a-z_]+ +0 ' $summary
-expect 'catoptric compare --device A B .*--size 64x64' results/compare.log
+expect 'catoptric compare cornell-mirrors --device A B --size 64x64 .*--work' results/rows-cornell-mirrors-512.log
 expect '^gpu --from [a-z_]+_test.cpp on A B$' "$(echo results/gpu-*.log)"
 expect "reads $kit/source\$" "$(echo results/reflect-*.log)"
 expect 'cornell-mirrors.glb' "$(echo results/reflect-*.log)"
@@ -75,8 +77,40 @@ env -i "$kit/run.sh" reflect/a >said.txt 2>&1 || fail "nothing failed: wanted ex
 ! grep -q '^gpu/' said.txt || fail "ran what was not asked for: $(cat said.txt)"
 (($(grep -c '^reflect/' said.txt) == $(ls "$source"/tests/reflect/a*_test.cpp | wc -l))) || fail "not all: $(cat said.txt)"
 
-# With -j, tests must run at the same time, except those that compare times, and their exit codes must still count.
+# Steps that have no time left are named, and --resume runs those that have not ended with 0, and no others.
+steps_of() { rm -rf unpacked && mkdir unpacked && tar -C unpacked --strip-components=1 -xzf "$kit"/results-*.tar.gz; }
 stub_in_kit() { printf '#!/usr/bin/env bash\n%s\n' "$2" >"$kit/bin/$1"; chmod +x "$kit/bin/$1"; }
+rm "$kit"/results-*
+stub_in_kit catoptric '[[ $1 == compare ]] && sleep 3; exit 0'
+code=0
+env -i "$kit/run.sh" -b 2 rows/c calibrate >said.txt 2>&1 || code=$?
+((code == 1)) || fail "no time left: wanted exit code 1, found $code: $(cat said.txt)"
+steps_of
+expect '^rows/cornell-mirrors-512 +over [12] s ' unpacked/summary.txt
+expect '^calibrate +later ' unpacked/summary.txt
+stub_in_kit catoptric 'echo "again: $1"; exit 0'
+env -i "$kit/run.sh" --resume rows/c calibrate >said.txt 2>&1 || fail "resumed: wanted exit code 0: $(cat said.txt)"
+! grep -q '^info' said.txt || fail "resumed what was done: $(cat said.txt)"
+expect '^calibrate +0 ' said.txt
+(($(ls "$kit"/results-*.tar.gz | wc -l) == 1)) || fail "a resumed run left two archives: $(ls "$kit")"
+steps_of
+expect '^info +0 ' unpacked/summary.txt
+expect '^rows/cornell-mirrors-2048 +0 ' unpacked/summary.txt
+rm "$kit"/results-*
+code=0
+env -i "$kit/run.sh" --resume >said.txt 2>&1 || code=$?
+((code == 2)) || fail "nothing to resume: wanted exit code 2, found $code"
+expect 'wanted an archive results-\*.tar.gz' said.txt
+
+# An archive that would be too large leaves out its largest files, and says which.
+stub_in_kit catoptric 'while (($#)); do [[ $1 != -o ]] || head -c 61M /dev/urandom >"$2"; shift; done'
+env -i "$kit/run.sh" bench >said.txt 2>&1 || fail "large: wanted exit code 0: $(cat said.txt)"
+expect '^left out for the archive.s 60 MiB: bench.json, 63963136 bytes' said.txt
+steps_of
+expect 'bench.json' unpacked/left-out.txt
+[[ ! -e unpacked/bench.json ]] || fail "the largest file was kept"
+
+# With -j, tests must run at the same time, except those that compare times, and their exit codes must still count.
 stub_in_kit gpu_test 'at=$TMPDIR/running; mkdir -p "$at"; touch "$at/$$"; sleep .3; ls "$at" | wc -l; rm "$at/$$"'
 rm "$kit"/results-*
 env -i "$kit/run.sh" -j 4 gpu/t gpu/s >said.txt 2>&1 || fail "wanted exit code 0: $(cat said.txt)"
