@@ -34,7 +34,7 @@ def wait(browser, script, wanted=None):
     found = None
     for _ in range(100):
         found = browser.execute_script(script)
-        if found == wanted or (wanted is None and found):
+        if found if wanted is None else found == wanted:
             return found
         time.sleep(0.1)
     raise AssertionError(f"{script}: wanted {wanted or 'a value'}, found {found!r}")
