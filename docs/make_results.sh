@@ -9,13 +9,14 @@
 #   drawn      docs/drawn.md
 #   lag        the tables of docs/lag.md
 #   fronts     the fronts of docs/costs.md
+#   map        docs/images/map.svg
 # PROGRAM is the catoptric program. TESTS is the folder with catoptric_bench, cli_test and gpu_test. ./dev results calls
 # this script.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$1 tests=$2
 parts=("${@:3}")
-((${#parts[@]})) || parts=(rows causes precision stress views drawn lag fronts)
+((${#parts[@]})) || parts=(rows causes precision stress views drawn lag fronts map)
 mkdir -p out docs/images
 
 # Callers first make TEXT by `text=$(...)`, because a failure in this assignment ends the script. A failure within an
@@ -184,6 +185,17 @@ make_fronts() {
             echo
         done)
     put fronts docs/costs.md "$text"
+}
+
+# Counts the work of rows, which does not depend on the load of the machine, and reads the map in a browser.
+make_map() {
+    local folders=() scene
+    for scene in cornell-mirrors cornell-mirrors-closed flat room courtyard gallery; do
+        folders+=(out/map/$scene)
+        "$program" compare $scene -o out/map/$scene --size 256x256 --frames 1 --warmup 2 --map --techniques reuse parallax \
+            proxy secant march pyramid layered planar hybrid raytrace:depth={2,4,8} raytrace:depth={2,4,8},first=raster
+    done
+    /usr/bin/python3 -B docs/make_map.py "${folders[@]}" -o docs/images/map.svg
 }
 
 for part in "${parts[@]}"; do
