@@ -105,6 +105,8 @@ render::MirrorShaders choose_captured_looks(const FrameDeclaration& frame) {
 void declare_captures(FrameDeclaration& frame) {
     std::vector<render::CaptureOptions> options = choose_options(frame);
     const CaptureHistory& history = frame.continued_history();
+    if (frame.probes || frame.history.ignores_turns)
+        for (render::CaptureOptions& one : options) one.every = 1;
     frame.captures = history.model.is_everything && !render::take_turns(options)
                          ? render::update_all_captures(frame.graph, frame.inputs, "capture",
                                                        std::move(options))

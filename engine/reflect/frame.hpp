@@ -14,7 +14,8 @@ struct CaptureHistory {
     std::shared_ptr<render::CaptureCache> before;
     /// Buffers for comparing captures with those of the previous frame; may be null.
     render::ComparisonBuffers* comparisons = nullptr;
-    std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
+    std::uint32_t most = 0;     ///< capture budget; see render::PreviousCaptures
+    bool ignores_turns = false; ///< captures are drawn as with every=1
 };
 /// The model that culls no work, so that all captures are drawn.
 inline const require::WorkModel kDrawEverythingModel;

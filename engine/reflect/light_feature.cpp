@@ -63,6 +63,11 @@ constexpr FrameFeature kLightProbeCaptureFeature{
             if (frame.history.most > 0)
                 frame.outputs.notes.emplace_back(
                     "light probes need all captures, so no budget limits them");
+            if (std::ranges::any_of(frame.choices(), [](const TechniqueChoice& choice) {
+                    return choice.shared.capture.every > 1;
+                }))
+                frame.outputs.notes.emplace_back(
+                    "light probes need all captures in each frame, so 'every' has no effect");
         }};
 const RegisteredFeature kLightProbeCaptureRegistration{kLightProbeCaptureFeature};
 

@@ -6,6 +6,7 @@
 #include "require/model.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace catoptric::render {
 
@@ -20,6 +21,8 @@ CaptureDecider::CaptureDecider(const GpuScene& scene, const require::WorkModel& 
                                const CaptureCache* before, bool compares)
     : scene_(scene), model_(model), number_(number), layout_(layout), before_(before),
       compares_(compares) {
+    static std::atomic<std::uint64_t> deciders = 0;
+    decider_ = ++deciders;
     if (before) changed_ = find_changed(*before);
     ContentHash lit;
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
@@ -96,7 +99,7 @@ FaceUpdate CaptureDecider::decide(std::uint32_t mirror, std::uint32_t face,
                                   const std::vector<std::uint32_t>& seen, CachedFace& now) const {
     if (model_.is_everything) { // drawn whatever it shows, so each drawing has a number of its own
         ContentHash drawing;
-        drawing.add(number_), drawing.add(mirror), drawing.add(face);
+        drawing.add(decider_), drawing.add(mirror), drawing.add(face);
         now = {.content_hash = std::max<std::uint64_t>(drawing.sum(), 1),
                .drawing = std::max<std::uint64_t>(drawing.sum(), kClearedDrawing + 1)};
         return FaceUpdate::draw;

@@ -53,6 +53,7 @@ private:
     const GpuScene& scene_;
     const require::WorkModel& model_;
     std::uint64_t number_;
+    std::uint64_t decider_ = 0; // of all in this process: frames aside repeat the frame's number
     const std::vector<CaptureOptions>& layout_;
     const CaptureCache* before_;
     bool compares_;

@@ -62,6 +62,7 @@ struct FrameHooks {
     std::uint32_t ablated = 0;
     bool with_captures = false; ///< make captures readable (Access::read_captures)
     bool counts_work = false; ///< count the work (Access::pass_work), which makes the frame slower
+    bool ignores_turns = false; ///< draw captures as with every=1
 };
 
 /// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in

@@ -92,7 +92,8 @@ std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs
                                   (model.is_everything || model.mirrors[i].is_captured);
         capture_budget.every = std::max(capture_budget.every, kept.options[i].every);
         capture_budget.drawn += kept.changes[i] != render::CaptureChange::none;
-        capture_budget.waiting += kept.waited[i] > 0;
+        // If all captures are drawn in turns, one that waits need not have changed.
+        capture_budget.waiting += !model.is_everything && kept.waited[i] > 0;
         capture_budget.longest = std::max(capture_budget.longest, kept.waited[i]);
     }
     capture_budget.most = keeping.most > 0 ? std::min(keeping.most, capture_budget.mirrors)

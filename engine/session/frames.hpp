@@ -53,11 +53,16 @@ public:
     RunResult result() const;
 
 private:
+    /// Returns the frames within which each capture is drawn again; 1 without a limit.
+    int cycle() const;
+
     Session& session_;
     const Request& request_;
     FrameHooks hooks_;
     int number_ = 0;
     bool settled_ = false;
+    int equal_frames_ =
+        0; ///< frames in a row, up to the last, whose state is that of the one before
     std::optional<Frame> frame_;
     std::optional<FrameSequence> aside_;
     std::vector<FrameTimes> times_;

@@ -64,20 +64,27 @@ bool FrameLoop::render_next(const scene::Camera& camera, double time) {
     }
     if (request_.until_settled) {
         std::vector<std::byte> state = Access::read_state(*frame_);
-        settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
+        equal_frames_ = state == state_ ? equal_frames_ + 1 : 0;
+        // If all captures are drawn again in turns, none has changed after a whole cycle.
+        const int wanted = request_.model == RenderedWork::everything ? cycle() : 1;
+        settled_ = state.empty() || (equal_frames_ >= wanted && frame_->waiting() == 0);
         state_ = std::move(state);
     }
     return true;
 }
 
-/// With a limit on captures, a still picture needs as many rounds as it needs frames without a
-/// limit. The number of frames is therefore multiplied by the frames of a round.
+int FrameLoop::cycle() const {
+    std::uint32_t frames = 1;
+    for (std::size_t i = 0; frame_ && i < frame_->size(); ++i)
+        frames = std::max(
+            frames, frame_->capture_budget(i) ? frame_->capture_budget(i)->frames_per_cycle() : 1);
+    return static_cast<int>(frames);
+}
+
+/// With a limit on captures, a still picture needs as many cycles as it needs frames without one.
 int FrameLoop::max_frames() const {
-    std::uint32_t round = 1;
-    for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
-        round = std::max(
-            round, frame_->capture_budget(i) ? frame_->capture_budget(i)->frames_per_cycle() : 1);
-    return static_cast<int>(std::min<std::int64_t>(std::int64_t{request_.total()} * round,
+    const std::int64_t cycles = request_.until_settled ? cycle() : 1;
+    return static_cast<int>(std::min<std::int64_t>(std::int64_t{request_.total()} * cycles,
                                                    std::numeric_limits<int>::max()));
 }
 

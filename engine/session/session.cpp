@@ -217,7 +217,7 @@ Session::Impl::submit(const std::shared_ptr<Impl>& self, const FrameSpec& spec,
     frame->model = find_model(plans, spec.model, hooks.ablated != 0);
     frame->frame = declare_frame(
         spec, hooks, facts, plans, mirrors, *resident, runner.make_history(),
-        find_capture_histories(spec, plans.size(), *frame->model, follows));
+        find_capture_histories(spec, hooks, plans.size(), *frame->model, follows));
     frame->declare_ms = milliseconds_since(start);
     const SteadyClock::time_point trees = SteadyClock::now();
     resident->fulfil(frame->frame.requests, [&] { wait_for_copy(copy); });
@@ -297,8 +297,8 @@ std::string Access::format_plan(Session& session, const FrameSpec& spec, PlanFor
     facts.transforms = self.transforms;
     const std::shared_ptr<const require::WorkModel> model = self.find_model(plans, spec.model,
                                                                             false);
-    std::vector<reflect::CaptureHistory> keeping(plans.size(),
-                                                 {*model, nullptr, &self.comparisons});
+    std::vector<reflect::CaptureHistory> keeping(
+        plans.size(), {.model = *model, .comparisons = &self.comparisons, .ignores_turns = true});
     FrameGraph frame = declare_frame(spec, {}, facts, plans, self.mirrors, *self.resident, {},
                                      keeping);
     // If captures are kept, the second frame compares them with those of the first. The returned

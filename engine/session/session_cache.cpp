@@ -38,10 +38,13 @@ void check_capture_limit(const FrameSpec& spec) {
 }
 
 std::vector<reflect::CaptureHistory>
-Session::Impl::find_capture_histories(const FrameSpec& spec, std::size_t plan_count,
-                                      const require::WorkModel& model, bool follows) {
+Session::Impl::find_capture_histories(const FrameSpec& spec, const FrameHooks& hooks,
+                                      std::size_t plan_count, const require::WorkModel& model,
+                                      bool follows) {
     std::vector<reflect::CaptureHistory> keeping(
-        plan_count, {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
+        plan_count, {.model = model,
+                     .comparisons = spec.keeps_history ? nullptr : &comparisons,
+                     .ignores_turns = hooks.ignores_turns});
     for (std::size_t i = 0; i < keeping.size(); ++i)
         keeping[i].most = most_captures(spec, i, model);
     for (std::size_t i = 0; follows && i < history.captures.size(); ++i) {

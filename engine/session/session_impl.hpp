@@ -62,10 +62,9 @@ struct Session::Impl {
     find_model(const std::vector<reflect::TechniquePlan>& plans, RenderedWork work,
                bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
-    std::vector<reflect::CaptureHistory> find_capture_histories(const FrameSpec& spec,
-                                                                std::size_t plan_count,
-                                                                const require::WorkModel& model,
-                                                                bool follows);
+    std::vector<reflect::CaptureHistory>
+    find_capture_histories(const FrameSpec& spec, const FrameHooks& hooks, std::size_t plan_count,
+                           const require::WorkModel& model, bool follows);
     /// Waits for results of earlier frames that this frame needs.
     void wait_for_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.

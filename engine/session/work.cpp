@@ -14,7 +14,9 @@ std::vector<PassWork> count_frame_work(Session& session, const Request& request,
     for (int k = 1; k <= last; ++k) {
         FrameSpec spec = request;
         spec.time = request.instant(k);
-        const Frame frame = Access::render_frame(session, spec, {.counts_work = k == last});
+        // Which captures a frame draws in turns depends on its number, so none is typical.
+        const Frame frame = Access::render_frame(session, spec,
+                                                 {.counts_work = k == last, .ignores_turns = true});
         frame.times(); // waits, so that a stop signal takes effect soon
         if (k == last) work = Access::pass_work(frame);
         report_frame(watcher, k, last);

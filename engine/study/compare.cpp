@@ -286,6 +286,7 @@ private:
         row_warnings_.emplace_back();
         judged_.emplace_back();
         prefixes_.push_back(part.prefix);
+        cycles_.push_back(part.capture_budget ? part.capture_budget->every : 1);
     }
 
     /// Adds the rows whose pictures are files, after all rows that are drawn. Studies of drawn rows
@@ -402,7 +403,8 @@ private:
 
     void fill_times(std::size_t index, const RowMeasurement& run) {
         report::Row& row = comparison_.rows[index];
-        fill_row_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
+        fill_row_times(row, {run.rounds(), cycles_[index]}, prefixes_[index],
+                       comparison_.device.type == "cpu");
         row.noisy = run.is_noisy();
         row.waited = run.wait_share();
     }
@@ -452,6 +454,7 @@ private:
     std::vector<std::unique_ptr<RowMeasurement>>
         runs_;                                  ///< one per row, or one for all rows together
     std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
+    std::vector<std::size_t> cycles_;           ///< MeasuredFrames::cycle of the rows
     std::vector<std::vector<double>> clear_ms_; ///< clear times by round
     std::vector<std::vector<std::string>> row_warnings_;
     std::vector<std::string> study_warnings_;

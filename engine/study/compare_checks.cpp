@@ -63,12 +63,26 @@ void check_techniques(const std::vector<std::string>& techniques) {
     }
 }
 
+/// Throws `usage` if fewer frames are measured than draw each capture in its turn.
+void check_turns(const reflect::TechniquePlan& plan, int frames) {
+    std::uint32_t cycle = 1;
+    for (const reflect::PlanRule& rule : plan.rules)
+        cycle = std::max(cycle, rule.choice.shared.capture.every);
+    check(frames >= static_cast<int>(cycle), Failure::usage, "technique '", plan.label,
+          "' draws each capture once in ", cycle,
+          " frames: wanted at least as many measured frames "
+          "(--frames), found ",
+          frames);
+}
+
 void check_compare_request(const CompareRequest& request) {
     scene::check_scene(request.base.scene);
     check_techniques(request.base.techniques);
     for (const std::string& text : request.base.techniques)
-        if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto)
+        if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto) {
             reflect::assign_techniques(plan, mirror_names(request.base.scene));
+            check_turns(plan, request.base.frames);
+        }
     check_picture_rows(request);
     check_has_mirror(request.base.scene);
     check_round_limit(request.rounds);

@@ -12,26 +12,41 @@
 #include "session/technique_choice.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace catoptric::study {
 
 namespace {
 
-using FrameTimesByRound = std::vector<std::vector<FrameTimes>>;
+/// Returns the mean of each whole cycle of successive samples, each as a round of its own.
+std::vector<std::vector<double>> average_cycles(const std::vector<std::vector<double>>& rounds,
+                                                std::size_t cycle) {
+    std::vector<double> all;
+    for (const std::vector<double>& round : rounds)
+        all.insert(all.end(), round.begin(), round.end());
+    cycle = std::min(cycle, all.size());
+    std::vector<std::vector<double>> means;
+    for (auto from = all.begin(); all.end() - from >= static_cast<std::ptrdiff_t>(cycle);) {
+        const auto to = from + static_cast<std::ptrdiff_t>(cycle);
+        means.push_back({std::accumulate(from, to, 0.0) / static_cast<double>(cycle)});
+        from = to;
+    }
+    return means;
+}
 
 template <typename Value>
-measure::SampleSummary summarise_frames(const FrameTimesByRound& rounds, Value&& value) {
+measure::SampleSummary summarise_frames(const MeasuredFrames& frames, Value&& value) {
     std::vector<std::vector<double>> samples;
-    for (const std::vector<FrameTimes>& round : rounds) {
+    for (const std::vector<FrameTimes>& round : frames.rounds) {
         samples.emplace_back();
         for (const FrameTimes& frame : round) samples.back().push_back(value(frame));
     }
-    return measure::summarise(samples);
+    return measure::summarise(frames.cycle > 1 ? average_cycles(samples, frames.cycle) : samples);
 }
 
-HostTimes summarise_host_times(const FrameTimesByRound& rounds) {
+HostTimes summarise_host_times(const MeasuredFrames& frames) {
     const auto part = [&](double HostTimes::*which) {
-        return summarise_frames(rounds, [&](const FrameTimes& frame) { return frame.host.*which; })
+        return summarise_frames(frames, [&](const FrameTimes& frame) { return frame.host.*which; })
             .median;
     };
     return {part(&HostTimes::update), part(&HostTimes::hierarchy), part(&HostTimes::compile),
@@ -39,18 +54,19 @@ HostTimes summarise_host_times(const FrameTimesByRound& rounds) {
 }
 
 /// Returns the frames whose passes are kept one by one (kMaxDetailedFrames).
-FrameTimesByRound keep_frames_with_passes(FrameTimesByRound rounds) {
-    for (std::vector<FrameTimes>& round : rounds)
+MeasuredFrames keep_frames_with_passes(MeasuredFrames frames) {
+    for (std::vector<FrameTimes>& round : frames.rounds)
         std::erase_if(round, [](const FrameTimes& frame) { return frame.passes.empty(); });
-    std::erase_if(rounds, [](const std::vector<FrameTimes>& round) { return round.empty(); });
-    return rounds;
+    std::erase_if(frames.rounds,
+                  [](const std::vector<FrameTimes>& round) { return round.empty(); });
+    return frames;
 }
 
 /// Returns the names of all passes that occur in some frame, in order of execution. Frames differ
 /// in their passes, because captures that are kept are not rendered again.
-std::vector<std::string> pass_names(const FrameTimesByRound& rounds) {
+std::vector<std::string> pass_names(const MeasuredFrames& measured) {
     std::vector<std::string> names;
-    for (const std::vector<FrameTimes>& round : rounds)
+    for (const std::vector<FrameTimes>& round : measured.rounds)
         for (const FrameTimes& frame : round)
             for (std::size_t i = 0; i < frame.passes.size(); ++i) {
                 if (std::ranges::find(names, frame.passes[i].name) != names.end()) continue;
@@ -164,12 +180,12 @@ report::Row describe_row(const std::string& text, const TechniqueResult& part) {
 }
 
 /// If the row is alone in its frames, its time runs from the first to the last timestamp.
-void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std::string& prefix,
+void fill_row_times(report::Row& row, const MeasuredFrames& frames, const std::string& prefix,
                     bool on_processor) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
-    const FrameTimesByRound detailed = keep_frames_with_passes(rounds);
+    const MeasuredFrames detailed = keep_frames_with_passes(frames);
     row.gpu_ms = prefix.empty() ? summarise_frames(
-                                      rounds, [](const FrameTimes& frame) { return frame.gpu_ms; })
+                                      frames, [](const FrameTimes& frame) { return frame.gpu_ms; })
                                 : summarise_frames(detailed, [&](const FrameTimes& frame) {
                                       double sum = 0;
                                       for (const PassTime& pass : frame.passes)
@@ -177,7 +193,7 @@ void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std
                                       return sum;
                                   });
     const auto summary = [&](double FrameTimes::*which) {
-        return summarise_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
+        return summarise_frames(frames, [&](const FrameTimes& frame) { return frame.*which; });
     };
     row.wait_ms = summary(&FrameTimes::wait_ms);
     row.cpu_record_ms = summary(&FrameTimes::record_ms);
@@ -185,12 +201,12 @@ void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std
     if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
     row.on_processor = on_processor && prefix.empty();
     row.closure = summarise_frames(
-        rounds, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
-    row.host_ms = summarise_frames(rounds,
+        frames, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
+    row.host_ms = summarise_frames(frames,
                                    [](const FrameTimes& frame) { return frame.host.sum(); });
-    row.frame_ms = summarise_frames(rounds,
+    row.frame_ms = summarise_frames(frames,
                                     [](const FrameTimes& frame) { return frame.frame_ms(); });
-    row.host_parts = summarise_host_times(rounds);
+    row.host_parts = summarise_host_times(frames);
     row.passes.clear();
     for (const std::string& name : pass_names(detailed))
         if (name.starts_with(prefix))

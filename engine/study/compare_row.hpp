@@ -16,10 +16,17 @@ using namespace session;
 
 /// Returns a row that describes the technique or plan, without its cost, picture and errors.
 report::Row describe_row(const std::string& text, const TechniqueResult& part);
-/// Fills the row's cost from the frames measured so far, round by round. The row's passes are those
-/// whose name begins with `prefix`. `on_processor`: the device is a processor.
-void fill_row_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
-                    const std::string& prefix, bool on_processor);
+struct MeasuredFrames {
+    std::vector<std::vector<FrameTimes>> rounds;
+    /// Frames within which each capture is drawn again in its turn (CaptureBudget::every). A sample
+    /// is then the mean of a whole cycle, because no single frame is typical.
+    std::size_t cycle = 1;
+};
+
+/// Fills the row's cost from the frames measured so far. The row's passes are those whose name
+/// begins with `prefix`. `on_processor`: the device is a processor.
+void fill_row_times(report::Row& row, const MeasuredFrames& frames, const std::string& prefix,
+                    bool on_processor);
 struct ComparedReference {
     const measure::Picture& hdr; ///< linear; of a reference with noise, the mean of its halves
     /// Halves of a reference with noise, at the comparison's exposure; null: no noise.

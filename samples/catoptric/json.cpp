@@ -37,7 +37,11 @@ Json device_json(const session::DeviceInfo& device) {
 /// Returns the times in the format of report.json.
 Json times_json(const session::RunResult& result, const session::DeviceInfo& device) {
     report::Row row;
-    study::fill_row_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
+    const session::TechniqueResult& part = result.parts.front();
+    study::fill_row_times(
+        row,
+        {.rounds = {result.frames}, .cycle = part.capture_budget ? part.capture_budget->every : 1},
+        part.prefix, device.type == "cpu");
     const std::vector<session::PassTime>& last = result.frames.back().passes;
     std::erase_if(row.passes,
                   [&](const report::PassFacts& pass) { // passes that only other frames had are left

@@ -90,13 +90,35 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
     EXPECT_DOUBLE_EQ(frames.back().passes_ms, sum);
     const report::Row row = [&] {
         report::Row filled;
-        study::fill_row_times(filled, {{frames}}, "", true);
+        study::fill_row_times(filled, {.rounds = {frames}}, "", true);
         return filled;
     }();
     EXPECT_EQ(row.gpu_ms.samples.size(), frames.size());
     ASSERT_FALSE(row.passes.empty());
     EXPECT_EQ(row.passes.front().gpu_ms.samples.size(), session::kMaxDetailedFrames);
     EXPECT_GT(row.passes.front().gpu_ms.median, 0);
+}
+
+// If captures take turns, a sample is the mean of a cycle, because most frames draw no capture.
+TEST(Timing, SamplesOfTurnsAreMeansOfWholeCycles) {
+    std::vector<std::vector<session::FrameTimes>> rounds(4);
+    const std::vector<double> ms{9, 1, 2, 12, 3, 6, 9, 0, 3, 100, 200};
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        session::FrameTimes& frame = rounds[i / 3].emplace_back();
+        frame.gpu_ms = ms[i], frame.wall_ms = 1;
+        if (i % 3 == 0)
+            frame.passes.push_back({.name = "capture/1", .begin_ms = 0, .end_ms = ms[i]});
+        frame.passes.push_back({.name = "view", .begin_ms = 0, .end_ms = 1});
+    }
+    report::Row row;
+    study::fill_row_times(row, {.rounds = rounds, .cycle = 3}, "", true);
+    EXPECT_THAT(row.gpu_ms.samples, testing::ElementsAre(4, 7, 4));
+    EXPECT_EQ(row.gpu_ms.median, 4);
+    ASSERT_EQ(row.passes.size(), 2u);
+    EXPECT_THAT(row.passes[0].gpu_ms.samples, testing::ElementsAre(3, 4, 3));
+    EXPECT_EQ(row.passes[1].gpu_ms.median, 1);
+    study::fill_row_times(row, {.rounds = rounds, .cycle = 64}, "", true);
+    EXPECT_EQ(row.gpu_ms.samples.size(), 1u) << "fewer frames than a cycle has";
 }
 
 TEST(Timing, FirstRoundIsReplacedByLaterFrames) {

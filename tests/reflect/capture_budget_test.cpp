@@ -162,13 +162,49 @@ TEST(CaptureTurns, StillSceneConvergesToFullCaptures) {
     const measure::Picture all = settle("parallax:face=32,shadow_map=64",
                                         session::RenderedWork::everything);
     const char* in_turns = "parallax:face=32,shadow_map=64,every=3";
-    EXPECT_TRUE(
-        test::have_equal_pixel_bytes(settle(in_turns, session::RenderedWork::required), all));
-    session::Request request = test::make_test_request(scene, {in_turns}, kSlicesPictureSize);
-    request.warmup = 0, request.frames = 40;
-    EXPECT_TRUE(test::have_equal_pixel_bytes(
-        session::run(test::get_test_engine(), request).parts.front().hdr, all))
-        << "the model everything, whose captures never rest";
+    for (const session::RenderedWork model :
+         {session::RenderedWork::required, session::RenderedWork::everything})
+        EXPECT_TRUE(test::have_equal_pixel_bytes(settle(in_turns, model), all));
+}
+
+// Light probes are drawn in each frame, from captures of that frame.
+TEST(CaptureTurns, LightProbesLeaveNoTurns) {
+    const scene::Scene scene = make_coarse_room();
+    const auto draw = [&](const std::string& knobs) {
+        session::Request request = test::make_test_request(
+            scene, {"parallax:face=32,shadow_map=64,indirect=captures,probes=27" + knobs},
+            kSlicesPictureSize);
+        request.warmup = 0, request.frames = 4;
+        return session::run(test::get_test_engine(), request).parts.front();
+    };
+    const session::TechniqueResult in_turns = draw(",every=3");
+    EXPECT_TRUE(test::have_equal_pixel_bytes(in_turns.hdr, draw("").hdr));
+    EXPECT_THAT(in_turns.notes, testing::Contains(testing::HasSubstr("'every' has no effect")));
+    EXPECT_FALSE(in_turns.capture_budget);
+}
+
+// A frame beside the sequence has the number of the next one, and leaves it nothing.
+TEST(CaptureTurns, FramesAsideLeaveNoContents) {
+    const auto draw = [](bool has_frames_aside) {
+        session::Session session(test::get_test_engine(), scene::make_cornell());
+        session::FrameSpec spec = test::make_test_request(
+            session.scene(), {"pyramid:face=32,shadow_map=64,every=2"}, kSlicesPictureSize);
+        std::vector<measure::Picture> pictures;
+        for (int k = 0; k < 4; ++k) {
+            spec.time = .25 * k;
+            if (has_frames_aside)
+                for (const double time : {1.5, 2.5}) {
+                    session::FrameSpec aside = spec;
+                    aside.time = time, aside.keeps_history = true;
+                    session.frame(aside).hdr();
+                }
+            pictures.push_back(session.frame(spec).hdr());
+        }
+        return pictures;
+    };
+    const std::vector<measure::Picture> alone = draw(false), beside = draw(true);
+    for (std::size_t k = 0; k < alone.size(); ++k)
+        EXPECT_TRUE(test::have_equal_pixel_bytes(alone[k], beside[k])) << "frame " << k + 1;
 }
 
 // Under a budget, each bounce needs a round of frames instead of one frame.

@@ -31,6 +31,13 @@ count_work_of_frame(const scene::Scene& scene, const std::string& technique,
     return session::count_frame_work(session, asked);
 }
 
+// Which captures a frame draws in turns depends on its number, so a counted frame draws all.
+TEST(Work, RowsInTurnsCountAFrameThatDrawsAllCaptures) {
+    const scene::Scene scene = test::make_lit_room(3, 1);
+    EXPECT_TRUE(count_work_of_frame(scene, "parallax:face=16,shadow_map=16,every=8") ==
+                count_work_of_frame(scene, "parallax:face=16,shadow_map=16"));
+}
+
 std::uint64_t total_work_of_kind(const std::vector<PassWork>& passes, WorkKind kind) {
     return sum_work(passes)[kind].value_or(0);
 }
