@@ -31,15 +31,18 @@ std::string format_rate(double ns, const char* unit) {
 
 } // namespace
 
-std::optional<Balance> find_balance(const DeviceCosts& costs) {
+std::optional<Balance> find_balance(const DeviceCosts& costs, int lanes) {
     using enum WorkKind;
     const auto or_none = [](double ns) { return std::isnan(ns) ? 0 : ns; };
     Balance balance{.lookup_ns = find_ns(costs, {colour_lookups, colour_lanes}),
-                    .ray_ns = or_none(find_ns(costs, {mirror_rays})) +
-                              kNodesPerRay * or_none(find_ns(costs, {nodes, node_lanes})),
                     .fragment_ns = find_ns(costs, {fragments}),
                     .byte_ns = find_ns(costs, {bytes}),
                     .is_of_subgroups = std::isnan(find_ns(costs, {colour_lookups}))};
+    const double one_by_one = or_none(find_ns(costs, {mirror_rays})) +
+                              kNodesPerRay * or_none(find_ns(costs, {nodes}));
+    const double together = kNodesPerRay * or_none(find_ns(costs, {node_lanes}));
+    balance.ray_ns = balance.is_of_subgroups ? lanes * one_by_one + together
+                                             : one_by_one + together / lanes;
     if (!(balance.lookup_ns > 0) || !(balance.ray_ns > 0)) return std::nullopt;
     return balance;
 }

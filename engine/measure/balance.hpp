@@ -25,8 +25,9 @@ inline constexpr double kNodesPerRay = 15;
 /// literature in docs/costs, with rays in shaders (.004) and by ray-tracing cores (.05), with room.
 inline constexpr Interval kGameCardBalance{.001, .1};
 
-/// Returns nothing if the costs of look-ups or of rays are not known.
-std::optional<Balance> find_balance(const DeviceCosts& costs);
+/// Returns nothing if the costs of look-ups or of rays are not known. `lanes`: of a subgroup, whose
+/// rays count one by one.
+std::optional<Balance> find_balance(const DeviceCosts& costs, int lanes = 1);
 /// Returns rates per second, and a sentence on whether games run on such devices: "a look-up takes
 /// as long as 0.56 rays of 15 nodes: ...".
 std::string describe_balance(const Balance& balance);

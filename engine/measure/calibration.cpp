@@ -60,6 +60,7 @@ void add_ridge(LeastSquares& equations, const Values& target, double spread) {
 /// gets the factor of all.
 Values group_scales(const std::vector<Values>& rows, const DeviceCosts& typical) {
     constexpr double kGroupSpread = 1000; // so that only a group without rows is held
+    constexpr double kLeastGroupScale = 1e-3;
     LeastSquares one(1), each(groups);
     for (const Values& row : rows) {
         Values sums(groups);
@@ -69,7 +70,9 @@ Values group_scales(const std::vector<Values>& rows, const DeviceCosts& typical)
         each.add(sums);
     }
     add_ridge(each, Values(groups, one.solve().front()), kGroupSpread);
-    const Values found = each.solve();
+    Values found = each.solve();
+    // A factor of 0 would keep each of the group's costs at 0, whatever the rows say of it.
+    for (double& factor : found) factor = std::max(factor, kLeastGroupScale * one.solve().front());
     Values scales;
     for (const UnitCost& unit : typical.units) scales.push_back(found[group_of(unit.kind)]);
     return scales;

@@ -5,6 +5,7 @@
 #include "measure/balance.hpp"
 #include "report/costs.hpp"
 #include "session/access.hpp"
+#include "session/lanes.hpp"
 #include "session/profile.hpp"
 
 namespace catoptric::session {
@@ -47,7 +48,8 @@ std::optional<measure::DeviceCosts> read_calibration(const Engine& engine) {
 
 std::string describe_balance(const Engine& engine) {
     const std::optional<measure::DeviceCosts> costs = read_calibration(engine);
-    const std::optional<measure::Balance> balance = costs ? measure::find_balance(*costs)
+    const std::optional<measure::Balance> balance = costs ? measure::find_balance(
+                                                                *costs, count_lanes(engine))
                                                           : std::nullopt;
     return balance ? measure::describe_balance(*balance) : "";
 }

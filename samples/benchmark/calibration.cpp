@@ -10,12 +10,14 @@ namespace catoptric::benchmark {
 namespace {
 
 constexpr int kFrames = 6, kRounds = 3;
+/// Factor on the edges of pictures on a card, which small pictures do not fill.
+constexpr std::uint32_t kCardEdgeFactor = 4;
 /// Frames after which a row of the model `required` draws no capture any more.
 constexpr int kFramesToRest = 16;
 
 struct CalibrationRow {
     const char* technique;
-    std::uint32_t edge; ///< of the picture
+    std::uint32_t edge; ///< of the picture on a processor
     RenderedWork model;
 };
 struct CalibrationScene {
@@ -86,7 +88,7 @@ std::vector<measure::TimedWork> measure_calibration_rows(Engine& engine, const W
         for (const CalibrationRow& row : scene.rows) {
             Request& one = rows.emplace_back(request);
             one.techniques = {row.technique};
-            one.size = uvec2(row.edge);
+            one.size = uvec2(row.edge * (engine.device().type == "cpu" ? 1 : kCardEdgeFactor));
             one.model = row.model;
             one.warmup = row.model == RenderedWork::required ? kFramesToRest : 2;
         }

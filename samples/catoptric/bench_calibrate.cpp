@@ -26,15 +26,22 @@ bool is_measured_kind(WorkKind kind) {
     return measure::is_ray_work(kind) || kind == WorkKind::invocations;
 }
 
+measure::DeviceCosts known_costs(std::string_view name) {
+    const auto& all = report::list_known_costs();
+    const auto known = std::ranges::find(all, name, &report::KnownCosts::name);
+    check(known != all.end(), Failure::internal, "no costs of '", name, "' in docs/costs");
+    return report::read_device_costs(std::string(known->text), known->name);
+}
+
 /// Returns the costs of a device of this kind, from which a calibration
-/// starts: a processor, or a card. Those of cards take rays and dispatches from a card that this
-/// program measured, and all else from the literature.
+/// starts: a processor, or a card. Those of cards take rays and invocations from a card that
+/// this program measured, and all else from the literature.
 measure::DeviceCosts typical_costs(const session::DeviceInfo& device) {
-    if (device.type == "cpu") return report::read_costs_file("llvmpipe-22.3");
-    measure::DeviceCosts costs = report::read_costs_file("rtx-2080-ti");
+    if (device.type == "cpu") return known_costs("llvmpipe-22.3");
+    measure::DeviceCosts costs = known_costs("rtx-2080-ti");
     std::erase_if(costs.units,
                   [](const measure::UnitCost& unit) { return is_measured_kind(unit.kind); });
-    for (const measure::UnitCost& unit : report::read_costs_file("h200").units)
+    for (const measure::UnitCost& unit : known_costs("h200").units)
         if (is_measured_kind(unit.kind)) costs.units.push_back(unit);
     return costs;
 }

@@ -138,14 +138,19 @@ measure::DeviceCosts make_costs(std::vector<std::pair<WorkKind, double>> units) 
 
 TEST(Balance, LookupsAreComparedWithRaysAndWithCardsForGames) {
     using enum WorkKind;
-    const auto processor = measure::find_balance(make_costs(
-        {{mirror_rays, 50}, {node_lanes, 30}, {colour_lanes, 250}, {fragments, 2}, {bytes, .05}}));
+    const auto processor = measure::find_balance(make_costs({{mirror_rays, 50},
+                                                             {node_lanes, 10},
+                                                             {colour_lanes, 275},
+                                                             {fragments, 2},
+                                                             {bytes, .05}}),
+                                                 8);
     ASSERT_TRUE(processor);
-    EXPECT_DOUBLE_EQ(processor->rays_per_lookup(), 250 / (50 + 15 * 30.));
-    EXPECT_EQ(measure::describe_balance(*processor),
-              "per second 4 M look-ups of subgroups, 2 M rays of 15 nodes of subgroups, 500 M "
-              "fragments, 20 G bytes; a look-up takes as long as 0.5 rays, unlike cards that games "
-              "run on (0.001 to 0.1), so that this device's order of rows need not be theirs");
+    EXPECT_DOUBLE_EQ(processor->rays_per_lookup(), 275 / (8 * 50 + 15 * 10.));
+    EXPECT_EQ(
+        measure::describe_balance(*processor),
+        "per second 3.64 M look-ups of subgroups, 1.82 M rays of 15 nodes of subgroups, 500 M "
+        "fragments, 20 G bytes; a look-up takes as long as 0.5 rays, unlike cards that games "
+        "run on (0.001 to 0.1), so that this device's order of rows need not be theirs");
     const auto card = measure::find_balance(make_costs({{mirror_rays, 1}, {colour_lookups, .005}}));
     EXPECT_EQ(
         measure::describe_balance(*card),
@@ -161,7 +166,8 @@ TEST(Balance, ShippedCostsSayWhichDevicesAreUnlikeCardsForGames) {
                                          {"rtx-2080-ti", true},
                                          {"h200", false},
                                          {"llvmpipe-22.3", false}}) {
-        const double rays = measure::find_balance(report::read_costs_file(name))->rays_per_lookup();
+        const double rays =
+            measure::find_balance(report::read_costs_file(name), 8)->rays_per_lookup();
         EXPECT_EQ(rays < measure::kGameCardBalance.high, is_usual) << name << ": " << rays;
         EXPECT_GT(rays, measure::kGameCardBalance.low) << name;
     }
