@@ -14,7 +14,7 @@ from browser import open_page, wait
 
 DEVICE = "GeForce RTX 2080 Ti"
 LOOKUP_PER_RAY = .0051  # on DEVICE, whose rays are traced in software (docs/costs.md, "Balance")
-MARKS = [(.0051, "card without ray cores"), (.045, "card with ray cores"), (.52, "llvmpipe"), (1.3, "NVIDIA H200")]
+MARKS = [(.0051, "card without ray cores"), (.045, "card with ray cores"), (.35, "llvmpipe"), (1.3, "NVIDIA H200")]
 POWERS = (-3, 9)  # of the factor on costs of raster work, 2 to the power
 PERIODS = [1, 2, 4, 8, 16, 32, 64, math.inf]
 STEPS = 48  # of each factor of 2^12, from bottom to top
