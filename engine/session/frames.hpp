@@ -61,8 +61,7 @@ private:
     FrameHooks hooks_;
     int number_ = 0;
     bool settled_ = false;
-    int equal_frames_ =
-        0; ///< frames in a row, up to the last, whose state is that of the one before
+    int equal_frames_ = 0; ///< last frames whose state is that of the frame before
     std::optional<Frame> frame_;
     std::optional<FrameSequence> aside_;
     std::vector<FrameTimes> times_;

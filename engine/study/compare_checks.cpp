@@ -70,9 +70,7 @@ void check_turns(const reflect::TechniquePlan& plan, int frames) {
         cycle = std::max(cycle, rule.choice.shared.capture.every);
     check(frames >= static_cast<int>(cycle), Failure::usage, "technique '", plan.label,
           "' draws each capture once in ", cycle,
-          " frames: wanted at least as many measured frames "
-          "(--frames), found ",
-          frames);
+          " frames: wanted --frames of at least as many, found ", frames);
 }
 
 void check_compare_request(const CompareRequest& request) {
