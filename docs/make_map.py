@@ -9,12 +9,14 @@ import sys
 from html import escape
 from itertools import groupby
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "tests/page"))
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.append(str(ROOT / "tests/page"))
 from browser import open_page, wait
 
-DEVICE = "GeForce RTX 2080 Ti"
-LOOKUP_PER_RAY = .0051  # on DEVICE, whose rays are traced in software (docs/costs.md, "Balance")
-MARKS = [(.0051, "card without ray cores"), (.045, "card with ray cores"), (.35, "llvmpipe"), (1.3, "NVIDIA H200")]
+DEVICE = "GeForce RTX 2080 Ti"  # its rays are traced in software
+# What the left side of the picture calls the rows of the table of balances in docs/costs.md.
+MARKS = {DEVICE: "card without ray cores", "the same with ray-tracing cores": "card with ray cores",
+         "llvmpipe of Mesa 22.3, for a subgroup of 8": "llvmpipe", "NVIDIA H200": "NVIDIA H200"}
 POWERS = (-3, 9)  # of the factor on costs of raster work, 2 to the power
 PERIODS = [1, 2, 4, 8, 16, 32, 64, math.inf]
 STEPS = 48  # of each factor of 2^12, from bottom to top
@@ -29,6 +31,15 @@ const device = data.devices.find(device => device.name === name);
 const label = index => index < 0 ? '' : data.rows[index].label;
 return points.map(point => [undefined, 'rays', 'raster'].map(bound =>
     label(find_best(data, device, {...point, period: point.period ?? Infinity}, bound))))"""
+
+
+def read_marks():
+    """Returns the name and the balance of each device of MARKS: how many rays take as long as a look-up. DEVICE is first."""
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in (ROOT / "docs/costs.md").read_text().splitlines()]
+    found = {row[0]: float(row[4]) for row in rows if len(row) == 5 and row[0] in MARKS}
+    if missing := MARKS.keys() - found:
+        sys.exit(f"make_map: docs/costs.md: wanted the balance of {', '.join(MARKS)}, found none of {', '.join(missing)}")
+    return [(name, found[device]) for device, name in MARKS.items()]
 
 
 def kind_of(label):
@@ -55,7 +66,7 @@ def read_maps(report, max_flip):
         browser.quit()
 
 
-def draw_panel(x, y, lines):
+def draw_panel(x, y, lines, marks):
     out = []
     for j, column in enumerate(zip(*lines)):
         left, first = x + j * CELL + (3 if math.isinf(PERIODS[j]) else 0), 0
@@ -66,17 +77,17 @@ def draw_panel(x, y, lines):
             out.append(f'<rect {at} fill="{KINDS[kind][0]}"/>')
             if is_open:
                 out.append(f'<rect {at} fill="url(#open)"/>')
-    out += [f'<path d="M{x} {y + up(balance):.1f}h{len(PERIODS) * CELL + 3}" stroke="#000" stroke-dasharray="2 2"/>' for balance, _ in MARKS]
+    out += [f'<path d="M{x} {y + up(balance / marks[0][1]):.1f}h{len(PERIODS) * CELL + 3}" stroke="#000" stroke-dasharray="2 2"/>' for _, balance in marks]
     return out
 
 
-def up(balance):
-    """Returns the distance of a balance from the top of a panel."""
-    return STEPS * LINE * (1 - (math.log2(balance / LOOKUP_PER_RAY) - POWERS[0]) / (POWERS[1] - POWERS[0]))
+def up(factor):
+    """Returns the distance from the top of a panel at which raster work costs `factor` times that of DEVICE."""
+    return STEPS * LINE * (1 - (math.log2(factor) - POWERS[0]) / (POWERS[1] - POWERS[0]))
 
 
-def draw(scenes):
-    """Returns the picture of a list of (name, maps of `read_maps`)."""
+def draw(scenes, marks):
+    """Returns the picture of a list of (name, maps of `read_maps`). `marks`: as read_marks returns them."""
     panel_width, panel_height = len(PERIODS) * CELL + 3, STEPS * LINE
     width = LEFT + len(scenes) * (panel_width + GAP)
     height = TOP + len(PICTURES) * (panel_height + 46) + 40
@@ -88,15 +99,15 @@ def draw(scenes):
         out.append(f'<text x="{x + panel_width / 2}" y="{TOP - 12}" text-anchor="middle" font-weight="bold">{escape(name)}</text>')
         for row, lines in enumerate(maps):
             y = TOP + row * (panel_height + 46)
-            out += draw_panel(x, y, lines)
+            out += draw_panel(x, y, lines, marks)
             for j, period in enumerate(PERIODS):
                 text = "rest" if math.isinf(period) else str(period) if period in (1, 4, 16) else ""
                 out.append(f'<text x="{x + (j + .5) * CELL + (3 if text == "rest" else 0)}" y="{y + panel_height + 14}" text-anchor="middle" font-size="11">{text}</text>')
     for row, (wide, high) in enumerate(PICTURES):
         y = TOP + row * (panel_height + 46)
         out.append(f'<text x="{LEFT - 8}" y="{y - 12}" text-anchor="end" font-weight="bold">{wide}x{high}</text>')
-        for balance, name in MARKS:
-            out.append(f'<text x="{LEFT - 8}" y="{y + up(balance) + 4:.1f}" text-anchor="end">{escape(name)}: {balance:g}</text>'.replace(": 0.", ": ."))
+        for name, balance in marks:
+            out.append(f'<text x="{LEFT - 8}" y="{y + up(balance / marks[0][1]) + 4:.1f}" text-anchor="end">{escape(name)}: {balance:g}</text>'.replace(": 0.", ": ."))
     y = height - 30
     out.append(f'<text x="{LEFT}" y="{y}">across: frames between two drawings of the captures; up: the cost of a look-up, in rays</text>')
     x = LEFT
@@ -118,7 +129,7 @@ def main():
     parser.add_argument("--max-flip", type=float, default=.05)
     arguments = parser.parse_args()
     scenes = [(folder.name, read_maps(folder / "report.html", arguments.max_flip)) for folder in arguments.folders]
-    arguments.output.write_text(draw(scenes))
+    arguments.output.write_text(draw(scenes, read_marks()))
 
 
 if __name__ == "__main__":

@@ -5,14 +5,20 @@ import json
 import math
 import pathlib
 import random
+import re
 import subprocess
+import sys
 
 from browser import expect, open_page, wait
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-COSTS = pathlib.Path(__file__).resolve().parents[2] / "docs/costs"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "docs"))
+import make_map
+
+COSTS = ROOT / "docs/costs"
 RAYS = {"camera_rays", "mirror_rays", "shadow_rays", "nodes", "triangles", "node_lanes", "triangle_lanes"}
 RASTER = {"shadow_lookups", "colour_lookups", "distance_lookups", "colour_lanes", "distance_lanes", "search_lanes",
           "vertices", "primitives", "fragments", "draws"}
@@ -20,15 +26,18 @@ FIXED = {"vertices", "primitives", "frames", "passes", "draws", "dispatches"}
 ROWS = ["reuse:face=32", "secant:face=32", "planar", "raytrace:depth=2", "hybrid:face=32"]
 
 
-def predict(row, costs, point):
-    """Returns the time of a row of report.json at a point, ms, as the sum over the kinds of work."""
+def predict(row, costs, point, bound=None):
+    """Returns the time of a row of report.json at a point, ms, as the sum over the kinds of work. `bound`: "rays" takes the
+    lowest costs of rays and the highest of all else, "raster" the reverse."""
     ms, rest = 0, row["work_at_rest"][0]
     for unit in costs["costs"]:
         kind = unit["work"]
         kept = rest.get(kind) or 0
         captures = max((row["work"].get(kind) or 0) - kept, 0) / point["period"]
         count = kept * (1 if kind in FIXED else point["pixels"]) + captures
-        ms += count * unit["ns"] * (point["raster"] if kind in RASTER else 1) * 1e-6
+        low, high = unit.get("range", [unit["ns"]] * 2)
+        ns = unit["ns"] if bound is None else low if (kind in RAYS) == (bound == "rays") else high
+        ms += count * ns * (point["raster"] if kind in RASTER else 1) * 1e-6
     return ms
 
 
@@ -63,6 +72,36 @@ def test_sums(browser, report):
         fit = [i for i in range(len(rows)) if flips[i] <= point["max_flip"]]
         wanted = min(fit, key=lambda i: times[i]) if fit else -1
         expect(best == wanted, f"{point} on {names[device]}: best is {wanted}, the map says {best}")
+
+
+def test_picture(page, report):
+    """The picture that docs/make_map.py draws of this page: kinds of the fastest rows at drawn cells are those of sums, its
+    dashed lines lie at the balances of docs/costs.md, and each column is full."""
+    costs = json.loads((COSTS / "rtx-2080-ti.json").read_text())
+    draw, rows, max_flip = random.Random(20261201), report["rows"], 0.05
+    maps = make_map.read_maps(page, max_flip)
+    for _ in range(60):
+        k, line, column = draw.randrange(len(make_map.PICTURES)), draw.randrange(make_map.STEPS), draw.randrange(len(make_map.PERIODS))
+        width, height = make_map.PICTURES[k]
+        raster = 2 ** (-3 + 12 * (line + 0.5) / 48)
+        point = {"pixels": width * height / (48 * 32), "raster": raster, "period": make_map.PERIODS[column]}
+        wanted = []
+        for bound in (None, "rays", "raster"):
+            fit = [row for row in rows if row["error"]["flip"] <= max_flip]
+            best = min(fit, key=lambda row: predict(row, costs, point, bound))["technique"]
+            wanted.append({"raytrace": "rays", "planar": "planar", "hybrid": "hybrid"}.get(best, "captures"))
+        expect(maps[k][line][column] == wanted, f"{point} of picture {k}: wanted {wanted}, found {maps[k][line][column]}")
+    marks = dict(make_map.read_marks())
+    unit = {cost["work"]: cost["ns"] for cost in costs["costs"]}
+    balance = unit["colour_lookups"] / (unit["mirror_rays"] + 15 * unit.get("nodes", 0))
+    expect(math.isclose(marks["card without ray cores"], balance, rel_tol=0.02), f"a look-up takes {balance} rays, the picture says {marks}")
+    drawn = make_map.draw([("flat", maps)], list(marks.items()))
+    columns = {}
+    for x, y, height in re.findall(r'<rect x="(\d+)" y="([\d.]+)" width="18" height="(\d+)" fill="#', drawn):
+        columns.setdefault(x, []).append((float(y), float(y) + float(height)))
+    ends = [sorted({end for area in areas for end in area if sum(end in other for other in areas) == 1}) for areas in columns.values()]
+    panels = [make_map.TOP, make_map.TOP + 144, make_map.TOP + 144 + 46, make_map.TOP + 2 * 144 + 46]
+    expect(ends == [panels] * 8, f"the areas of the columns leave gaps or overlap: {ends}")
 
 
 def test_margin(browser):
@@ -121,6 +160,7 @@ def test_map(program, folder):
     test_sums(browser, report)
     test_margin(browser)
     test_controls(browser)
+    test_picture(folder / "report.html", report)
     problems = [entry["message"] for entry in browser.get_log("browser")]
     expect(not problems, f"the console says {problems}")
     browser.quit()
