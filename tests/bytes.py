@@ -22,6 +22,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+MOST_REFUSED = 20  # drawn comparisons of --orders that end with an error, one after the other
 LONGEST = 300  # seconds of one run; a longer run is ended, and counts as a case that was not compared
 STOPPED = "stopped"
 KINDS = ("still", "film", "passes", "plan", "together", "models", "rows", "info", "broken")
@@ -292,9 +293,9 @@ def compare(arguments, work):
 def compare_orders(arguments, work):
     """Draws six rows in many orders and returns the exit code: 1 if a row depends on the rows before it."""
     draw = Draw(arguments.programs[0], arguments.seed)
-    different = 0
-    for number in range(1, arguments.orders + 1):
-        if number % 5 == 1:  # other rows and another scene
+    compared = different = refused = 0
+    while compared < arguments.orders:
+        if compared % 5 == 0 or refused:  # other rows and another scene
             words, files = draw.scene()
             rows, known = [], {}
             while len(rows) < 6:
@@ -307,15 +308,20 @@ def compare_orders(arguments, work):
         (work / "cache/mesa").mkdir(parents=True, exist_ok=True)
         left, code = run(arguments.programs[0], case, work / "run", work / "cache", draw.random.choice([1, 2]))
         if code != 0:  # rows that this scene refuses, or that are equal
-            print(f"[{number}] exit code {code}: {left.get('errors', b'').decode()[:200]}", flush=True)
-            words, files = draw.scene()
+            refused += 1
+            why = left.get("errors", b"").decode()[:200]
+            if refused > MOST_REFUSED:
+                print(f"bytes: {refused} drawn comparisons one after the other ended with an error, the last with {code}: {why}")
+                return 2
             continue
+        refused = 0
+        compared += 1
         for row in json.loads(left["out/report.json"])["rows"]:
             image = left.get("out/" + (row.get("image") or ""), b"")
             figures = json.dumps({name: part for name, part in row.items() if name.startswith(("error", "mean", "rays"))})
             if known.setdefault((row["label"], case.words[case.words.index("--warmup") + 1]), (image, figures)) != (image, figures):
                 different += 1
-                print(f"[{number}] row {row['label']} differs by its place: {' '.join(case.words)}", flush=True)
+                print(f"[{compared}] row {row['label']} differs by its place: {' '.join(case.words)}", flush=True)
     print(f"bytes: {arguments.orders} orders of 6 rows, seed {arguments.seed}: {different} rows differ")
     return 1 if different else 0
 
